@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* answer_layers.c - the layers of a tick's queries: each query's region or target, and the points that it found. */
+/* answer_layers.c - the layers that show a tick's queries: the region or the target of each query, and the points that
+ * it found. */
 #include "layer_type.h"
 #include "number.h"
 #include "text.h"
@@ -11,21 +12,21 @@
 
 #define FEW_MARKS 50
 #define MANY_MARKS 500
-#define BALL_CIRCLES 3   /* a ball is drawn as this many great circles */
-#define BALL_CHORDS 96   /* a circle is drawn as this many chords */
-#define NUMBERED_RANKS 9 /* neighbours are numbered up to this rank */
+#define BALL_CIRCLES 3   /* number of great circles that are drawn for a ball */
+#define BALL_CHORDS 96   /* number of chords that are drawn for a circle */
+#define NUMBERED_RANKS 9 /* the nearest 9 neighbours get a number, their rank */
 
-/* ---- All kinds ---------------------------------------------------------------------------------------------- */
+/* ---- All kinds of queries ----------------------------------------------------------------------------------- */
 
 /* Return the element id of a part of an answer, such as the line to a neighbour. `place` is the answer's index in the
- * tick. Markers have the ids of their points instead. */
+ * tick. Only markers have other ids: those of their points. */
 static uint64_t part_id(size_t place, size_t part)
 {
     return (uint64_t)place << 32 | (uint64_t)part;
 }
 
-/* Mark the points of an answer. `half` is half the size of a mark, in half units. An answer with many points gets
- * smaller marks, so that they hide less. */
+/* Mark the points of an answer. `half` is half the size of a marker, in halves of a picture unit. An answer with many
+ * points gets smaller markers, because large ones would hide more. */
 static void mark_answer_points(scene *s, const octree_answer *answer, view_layer layer, scene_shape shape,
                                unsigned half)
 {
@@ -36,7 +37,7 @@ static void mark_answer_points(scene *s, const octree_answer *answer, view_layer
 }
 
 /* Append a phrase such as "the box of the range query (answer 2 of 3)"; `what` is the noun, here "box". Return the
- * answer at `place`. */
+ * answer with the index `place`. */
 static const octree_answer *append_query(description *d, const char *what, uint64_t place)
 {
     const octree_answer *answer = &d->tick->answers[place];
@@ -60,7 +61,7 @@ static void describe_neighbor(description *d, uint64_t place, uint64_t rank)
     append_number(d, ", distance ", neighbor->distance);
 }
 
-/* ---- Range -------------------------------------------------------------------------------------------------- */
+/* ---- Range queries ------------------------------------------------------------------------------------------ */
 
 static void add_range(scene *s, const octree_answer *answer, size_t place, view_layer layer)
 {
@@ -86,9 +87,10 @@ const layer_type layer_RANGE = {
     .legend = {.order = 120, .sign = SIGN_DASHES, .text = "range query, dashed", .drop_order = DROP_LATE},
     .describe = describe_range};
 
-/* ---- Radius ------------------------------------------------------------------------------------------------- */
+/* ---- Radius queries ----------------------------------------------------------------------------------------- */
 
-/* Compute a corner of the polygon that draws the great circle normal to the axis `plane`. */
+/* Compute a corner of the polygon that approximates a great circle of the ball. The circle lies in the plane normal to
+ * the axis `plane`. */
 static void point_on_circle(const octree_answer *ball, int plane, int part, double position[3])
 {
     double cosine, sine;
@@ -139,9 +141,9 @@ const layer_type layer_RADIUS = {
     .legend = {.order = 130, .sign = SIGN_LINE, .text = "radius query, round", .drop_order = DROP_LATE},
     .describe = describe_radius};
 
-/* ---- K nearest ---------------------------------------------------------------------------------------------- */
+/* ---- Queries for k nearest points --------------------------------------------------------------------------- */
 
-/* Whether a number at pixels[earlier] would cover a number at one of the `earlier` places before it. */
+/* Return whether the number at pixels[earlier] would cover one of the numbers at pixels[0] to pixels[earlier - 1]. */
 static bool is_crowded(const scene *s, double pixels[][2], size_t earlier)
 {
     bool crowded = false;
@@ -151,14 +153,15 @@ static bool is_crowded(const scene *s, double pixels[][2], size_t earlier)
     return crowded;
 }
 
-/* Write the first few ranks, each beside its neighbour. A rank that would overlap the rank of a nearer neighbour is
- * left out. */
+/* Write the rank of each of the nearest neighbours beside its point. A rank that would overlap the rank of a nearer
+ * neighbour is left out. */
 static void add_ranks(scene *s, const octree_answer *answer, size_t place, scene_style style)
 {
     double pixels[NUMBERED_RANKS][2];
     size_t numbered = 0;
     for (size_t i = 0; i < answer->count && i < NUMBERED_RANKS; i++) {
-        scene_label rank = scene_make_label(part_id(place, i), style, " %zu", i + 1); /* room for a marker */
+        /* The space in the text leaves room for the point's marker. */
+        scene_label rank = scene_make_label(part_id(place, i), style, " %zu", i + 1);
         rank.in_world = true;
         memcpy(rank.at, answer->neighbors[i].point.position, sizeof rank.at);
         if (!camera_find_pixel(&s->camera, rank.at, pixels[numbered]) || is_crowded(s, pixels, numbered))
@@ -198,7 +201,7 @@ const layer_type layer_KNEAREST = {
     .legend = {.order = 140, .sign = SIGN_LINE, .text = "k nearest, numbered", .drop_order = DROP_LATE},
     .describe = describe_knearest};
 
-/* ---- Nearest ------------------------------------------------------------------------------------------------ */
+/* ---- Queries for the nearest point -------------------------------------------------------------------------- */
 
 static void add_nearest(scene *s, const octree_answer *answer, size_t place, view_layer layer)
 {

@@ -9,9 +9,10 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Draw three lines through the point where a node's three planes cross: the lowest corner of its last octant. A line's
- * id holds the node's address and the line's axis. The shift loses no bits: only a node at the greatest depth has an
- * address of 64 bits, and such a node never splits. */
+/* Draw three lines through the middle of a node that split or merged, where the planes between its octants cross. This
+ * middle is the lowest corner of the node's last octant. The id of a line is the node's address shifted left, plus the
+ * line's axis. The shift loses no bits: only nodes at the greatest depth have addresses of 64 bits, and such nodes
+ * never split. */
 static void add_planes(scene *s, const layer_source *in, octree_address address, scene_style style)
 {
     octree_node node;
@@ -28,7 +29,7 @@ static void add_planes(scene *s, const layer_source *in, octree_address address,
     }
 }
 
-/* Return the nodes that split or merged at this tick, whichever the layer shows. */
+/* Return the nodes that split at this tick, or the nodes that merged, depending on the layer. */
 static const octree_address *get_changed_nodes(const octree_tick *tick, view_layer layer, size_t *count)
 {
     *count = layer == LAYER_SPLITS ? tick->split_count : tick->merge_count;
@@ -44,7 +45,7 @@ static void add_changes(scene *s, const layer_source *in, view_layer layer)
         add_planes(s, in, nodes[i], style);
 }
 
-/* Add a line such as "2 nodes split, last 7/7/0". The last address is left out where it does not fit whole. */
+/* Add a legend line such as "2 nodes split, last 7/7/0". The address is left out if it does not fit completely. */
 static void add_change_legend(legend *l, const layer_source *in)
 {
     char last[OCTREE_ADDRESS_TEXT];

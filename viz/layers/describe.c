@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* describe.c - appends phrases to the description of an element, and lets the element's layer describe it. */
+/* describe.c - appends phrases to the description of an element, and calls the layer that describes the element. */
 #include "describe.h"
 #include "foreign_nodes.h"
 #include "number.h"

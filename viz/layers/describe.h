@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* describe.h - describes an element of a tick's scene in English: the node, point, query or event that it shows.
- * `octreel pick` prints these sentences. Each layer describes its own elements (layer_type.h). */
+/* describe.h - describes an element of a tick's scene in English: which node, point, query or event it shows. `octreel
+ * pick` prints these sentences. Each layer describes its own elements (layer_type.h). */
 #ifndef LAYERS_DESCRIBE_H
 #define LAYERS_DESCRIBE_H
 
@@ -8,53 +8,56 @@
 #include "octree/game.h"
 #include "scene.h"
 
-/* The size of the text about one element, in bytes, with its final zero. */
+/* The size of an element's description in bytes, including the final zero. */
 #define ELEMENT_TEXT 512
 
 typedef struct element_subject {
     bool has_node, has_point;
-    octree_node node;   /* the node that the element shows; if `gone`, the empty cell where the node was */
+    octree_node node;   /* the node that the element shows; if `gone` is true, the empty cell where the node was */
     bool gone;          /* the tree no longer has the node */
     octree_point point; /* the point that the element shows */
     const octree_foreign_place
-        *foreign;            /* the foreign node that the element shows, or null; valid until the next tick */
-    char text[ELEMENT_TEXT]; /* such as "node 0/3: leaf at depth 2, 1 point, box (0, 0, 0) to (5, 5, 5)" */
+        *foreign; /* the foreign node that the element shows; null: none. Valid until the next tick */
+    /* The description, such as "node 0/3: leaf at depth 2, 1 point, box (0, 0, 0) to (5, 5, 5)". */
+    char text[ELEMENT_TEXT];
 } element_subject;
 
-/* Describe an element. s must be the scene of the game's last tick, and h the heat that s was built with. */
+/* Describe an element. `s` must be the scene of the game's last tick, and `h` the heat from which `s` was built. */
 element_subject describe_element(const octree_game *game, const heat *h, const scene *s, scene_element element);
 
 /* ---- For layers --------------------------------------------------------------------------------------------- */
 
-/* A description under construction. */
+/* A description to which phrases are being appended. */
 typedef struct description {
     const octree_game *game;
     const octree_tick *tick;
     const heat *heat;
     element_subject *subject;
-    size_t length; /* of the text */
+    size_t length; /* length of subject.text in bytes */
 } description;
 
-/* The facts about an element that a layer's describe() uses. */
+/* The facts about an element that the function `describe` of its layer uses. */
 typedef struct described_element {
     scene_kind kind;
     scene_style style;
     uint64_t id;
-    octree_box box; /* of a SCENE_BOX */
-    double at[3];   /* of a SCENE_MARKER, as is shape */
+    octree_box box; /* only for a SCENE_BOX */
+    double at[3];   /* the position; only for a SCENE_MARKER, like `shape` */
     scene_shape shape;
 } described_element;
 
 /* Append formatted text. Text beyond ELEMENT_TEXT is cut off. */
 void append_text(description *d, const char *format, ...);
 
-/* Append `before`, and then a value. */
+/* Append the text `before`, and then a value. */
 void append_number(description *d, const char *before, double value);
-void append_position(description *d, const char *before, const double position[3]); /* "(1, 2, 3)" */
-void append_box(description *d, const char *before, const octree_box *box);         /* "(0, 0, 0) to (5, 5, 5)" */
+void append_position(description *d, const char *before, const double position[3]); /* appends such as "(1, 2, 3)" */
+/* Appends such as "(0, 0, 0) to (5, 5, 5)". */
+void append_box(description *d, const char *before, const octree_box *box);
 
-/* Append `before`, and then a phrase about a node or point. Store the node or point in the description's subject. The
- * id of a node's element is the node's address; that of a foreign node is explained in foreign_nodes.h. */
+/* Append the text `before`, and then a phrase about a node or a point. The node or point is also stored in the
+ * description's subject. The id of an element that shows a node is the node's address; foreign_nodes.h explains the ids
+ * of foreign nodes. */
 void describe_node(description *d, const char *before, uint64_t id);
 void describe_point(description *d, const char *before, uint64_t id, const double position[3]);
 

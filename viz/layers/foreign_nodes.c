@@ -1,15 +1,17 @@
 /* SPDX-License-Identifier: MIT */
-/* foreign_nodes.c - draws the nodes of a foreign index like the nodes of Octreel's own tree.
+/* foreign_nodes.c - draws the nodes of a foreign index in the same way as the nodes of Octreel's own tree.
  *
- * A foreign index hands its nodes as a flat list of boxes with ids, parents and kinds. Its tree may be of any sort (a
- * k-d tree, an R-tree), so nothing here relies on addresses, on a capacity, or on boxes that nest.
+ * A foreign index passes its nodes as a list of boxes with ids, parents and kinds. Its tree may be a k-d tree, an
+ * R-tree or any other. So this file does not rely on addresses, on a leaf capacity, or on boxes that lie inside their
+ * parents' boxes.
  *
- * Filter and lod test one node at a time. The budget works by whole levels, as for Octreel's own nodes: one pass counts
- * the nodes at each depth that pass filter and lod, and a second pass draws the levels, from the root down, that fit
- * into the budget together. A level drawn in part would look like a tree with holes. Both passes are O(nodes).
+ * Filter and lod test one node at a time. The budget works by whole levels, as for Octreel's own nodes: a level of
+ * which only a part is drawn would look like a tree with holes. A first pass counts the nodes at each depth that pass
+ * filter and lod. A second pass draws the levels from the root down, as many as fit into the budget together. Each pass
+ * is O(nodes).
  *
- * A node keeps its own id in its element id, with one bit set that no Octreel address has there (foreign_nodes.h), so
- * that `octreel pick` can tell the two trees apart. */
+ * The element id of a foreign node is the node's own id with one more bit set. No address of Octreel has this bit set
+ * there (foreign_nodes.h), so `octreel pick` can distinguish the two trees. */
 #include "foreign_nodes.h"
 #include "node_boxes.h"
 #include "text.h"
@@ -37,7 +39,7 @@ static theme_role role_of(const view *v, const octree_foreign_place *place)
                                         : node_role(v, (node_traits){.depth = place->depth, .points = place->points});
 }
 
-/* The depth as scene_box stores it: at most 255. */
+/* Return the depth of a node as scene_box stores it: at most 255. */
 static unsigned clamped_depth(const octree_foreign_place *place)
 {
     return place->depth < UINT8_MAX ? place->depth : UINT8_MAX;
@@ -54,7 +56,7 @@ static bool passes_filter(const scene *s, const octree_foreign_place *place)
     return filter_shows_box(&s->view.filter, &place->node->box, place->depth, place->leaf);
 }
 
-/* Whether a node is smaller than the view's lod and has an ancestor that may be shown. */
+/* Return whether a node is smaller than the view's lod and has an ancestor that may be shown. */
 static bool is_small(const scene *s, const octree_foreign_place *place)
 {
     return place->parent != SIZE_MAX && is_small_below_shown(s, &place->node->box, place->depth);
@@ -62,8 +64,8 @@ static bool is_small(const scene *s, const octree_foreign_place *place)
 
 /* ---- All nodes ---------------------------------------------------------------------------------------------- */
 
-/* Return the deepest level that fits into the budget together with all levels above it; -1 if the root level does not
- * fit. */
+/* Return the deepest level that fits into the budget together with all levels above it. Return -1 if not even the root
+ * level fits. */
 static int deepest_in_budget(scene *s, const octree_foreign_state *foreign)
 {
     size_t at_level[UINT8_MAX + 1] = {0}, sum = 0;
@@ -99,10 +101,10 @@ void add_foreign_nodes(scene *s, const layer_source *in)
         s->tally.deepest = deepest;
 }
 
-/* ---- Visits -------------------------------------------------------------------------------------------------- */
+/* ---- Visited nodes ------------------------------------------------------------------------------------------- */
 
-/* Whether a layer shows a node. A node that one query pruned and another visited is in the layer of visited nodes
- * only. */
+/* Return whether a layer shows a node. If one query pruned the node and another visited it, only the layer of visited
+ * nodes shows it. */
 static bool matches_layer(const octree_foreign_place *place, unsigned layer)
 {
     const unsigned visited = 1u << OCTREE_NODE_VISITED, pruned = 1u << OCTREE_NODE_PRUNED, hit = 1u << OCTREE_NODE_HIT;
@@ -129,21 +131,22 @@ void add_visited_foreign_nodes(scene *s, const layer_source *in, scene_style sty
 
 /* ---- Wrong nodes --------------------------------------------------------------------------------------------- */
 
-/* A mark on a wrong node, or on a point that no foreign node lists. */
+/* A marker for a wrong foreign node, or for a point that no foreign node lists. */
 typedef struct wrong_mark {
     uint64_t id;
-    const octree_foreign_place *node; /* null: a point */
-    octree_wrong_node_kind kind;      /* of a node with several, the first */
-    double at[3];                     /* the place of the text: the point, or the node's upper corner */
+    const octree_foreign_place *node; /* the wrong node; null: the marker is for a point */
+    octree_wrong_node_kind kind;      /* the first error of the node */
+    double at[3];                     /* the position of the text: the point, or the node's upper corner */
 } wrong_mark;
 
 #define MOST_MARKS (2 * OCTREE_LISTED_WRONG_NODES)
 
-/* The id of a mark on a point has both bits. No other element of the layer has both. */
+/* The bits in the id of a marker for a point. No other element of this layer has both of these bits set. */
 #define LOST_ELEMENT (FOREIGN_ELEMENT | UINT64_C(1) << 61)
-#define LOST_MARK 6 /* half the size of a mark on a point, in half units */
+#define LOST_MARK 6 /* half the size of a marker for a point, in halves of a picture unit */
 
-/* Find the marks of a tick: at most OCTREE_LISTED_WRONG_NODES nodes, and as many points. Return their number. */
+/* Find the nodes and points that a tick's markers show: at most OCTREE_LISTED_WRONG_NODES nodes, and as many points.
+ * Return the number of markers. */
 static size_t find_marks(const layer_source *in, wrong_mark marks[MOST_MARKS])
 {
     const octree_foreign_state *foreign = &in->tick->foreign;

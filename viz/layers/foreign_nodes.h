@@ -5,8 +5,8 @@
 
 #include "layer_type.h"
 
-/* The element id of a foreign node is its own id with bit 62 set. No Octreel address looks like that: the highest set
- * bit of an address is always at a multiple of 3, and 62 is not one. */
+/* The element id of a foreign node is the node's own id with bit 62 set. An address of Octreel cannot have bit 62 as
+ * its highest bit: the highest set bit of an address is always at a multiple of 3, and 62 is not one. */
 #define FOREIGN_ELEMENT (UINT64_C(1) << 62)
 
 static inline uint64_t foreign_element(uint64_t node)
@@ -19,35 +19,36 @@ static inline bool is_foreign_element(uint64_t id)
     return id >> 62 == 1;
 }
 
-/* Return the id of the foreign node that an element shows. */
+/* Return the id of the foreign node that an element with this id shows. */
 static inline uint64_t foreign_node_of(uint64_t id)
 {
     return id & ~FOREIGN_ELEMENT;
 }
 
-/* Whether the view shows Octreel's own tree, and whether it shows the foreign nodes, at this tick. */
+/* Return whether the view shows Octreel's own tree at this tick, and whether it shows the foreign nodes. */
 bool shows_own_tree(const layer_source *in);
 bool shows_foreign_tree(const layer_source *in);
 
-/* Add all foreign nodes that pass the view's filter, lod and budget. The second function adds only the foreign nodes
- * that queries visited, pruned or hit, whichever the layer of `style` shows. */
+/* add_foreign_nodes() adds all foreign nodes that pass the view's filter, lod and budget. add_visited_foreign_nodes()
+ * adds only the foreign nodes that queries visited, pruned or hit: the layer of `style` decides which of the three. */
 void add_foreign_nodes(scene *s, const layer_source *in);
 void add_visited_foreign_nodes(scene *s, const layer_source *in, scene_style style);
 
-/* Mark the wrong foreign nodes, and the points that no foreign node lists. The second function writes beside each mark
- * what is wrong where there is room, and returns the number of texts without room. `occupied` is the part of the
- * picture that marks and texts already take. */
+/* mark_wrong_foreign_nodes() adds markers for the wrong foreign nodes, and for the points that no foreign node lists.
+ * label_wrong_foreign_nodes() writes the error beside each marker where there is room, and returns the number of texts
+ * without room. `occupied` is the part of the picture that markers and texts already cover. */
 void mark_wrong_foreign_nodes(scene *s, const layer_source *in, text_space *occupied);
 size_t label_wrong_foreign_nodes(scene *s, const layer_source *in, text_space *occupied);
 
-/* Append `before`, and then a phrase such as "foreign node 5: leaf at depth 2 of kind "leaf" under node 7, 3 points
- * listed, box ...", and what is wrong with the node. */
+/* Append the text `before`, and then a phrase such as "foreign node 5: leaf at depth 2 of kind "leaf" under node 7, 3
+ * points listed, box ...", and the node's error if it is wrong. */
 void describe_foreign_node(description *d, const char *before, uint64_t element);
 
 /* Describe an element that mark_wrong_foreign_nodes or label_wrong_foreign_nodes added. */
 void describe_wrong_foreign_node(description *d, const described_element *element);
 
-/* Write the first thing that is wrong with the tick's foreign nodes to `text` and return it; empty if nothing is. */
+/* Write the first error in the tick's foreign nodes to `text`, or an empty string if there is no error. Return `text`.
+ */
 #define WRONG_NODE_TEXT 128
 const char *wrong_node_text(const octree_foreign_state *foreign, char text[WRONG_NODE_TEXT]);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* heat_layers.c - the heat layers: a mark in the middle of each leaf, larger and lighter the more visits or points the
- * leaf has had since tick 0. */
+/* heat_layers.c - the heat layers: a marker in the middle of each leaf. The more visits or points the leaf has had
+ * since tick 0, the larger and lighter is its marker. */
 #include "heat_layers.h"
 #include "layer_type.h"
 #include "octree/octree.h"
@@ -25,7 +25,8 @@ static unsigned shift_of(view_layer layer)
     return layer == LAYER_VISIT_HEAT ? HEAT_VISITS_SHIFT : HEAT_POINTS_SHIFT;
 }
 
-/* Return the half size of a mark: at most half the leaf's size on screen, so that marks do not cover each other. */
+/* Return half the width of a leaf's marker. It is at most half the leaf's size on screen, so that markers do not cover
+ * each other. */
 static unsigned mark_width(const scene *s, const octree_box *leaf, unsigned step)
 {
     const double most = camera_box_size_in_pixels(&s->camera, leaf) / (2 * s->unit);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* heat_layers.h - the scales that map visits and points to the marks of the heat layers. */
+/* heat_layers.h - the scales that map numbers of visits and points to the sizes and colours of heat markers. */
 #ifndef LAYERS_HEAT_LAYERS_H
 #define LAYERS_HEAT_LAYERS_H
 
@@ -7,17 +7,17 @@
 
 #include <stdint.h>
 
-/* Both scales have HEAT_STEPS steps and are the same in every session. Step 0 begins at 1. Each step begins at twice
- * (visits) or four times (points) the amount of the step before, so an amount is shifted right by this many bits per
- * step. */
+/* Both scales have HEAT_STEPS steps and are the same in every session. Step 0 begins at 1. Each further step begins at
+ * twice the number of visits, or four times the number of points, of the step before. So a number is shifted right by
+ * HEAT_VISITS_SHIFT or HEAT_POINTS_SHIFT bits per step. */
 #define HEAT_STEPS THEME_NODE_DEPTHS
 #define HEAT_VISITS_SHIFT 1
 #define HEAT_POINTS_SHIFT 2
 
-/* The smallest amount in the last step. */
+/* The smallest number in the last step. */
 #define HEAT_LAST(shift) (UINT64_C(1) << (HEAT_STEPS - 1) * (shift))
 
-/* Return the step of an amount, which must not be 0. */
+/* Return the step of a number of visits or points, which must not be 0. */
 unsigned heat_step(uint64_t amount, unsigned shift);
 
 #endif

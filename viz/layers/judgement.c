@@ -7,7 +7,7 @@
 #include <math.h>
 #include <stdio.h>
 
-/* A ratio below this is printed as a percentage above 1. */
+/* A ratio below 1.01 is printed as a percentage, such as "0.5% farther"; other ratios are printed as a factor. */
 #define PERCENT_BELOW 1.01
 
 static void print_ratio(double ratio, char text[JUDGEMENT_TEXT])

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* layer_type.h - the interface of a layer. Each layer is a row in layer.h and a file that defines its layer_type, such
- * as layer_RANGE. Scenes, the legend and `octreel pick` reach a layer only through its layer_type. */
+/* layer_type.h - the interface of a layer. Each layer has a row in layer.h and a file that defines its layer_type, such
+ * as layer_RANGE. Scenes, the legend and `octreel pick` use a layer only through its layer_type. */
 #ifndef LAYERS_LAYER_TYPE_H
 #define LAYERS_LAYER_TYPE_H
 
@@ -10,47 +10,49 @@
 #include "pen.h"
 #include "point_values.h"
 
-/* The input of a scene: a tick of a game, or a tree alone. */
+/* The input of a scene: a tick of a game, or a tree without a game. */
 typedef struct layer_source {
-    const view *view; /* the requested view; under DIAGRAM_ONLY the scene's layer view has fewer layers */
+    const view *view; /* the view as requested; with DIAGRAM_ONLY the view of the scene itself has fewer layers */
     const octree *tree;
     octree_box world;
     const octree_answer *answers;
     size_t answer_count;
     const point_values *values; /* colours, classes and intensities of the points; null: no values */
-    const char *broken;         /* the validator's sentence; null when all invariants hold */
+    const char *broken;         /* the tree's broken invariant as a sentence; null: no invariant is broken */
     octree_address broken_at;
 
-    const octree_game *game; /* null: a tree alone */
+    const octree_game *game; /* null: the scene shows a tree without a game */
     const octree_session *session;
     const octree_tick *tick;
-    const heat *heat; /* null: the heat layers are empty */
+    const heat *heat; /* null: the heat layers have no elements */
 
-    const char *title;        /* of a tree alone */
-    octree_address requested; /* of a tree alone: the node that `inspect` was asked to mark, or 0 */
+    const char *title;        /* the title; only for a tree without a game */
+    octree_address requested; /* the node to mark (octreel inspect --node), or 0; only for a tree without a game */
 } layer_source;
 
-/* A layer's lines in the legend: one line made of `sign` and `text`, or the lines that add_lines() adds. */
+/* A layer's lines in the legend: either one line with `sign` and `text`, or the lines that add_lines() adds. */
 typedef struct legend_entry {
-    int order; /* the legend sorts layers by it: 1 to LEGEND_LAST; 0: no lines */
+    int order; /* position of the layer in the legend, 1 to LEGEND_LAST; 0: no lines */
     legend_sign sign;
     const char *text;
     legend_drop_order drop_order;
     void (*add_lines)(legend *l, const layer_source *in);
 } legend_entry;
 
-/* Members that a layer does not need are null or 0. `layer` is the layer itself, for files that define several. */
+/* The functions and data of a layer. A layer that does not need a member leaves it null or 0. The argument `layer` is
+ * the layer itself, because some files define several layers. */
 typedef struct layer_type {
-    /* Whether the layer can have elements in this frame or in another frame of its recording; the legend then lists it.
-     * Null means always, or, for a layer of answers, that a query of its kind was asked or is asked in every tick. */
+    /* Return whether the layer can have elements in this frame or in another frame of its recording. The legend lists
+     * the layer in this case. Null means always. For a layer of answers, null means that a query of its kind was made
+     * at some tick so far, or is made at every tick. */
     bool (*applies)(const layer_source *in);
 
-    /* Whether a session can have elements for the layer. Null: every session can. `diff` ignores a difference in the
-     * shown layers if the layer is empty in both recordings. */
+    /* Return whether a session can have elements for the layer. Null means that every session can. `octreel diff`
+     * ignores that one recording shows a layer and the other does not, if the layer is empty in both. */
     bool (*in_session)(const octree_session *session);
 
-    /* Add the layer's elements, or the elements of one answer. A hidden layer needs no check: scene_add_* drops its
-     * elements. */
+    /* add() adds the layer's elements; add_answer() adds the elements of one answer. They need not check whether the
+     * layer is hidden: scene_add_*() drops the elements of hidden layers. */
     void (*add)(scene *s, const layer_source *in, view_layer layer);
     void (*add_answer)(scene *s, const octree_answer *answer, size_t place, view_layer layer);
 
@@ -59,8 +61,8 @@ typedef struct layer_type {
 
     legend_entry legend;
 
-    /* Describe an element. Null: the id of a box is a node address, and the id of a marker is a point id. The id of an
-     * answer's marker is always a point id. */
+    /* Describe an element. If this is null, the element is described by its id: the id of a box is a node address, and
+     * the id of a marker is a point id. In a layer of answers the id of a marker is always a point id. */
     void (*describe)(description *d, const described_element *element);
 } layer_type;
 
@@ -70,7 +72,7 @@ LAYER_MAP(LAYER_TYPE_DECLARE)
 
 extern const layer_type *const layer_types[LAYER_ALL];
 
-/* An applies() for layers that exist only in scenes of a game. */
+/* A function for the member `applies` of layers that exist only in scenes of a game. */
 bool layer_in_games(const layer_source *in);
 
 bool layer_applies(const layer_source *in, view_layer layer);

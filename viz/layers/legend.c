@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: MIT */
-/* legend.c - collects the legend's lines, drops lines that do not fit, and draws the rest.
+/* legend.c - collects the lines of the legend, drops lines that do not fit, and draws the other lines.
  *
- * The legend stands at the bottom of the column, below rows whose number changes from tick to tick. So the room for it
- * changes too, and three rules keep it steady:
- *   - Lines are sorted by legend_entry.order. A layer keeps its line while it can have elements in the
- *     recording, even in frames where it has none, so that lines do not come and go.
- *   - When there are too many lines, whole groups go (a line with its continuation lines): first those of layers
- *     without elements in this frame, then nearly self-explanatory ones, then those whose answer the panel already
- *     shows. If that is not enough, lines go from the end. A last line counts the lines that are missing.
- *   - The legend is aligned with the bottom of the picture.
- * The signs are drawn in whole dots from tables of rectangles, so that they are sharp at every size of letters. */
+ * The legend stands at the bottom of the text column, below rows whose number changes from tick to tick. So the room
+ * for the legend changes too. Three rules keep the legend steady:
+ *    - Lines are sorted by legend_entry.order. A layer keeps its line as long as it can have elements in the
+ *      recording, also in frames in which it has none. So lines do not come and go.
+ *    - If there are too many lines, whole groups are dropped; a group is a line with its continuation lines. First
+ *      dropped are the groups of layers without elements in this frame, then groups that are nearly self-explanatory,
+ *      then groups of layers whose answer the panel shows. If that is not enough, lines are dropped from the end. A
+ *      final line counts the dropped lines.
+ *    - The legend is aligned with the bottom of the picture.
+ * The signs are drawn in whole dots from tables of rectangles, so they are sharp at every font size. */
 #include "legend.h"
 #include "layer_type.h"
 
@@ -44,7 +45,8 @@ static unsigned layers_in_frame(const scene *s)
     return s->has_closeup ? layers | layers_in_frame(s->closeup) : layers;
 }
 
-/* Whether the diagram shows a layer: it uses the colours of nodes, and marks visited and pruned nodes. */
+/* Return whether the diagram shows a layer. The diagram uses the colours of nodes, and draws visited and pruned nodes
+ * in their own ways. */
 static bool is_in_diagram(const scene *s, view_layer layer)
 {
     return view_shows_layer(&s->view, LAYER_DIAGRAM) &&
@@ -68,13 +70,13 @@ static void add_layer_line(legend *l, const layer_source *in, view_layer layer)
         legend_add(l, entry->sign, "%s", entry->text);
 }
 
-/* Whether a line is dropped and kept together with the line before it. */
+/* Return whether a line belongs to the line before it: both are dropped or kept together. */
 static bool is_continuation(const legend_line *line)
 {
     return line->sign == SIGN_NONE || line->sign == SIGN_SCALE;
 }
 
-/* Remove a line and its continuation lines. */
+/* Remove a line together with its continuation lines. */
 static void remove_line(legend *l, size_t place)
 {
     size_t end = place + 1;
@@ -84,8 +86,8 @@ static void remove_line(legend *l, size_t place)
     l->count -= end - place;
 }
 
-/* Remove lines until the rest fits into `room` lines, together with a final line that counts the removed ones. Return
- * their number; 0 if all lines fit. */
+/* Remove lines until the others fit into `room` lines, together with a final line that counts the removed lines. Return
+ * the number of removed lines; 0 if all lines fit. */
 static size_t fit_lines(legend *l, size_t room)
 {
     const size_t needed = l->count, left = room ? room - 1 : 0;
@@ -105,12 +107,13 @@ static size_t fit_lines(legend *l, size_t room)
 
 /* ---- Drawing lines ------------------------------------------------------------------------------------------- */
 
-/* Signs are drawn in square dots. A dot is a twelfth of a letter's height, rounded down to whole pixels, and at least
- * one pixel. A sign is SWATCH dots wide and SIGN_HEIGHT dots high, in the middle of its line. */
+/* Signs are drawn in square dots. The side of a dot is a twelfth of a character's height, rounded down to whole pixels,
+ * and at least one pixel. A sign is SWATCH dots wide and SIGN_HEIGHT dots high, and is centred in the height of its
+ * line. */
 #define SWATCH 18
 #define SIGN_HEIGHT 9
 
-/* The signs that consist of rectangles: x, y, width and height of each, in dots. */
+/* The rectangles of each sign that consists of rectangles: x, y, width and height, in dots. */
 enum { SIGN_PARTS = 10 };
 static const int8_t signs[][SIGN_PARTS][4] = {
     [SIGN_LINE] = {{0, 4, SWATCH, 1}},
@@ -146,7 +149,7 @@ static const int8_t signs[][SIGN_PARTS][4] = {
     [SIGN_NODE] = {{7, 1, 6, 6}},
 };
 
-/* Fill a rectangle of a sign, given in dots. */
+/* Fill a rectangle of a sign. All numbers are in dots. */
 static void fill_dots(pen *p, int x, int y, int width, int height, unsigned role)
 {
     const int letter = p->scene->text.height, dot = letter < 24 ? 1 : letter / 12;
@@ -158,7 +161,7 @@ static void fill_sign(pen *p, const legend_line *line)
     if (line->sign == SIGN_SCALE) {
         write_scale(p, &line->scale);
     } else if (line->sign == SIGN_CHECKS) {
-        for (int i = 0; i < 4; i++) /* four cells of a chessboard */
+        for (int i = 0; i < 4; i++) /* draw four cells of a chessboard */
             fill_dots(p, 5 + i % 2 * 4, i / 2 * 4, 4, 4, i % 3 ? ROLE_WORLD : ROLE_POINT);
     } else if (line->sign == SIGN_SWATCH) {
         const int side = p->scene->text.height / 2;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* legend.h - the legend at the bottom of the column: what colours, lines and marks mean. Layers add their own lines
- * (layer_type.h). */
+/* legend.h - the legend at the bottom of the text column explains the colours, lines and markers. Layers add their own
+ * lines (layer_type.h). */
 #ifndef LAYERS_LEGEND_H
 #define LAYERS_LEGEND_H
 
@@ -9,9 +9,9 @@
 
 typedef struct layer_source layer_source;
 
-/* The symbol at the start of a legend line. Its colour is the line's role. */
+/* The symbol at the start of a legend line. It has the colour of the line's role. */
 typedef enum legend_sign {
-    SIGN_NONE, /* continues the line before it */
+    SIGN_NONE, /* no symbol: the line continues the line before it */
     SIGN_LINE,
     SIGN_BOLD,
     SIGN_DASHES,
@@ -32,21 +32,24 @@ typedef enum legend_sign {
     SIGN_NODE,
     SIGN_SWATCH, /* a square in the line's `color` */
     SIGN_CHECKS,
-    SIGN_SCALE, /* a colour bar across the column, with numbers in the next line: `scale`. Continues the line before */
+    /* A colour bar across the column, for the line's `scale`; numbers follow in the next line. Continues the line
+     * before it. */
+    SIGN_SCALE,
 } legend_sign;
 
-/* A colour bar: the amounts at its two ends. */
+/* A colour bar from `low` at its left end to `high` at its right end. */
 typedef struct legend_scale {
     double low, high;
-    bool doubling; /* logarithmic: low and high are powers of two, and the colours follow the exponent */
-    bool pointed;  /* both ends taper to a point: amounts beyond low and high have the colours of the ends */
+    /* True: the bar is logarithmic; low and high are powers of two, and the colours follow the exponent. */
+    bool doubling;
+    bool pointed; /* true: both ends taper to a point; numbers outside low to high have the colours of the ends */
 } legend_scale;
 
-/* When lines do not fit, lines with the greatest value are dropped first. */
+/* Which lines are dropped if not all lines fit. Lines with the greatest value are dropped first. */
 typedef enum legend_drop_order {
     DROP_LAST,
-    DROP_LATE,  /* the panel shows the layer's answer in the same colour */
-    DROP_EARLY, /* the layer is nearly self-explanatory */
+    DROP_LATE,  /* the panel shows the layer's answer in the layer's colour */
+    DROP_EARLY, /* readers understand the layer without the legend */
     DROP_FIRST, /* the layer has no elements in this frame */
 } legend_drop_order;
 
@@ -62,33 +65,35 @@ typedef struct legend_line {
 } legend_line;
 
 #define LEGEND_MOST_LINES 64
-#define LEGEND_LAST 200 /* the greatest legend_entry.order: layer_type.h */
+#define LEGEND_LAST 200 /* maximum value of legend_entry.order (layer_type.h) */
 
 typedef struct legend {
     const scene *scene;
     unsigned in_frame; /* bit i: layer i has elements in this frame */
-    legend_line next;  /* the initial value of the lines that legend_add adds */
+    legend_line next;  /* the line that legend_add() copies and then changes */
     legend_line lines[LEGEND_MOST_LINES];
     size_t count;
 } legend;
 
-/* The letters that fit into a line behind its sign, and the letter at which the text begins. */
+/* The number of characters that fit into a line behind its sign, and the column, counted in characters, at which the
+ * text begins. */
 #define LEGEND_LETTERS (LAYOUT_LETTERS - LEGEND_WORDS)
 #define LEGEND_WORDS 4
 
-/* Add a line in the layer's colour. Return it, so that the caller can change its role, steps or colour. */
+/* Add a line in the layer's colour. Return the line, so that the caller can change its role, steps or colour. */
 legend_line *legend_add(legend *l, legend_sign sign, const char *format, ...);
 
-/* Add a colour bar: two lines, which are kept or dropped together with the line before. */
+/* Add a colour bar. It has two lines, which are kept or dropped together with the line before them. */
 void legend_add_scale(legend *l, legend_scale scale);
 
-/* Add a line for the colours of depths, such as "nodes, depth 0-9+". The deepest depths share the last colour. */
+/* Add a line that explains the colours of depths, such as "nodes, depth 0-9+". All depths beyond the last colour share
+ * this colour. */
 void legend_add_depths(legend *l, const char *what, size_t deepest);
 
-/* Draw a colour bar and its numbers at the pen's place. */
+/* Draw a colour bar and its numbers at the position of the pen. */
 void write_scale(pen *p, const legend_scale *scale);
 
-/* Write the legend of the view's layers below the pen. When the lines do not fit, some are dropped by their drop order,
+/* Write the legend of the view's layers below the pen. If not all lines fit, lines are dropped by their drop order and
  * then from the end, and a final line counts them. */
 void write_legend(pen *p, const layer_source *in);
 

@@ -1,22 +1,22 @@
 /* SPDX-License-Identifier: MIT */
-/* legend_scale.c - draws a colour bar across the column, with round numbers below it.
+/* legend_scale.c - draws a colour bar across the text column, with round numbers below it.
  *
- * The numbers must be round, stand under their place on the bar, and not touch. How many fit depends on how long they
- * are when printed, which depends on the step between them. So the code tries: for five numbers, then four, three, two
- * and one, it takes the next round step (1, 2 or 5 times a power of ten) that gives about that many numbers, prints
- * them, and keeps the first set whose texts have a letter's space between them. A logarithmic bar has fixed numbers
- * instead: every second power of two. A bar whose ends are equal or not finite has one number in the middle.
+ * The numbers must be round, stand below their place on the bar, and not touch each other. How many numbers fit depends
+ * on their length when printed, and the length depends on the step between them. So the code tries sets of about five,
+ * four, three, two numbers and one number. For each set it takes the next round step (1, 2 or 5 times a power of ten)
+ * and prints the numbers. It keeps the first set with room for a character between all numbers. A logarithmic bar has
+ * fixed numbers: every second power of two. A bar whose ends are equal or not finite has one number in the middle.
  *
- * Where amounts beyond the ends share the end colours, the bar tapers to a point at both ends. */
+ * If numbers outside the bar have the colours of its ends, the bar tapers to a point at both ends. */
 #include "legend.h"
 
 #include <math.h>
 #include <string.h>
 
 #define MOST_NUMBERS 5
-#define DIGITS 9 /* significant digits of a number */
+#define DIGITS 9 /* significant digits of a printed number */
 
-/* A number below the bar, and its tick mark. */
+/* A number below the bar, with its tick mark. */
 typedef struct scale_number {
     double part; /* its position on the bar, from 0 (left end) to 1 */
     char text[NUMBER_TEXT];
@@ -35,7 +35,8 @@ static void add_number(scale_numbers *m, double part, double value)
     }
 }
 
-/* Mark every second power of two: low, 4 low, 16 low ... The last number gets a "+" for all larger amounts. */
+/* Number a logarithmic bar at every second power of two: low, 4 low, 16 low ... The last number gets a "+", because
+ * larger numbers have the same colour. */
 static scale_numbers number_powers(const legend_scale *scale)
 {
     scale_numbers m = {.count = 0};
@@ -54,19 +55,20 @@ static scale_numbers number_round_steps(const legend_scale *scale, int count)
     scale_numbers m = {.count = 0};
     const double extent = scale->high - scale->low, step = number_round_up_to_1_2_5(extent / count);
     const double first = step > 0 ? ceil(scale->low / step) : 0, last = step > 0 ? floor(scale->high / step) : -1;
-    for (double i = first; i <= last && i < first + MOST_NUMBERS + 1; i++) /* + 0.0 turns -0 into 0 */
+    for (double i = first; i <= last && i < first + MOST_NUMBERS + 1; i++) /* adding 0.0 turns -0 into 0 */
         add_number(&m, (i * step - scale->low) / extent, i * step + 0.0);
     return m;
 }
 
-/* Return the x of a number's left end: centred under its tick mark, but within the bar. */
+/* Return the x of a number's left end, in pixels. The number is centred below its tick mark, but stays within the bar.
+ */
 static int number_left(const pen *p, const scale_number *m, int width)
 {
     const int size = (int)strlen(m->text) * p->scene->text.width, left = (int)(m->part * width) - size / 2;
     return left < 0 ? 0 : left + size > width ? width - size : left;
 }
 
-/* Whether all numbers fit below the bar with a letter's space between them. */
+/* Return whether all numbers fit below the bar with room for a character between them. */
 static bool numbers_fit(const pen *p, const scale_numbers *m, int width)
 {
     for (int i = 0; i < m->count; i++) {

@@ -1,22 +1,23 @@
 /* SPDX-License-Identifier: MIT */
-/* marked_node_layers.c - the layers that mark a single node: the node that `octreel inspect --node` names (layer
- * "asked"), and the node at which the validator finds an invariant of the tree broken. */
+/* marked_node_layers.c - the layers that mark a single node. Layer "asked" marks the node of `octreel inspect --node`.
+ * The other layer marks the node in which the validator finds a broken invariant of the tree. */
 #include "layer_type.h"
 #include "node_boxes.h"
 #include "octree/octree.h"
 
 #include <string.h>
 
-#define MARK 12 /* half the size of the mark on a node that is small on screen, in half units */
+#define MARK 12 /* half the size of the marker on a node that is small on screen, in halves of a picture unit */
 
-/* ---- The node that the user names ---------------------------------------------------------------------------- */
+/* ---- The requested node -------------------------------------------------------------------------------------- */
 
 static bool is_requested(const layer_source *in)
 {
     return in->requested != 0;
 }
 
-/* Draw the node bold, in the colour of its path in the diagram, and with a mark when it is small on screen. */
+/* Draw the node with bold lines, in the colour of its path in the diagram. If the node is small on screen, add a
+ * marker. */
 static void add_requested_node(scene *s, const layer_source *in, view_layer layer)
 {
     octree_node node;
@@ -48,7 +49,7 @@ const layer_type layer_ASKED = {.applies = is_requested,
 
 /* ---- The node with a broken invariant ------------------------------------------------------------------------ */
 
-/* Draw the node crossed out, with the word "broken" beside it. */
+/* Draw the node with crossed faces, and the word "broken" beside it. */
 static void add_broken_node(scene *s, const layer_source *in, view_layer layer)
 {
     if (!in->broken)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* node_boxes.c - the colours of nodes, and boxes of single nodes. */
+/* node_boxes.c - chooses the colours of nodes, and adds the boxes of single nodes. */
 #include "node_boxes.h"
 #include "octree/octree.h"
 

@@ -1,23 +1,25 @@
 /* SPDX-License-Identifier: MIT */
 /* node_layers.c - the layers of a tree's nodes and points, within the view's filter, lod and budget.
  *
- * One walk over the tree in pre-order adds both layers. Three rules reduce what it adds:
- *   Filter: nodes and points that the view's filter hides are left out; branches that it hides whole are skipped.
- *   Lod: a box that appears smaller than `lod` pixels is left out if the box of an ancestor is drawn. The boxes inside
- * a small box are small too and are not measured. Budget: at most `budget` boxes and at most `budget` points. Boxes are
- * dropped by whole levels, the deepest first, since half a level would look like a tree with holes. Points are dropped
- * by a sieve over a hash of their ids (node_boxes.h): each finer sieve drops about half of the points that are left.
+ * One walk over the tree in pre-order adds both layers. Three rules limit the number of elements:
+ *    - Filter: nodes and points that the view's filter hides are left out. Branches without a shown node are skipped.
+ *    - Lod: a box that appears smaller than `lod` pixels is left out if the box of an ancestor is drawn. Boxes inside
+ *      a small box are small too, so they are not measured.
+ *    - Budget: at most `budget` boxes and at most `budget` points are added. Boxes are dropped by whole levels, the
+ *      deepest first, because half a level would look like a tree with holes. Points are dropped by a sieve over a
+ *      hash of their ids (node_boxes.h). Each finer sieve drops about half of the remaining points.
  *
  * Counting first and drawing afterwards would need two walks. Instead, the walk adds boxes and points until the budget
- * is exceeded, then removes the deepest level, or about every other point, from the scene, and goes on with that limit.
- * The result is the same, because levels and sieves are nested. It costs at most one pass over the scene for each of
- * the 21 levels and each bit of the sieve.
+ * is exceeded. Then it removes the deepest level, or about every other point, from the scene, and continues with this
+ * limit. The result is the same, because levels and sieves are nested. The extra cost is at most one pass over the
+ * scene for each of the 21 levels and for each bit of the sieve.
  *
  * Kept subtrees: in a large game most of the tree is the same as at the last tick. kept_tree.h stores the boxes and
- * markers of subtrees with few points, and the walk copies an unchanged subtree instead of visiting its nodes. The
- * stored points were selected by the last tick's sieve, so the walk starts with that sieve. If this tick needs a finer
- * sieve, the store is emptied and the walk continues without it. If a looser sieve would do, or memory runs out, the
- * walk starts again without the store. Either way the scene is the one that a plain walk makes. */
+ * markers of subtrees with few points. The walk copies an unchanged subtree from the store and does not visit its
+ * nodes. The stored points were selected by the last tick's sieve, so the walk starts with this sieve. If this tick
+ * needs a finer sieve, the store is emptied and the walk continues without it. If a coarser sieve is enough, or memory
+ * runs out, the walk starts again without the store. The scene is always the one that a walk without the store makes.
+ */
 #include "filter.h"
 #include "foreign_nodes.h"
 #include "kept_tree.h"
@@ -33,7 +35,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define FEW_POINTS 32 /* the points of a leaf with at most this many are sorted on the stack, without malloc */
+#define FEW_POINTS 32 /* a leaf with at most this many points is sorted in an array on the stack, without malloc() */
 
 /* The context of the walk over the nodes. */
 typedef struct tree_walk {
@@ -42,16 +44,19 @@ typedef struct tree_walk {
     const point_values *values;
     uint8_t point_width;
     size_t capacity;
-    bool shows_nodes;                      /* Octreel's nodes are shown; its points may be shown without them */
+    /* True: Octreel's nodes are shown; its points may be shown without its nodes. */
+    bool shows_nodes;
     view_filter filter;                    /* the filter that points must pass */
-    size_t at_depth[OCTREE_MAX_DEPTH + 1]; /* the number of boxes in the scene at each depth */
-    int deepest;                           /* boxes at greater depths are beyond the budget */
-    uint64_t sieve;                   /* points whose id has a digest with one of these bits are beyond the budget */
-    bool drawn[OCTREE_MAX_DEPTH + 2]; /* [d + 1]: on the path from the root, a box at depth d or above is drawn */
-    bool small[OCTREE_MAX_DEPTH + 2]; /* [d + 1]: the box at depth d is smaller than the view's lod */
-    kept_tree *kept;                  /* the store of unchanged subtrees; null: not used */
-    size_t looser_count; /* the number of points that a sieve with one bit fewer would keep; counted only with `kept` */
-    bool keeping_failed; /* out of memory for the store: the walk must start again without it */
+    size_t at_depth[OCTREE_MAX_DEPTH + 1]; /* at_depth[d]: number of boxes in the scene at depth d */
+    int deepest;                           /* boxes deeper than this are beyond the budget */
+    uint64_t sieve;                        /* points that this sieve drops are beyond the budget */
+    /* drawn[d + 1]: on the path from the root, a box at depth d or at a smaller depth is drawn. */
+    bool drawn[OCTREE_MAX_DEPTH + 2];
+    bool small[OCTREE_MAX_DEPTH + 2]; /* small[d + 1]: the box at depth d on the path is smaller than the view's lod */
+    kept_tree *kept;                  /* the store of unchanged subtrees; null: not in use */
+    /* Number of points that a sieve with one bit fewer would keep; counted only if `kept` is not null. */
+    size_t looser_count;
+    bool keeping_failed; /* true: no memory for the store, so the walk must start again without it */
 } tree_walk;
 
 static void stop_keeping(tree_walk *w)
@@ -63,7 +68,7 @@ static void stop_keeping(tree_walk *w)
 
 /* ---- Points ------------------------------------------------------------------------------------------------- */
 
-/* Use the next finer sieve, and remove the points that it drops from the scene: about every other one. */
+/* Use the next finer sieve, and remove the points that it drops from the scene. These are about half of the points. */
 static void thin_points(tree_walk *w)
 {
     scene *s = w->scene;
@@ -88,7 +93,7 @@ static void thin_points_to_budget(tree_walk *w)
         thin_points(w);
 }
 
-/* Whether filter and sieve keep a point. Counts the points that the sieve drops. */
+/* Return whether filter and sieve keep a point. Also count the points that the sieve drops. */
 static bool select_point(tree_walk *w, const octree_point *point)
 {
     if (!filter_shows_point(&w->scene->view.filter, point->position))
@@ -102,7 +107,8 @@ static bool select_point(tree_walk *w, const octree_point *point)
     return !out;
 }
 
-/* Sort points. They are often in order already; otherwise few points are sorted by insertion, and more by qsort. */
+/* Sort points by octree_compare_points(). They are often sorted already. If not, few points are sorted by insertion,
+ * and many by qsort(). */
 static void sort_points(octree_point *points, size_t count)
 {
     size_t sorted = 1;
@@ -121,8 +127,8 @@ static void sort_points(octree_point *points, size_t count)
     }
 }
 
-/* Add the points of a leaf. A leaf stores its points in no defined order, so they are sorted: a scene must not depend
- * on the tree's history. */
+/* Add the points of a leaf, sorted by id. A leaf stores its points in an order that depends on the tree's history, and
+ * a scene must not depend on it. */
 static void add_points(tree_walk *w, const octree_node *leaf)
 {
     scene *s = w->scene;
@@ -147,7 +153,7 @@ static void add_points(tree_walk *w, const octree_node *leaf)
 
 /* ---- Nodes -------------------------------------------------------------------------------------------------- */
 
-/* Remove the boxes of the deepest level from the scene. */
+/* Remove the boxes at the greatest depth from the scene. */
 static void drop_level(tree_walk *w)
 {
     scene *s = w->scene;
@@ -188,13 +194,13 @@ static void add_box(tree_walk *w, const scene_box *box)
         drop_level(w);
 }
 
-/* Add a node's box if filter and lod allow it. `by_filter` says whether the filter shows the node. Return false if the
- * lod alone leaves it out. */
+/* Add a node's box if filter and lod allow it. `by_filter` is true if the filter shows the node. Return false if only
+ * the lod leaves the box out. */
 static bool show_box(tree_walk *w, const scene_box *box, bool by_filter)
 {
     const scene *s = w->scene;
     const unsigned depth = box->depth;
-    const bool under_drawn = w->drawn[depth], /* a box inside a small box is small without being measured */
+    const bool under_drawn = w->drawn[depth], /* a box inside a small box is small too, so it need not be measured */
         small = w->small[depth] || (s->view.lod > 0 && camera_is_box_below(&s->camera, &box->box, s->view.lod));
     const bool out = by_filter && small && under_drawn;
     w->small[depth + 1] = small;
@@ -214,8 +220,8 @@ static void show_node(tree_walk *w, const octree_node *node)
 
 /* ---- Kept subtrees ------------------------------------------------------------------------------------------ */
 
-/* Copy a stored subtree into the scene. Where the lod leaves out a node, all nodes below it are left out too, because
- * the store is used only without a filter. */
+/* Copy a stored subtree into the scene. If the lod leaves out a node, all nodes below it are left out too. This is
+ * correct because the store is used only without a filter. */
 static void add_kept_subtree(tree_walk *w, const kept_subtree *kept)
 {
     scene *s = w->scene;
@@ -249,8 +255,8 @@ static void close_kept_subtree(tree_walk *w)
     w->keeping_failed = w->keeping_failed || !kept_tree_end_subtree(w->kept, w->scene);
 }
 
-/* Copy the subtree of a node from the store and return true. Otherwise return false, and begin to store the subtree,
- * unless it has too many points or is part of a subtree that is being stored. */
+/* Copy the subtree of a node from the store and return true if the store has it. Otherwise return false. Then also
+ * begin to store the subtree, unless it has too many points or lies inside a subtree that is already being stored. */
 static bool reuse_kept_subtree(tree_walk *w, const octree_node *node)
 {
     if (kept_tree_is_collecting(w->kept, node))
@@ -282,8 +288,8 @@ static octree_walk_order add_node(const octree_node *node, void *context)
     return s->out_of_memory || w->keeping_failed ? OCTREE_WALK_STOP : OCTREE_WALK_ON;
 }
 
-/* Return the store of subtrees, or null where it must not be used: it holds only plain points and unfiltered nodes of a
- * game's own tree, and a small tree does not need it. */
+/* Return the store of subtrees, or null if it must not be used. The store has only points without colours of their own
+ * and nodes of a game's own tree, without a filter. A small tree does not need the store. */
 static kept_tree *get_kept_tree(const tree_walk *w, const layer_source *in)
 {
     scene *s = w->scene;
@@ -309,8 +315,8 @@ static bool begin_kept_tree(tree_walk *w, const octree *tree, kept_tree *kept)
     return true;
 }
 
-/* Finish a walk with the store and the sieve of the last tick. Return false when the walk must be repeated without the
- * store: memory ran out, or a looser sieve would do. */
+/* Finish a walk that used the store. Return false if the walk must be repeated without the store, because memory ran
+ * out or a coarser sieve is enough. */
 static bool end_kept_tree(tree_walk *w)
 {
     close_kept_subtree(w);
@@ -341,9 +347,9 @@ static void walk_tree(tree_walk *w, const octree *tree, kept_tree *kept)
 
 /* ---- Labels ------------------------------------------------------------------------------------------------- */
 
-/* Write the address of a node, or the id of a foreign node, into the middle of its box. The label is left out, and
- * false is returned, if it is wider than the box on screen (it would not be clear which box it names) or would cover
- * another label. */
+/* Write the address of a node, or the id of a foreign node, into the middle of its box. Return false without a label if
+ * the label is wider than the box on screen or would cover another label. A label wider than its box could belong to a
+ * neighbouring box. */
 static bool add_label(scene *s, text_space *words, const scene_box *box)
 {
     char address[OCTREE_ADDRESS_TEXT];
@@ -363,10 +369,11 @@ static bool add_label(scene *s, text_space *words, const scene_box *box)
     return true;
 }
 
-/* Label the boxes of nodes: shallow nodes first, and within a level in the order of the walk. */
+/* Label the boxes of nodes. Boxes at smaller depths come first; boxes at the same depth are labelled in the order of
+ * the walk. */
 static void add_labels(scene *s)
 {
-    text_space words = text_space_make(s); /* the axes' numbers take room too */
+    text_space words = text_space_make(s); /* the numbers on the axes already take room */
     unsigned deepest = 0;
     for (size_t i = 0; i < s->boxes.count; i++)
         if (s->boxes.items[i].style.layer == LAYER_NODES && s->boxes.items[i].depth > deepest)
@@ -379,15 +386,15 @@ static void add_labels(scene *s)
 
 /* ---- The layers --------------------------------------------------------------------------------------------- */
 
-/* Return the factor by which the distance between points grows when one point in `one_in` is kept. The sieve keeps
- * points at random, which leaves wider gaps than a regular scan: hence 1.3. */
+/* Return the factor by which the distance between points grows if one point in `one_in` is kept. The factor 1.3 is
+ * there because a sieve keeps points at random, which leaves wider gaps than a regular scan. */
 static double thinned_spacing(uint64_t one_in)
 {
     return one_in > 1 ? 1.3 * sqrt((double)one_in) : 1;
 }
 
-/* Add both layers in one walk. The more points there are, the smaller they are drawn. A game uses the session's number
- * of bodies, so that the size does not change from tick to tick. */
+/* Add the layers of nodes and points in one walk. The more points there are, the smaller is each of them drawn. In a
+ * game the size follows from the session's number of points, so that it does not change from tick to tick. */
 static void add_nodes_and_points(scene *s, const layer_source *in, view_layer layer)
 {
     const size_t expected = in->game ? in->session->body_count : octree_count(in->tree);
@@ -397,7 +404,8 @@ static void add_nodes_and_points(scene *s, const layer_source *in, view_layer la
     w.shows_nodes = view_shows_layer(&s->view, LAYER_NODES) && shows_own_tree(in);
     w.filter = s->view.filter;
     if (!shows_own_tree(in))
-        w.filter.by_depth = false; /* the view's depths are depths of the foreign tree */
+        /* The depths in the view's filter are depths of the foreign tree, so they do not apply to points. */
+        w.filter.by_depth = false;
     walk_tree(&w, in->tree, get_kept_tree(&w, in));
     s->tally.deepest = w.deepest;
     if (shows_foreign_tree(in))
@@ -408,11 +416,12 @@ static void add_nodes_and_points(scene *s, const layer_source *in, view_layer la
         add_labels(s);
 }
 
-/* Add a line for each kind of foreign node that has a colour. Octreel's nodes have no kinds. */
+/* Add a legend line for each kind of foreign node that has a colour. Octreel's own nodes have no kinds. */
 static void add_kinds_legend(legend *l, const layer_source *in)
 {
     const size_t count = shows_foreign_tree(in) ? in->tick->foreign.kind_count : 0;
-    const size_t named = count > THEME_NODE_KINDS ? THEME_NODE_KINDS - 1 : count; /* kinds with a line of their own */
+    /* Number of kinds that have a line of their own. */
+    const size_t named = count > THEME_NODE_KINDS ? THEME_NODE_KINDS - 1 : count;
     if (shows_own_tree(in))
         legend_add(l, SIGN_BOLD, "node");
     for (size_t i = 0; i < named; i++)
@@ -422,7 +431,7 @@ static void add_kinds_legend(legend *l, const layer_source *in)
         legend_add(l, SIGN_BOLD, "node: any other kind")->role = theme_node_kind_role((unsigned)named);
 }
 
-/* Add the scales of occupancy. A foreign index has no leaf capacity, so its scale differs. */
+/* Add the legend's colour bars of occupancy. A foreign index has no leaf capacity, so it has a bar of its own. */
 static void add_occupancy_legend(legend *l, const layer_source *in)
 {
     const view *v = &l->scene->view;

@@ -24,7 +24,7 @@ pen pen_in_corner(scene *s)
     return p;
 }
 
-/* Cut a text to `room` letters. A text that is cut ends in two dots. */
+/* Cut a text to `room` characters. A text that is cut ends in two dots. */
 static void cut_text(char *text, size_t room)
 {
     if (strlen(text) <= room)
@@ -34,7 +34,7 @@ static void cut_text(char *text, size_t room)
         memcpy(text + room - 2, "..", 2);
 }
 
-/* Write a label's text, cut to `room` letters, x pixels to the right of the pen. */
+/* Write a label x pixels to the right of the pen. Its text is cut to `room` characters. */
 static void add_text(pen *p, int x, theme_role role, unsigned size, size_t room, const char *text)
 {
     scene_label label =
@@ -88,7 +88,8 @@ void write_row(pen *p, const char *name, const char *detail, const char *format,
     const int room = p->letters - DETAIL - 1 - (int)strlen(value);
     cut_text(between, room > 0 ? (size_t)room : 0);
     const int taken = *between ? DETAIL + (int)strlen(between) : (int)strlen(name);
-    if (p->letters - taken - 1 > 2) /* a shorter rest would say nothing: the value covers the name instead */
+    /* With 2 characters or fewer the value would say nothing, so it covers the name instead. */
+    if (p->letters - taken - 1 > 2)
         cut_text(value, (size_t)(p->letters - taken - 1));
     write_text(p, 0, p->name, "%s", name);
     if (*between)
@@ -149,7 +150,7 @@ void write_wrapped(pen *p, theme_role role, const char *text)
         size_t length = left > most ? most : left;
         while (left > most && length > 0 && text[length] != ' ')
             length--;
-        length = length > 0 ? length : left; /* a word longer than the line is cut */
+        length = length > 0 ? length : left; /* a word longer than the line is cut at the end of the line */
         snprintf(line, sizeof line, "%.*s", (int)length, text);
         write_line(p, role, line);
         text += length + (text[length] == ' ');

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* player_layers.c - the layers of the player, and of its collision box and the points that the box hits. */
+/* player_layers.c - two layers: the player; and the player's collision box with the points that it hits. */
 #include "layer_type.h"
 #include "node_boxes.h"
 
@@ -10,7 +10,8 @@ static bool session_has_player(const layer_source *in)
     return in->game && in->session->player.kind != OCTREE_PLAYER_NONE;
 }
 
-/* Draw the player, and a line straight down to the world's floor that shows where the player is in space. */
+/* Draw the player, and a vertical line from the player down to the world's floor. The line lets readers see where in
+ * space the player is. */
 static void add_player(scene *s, const layer_source *in, view_layer layer)
 {
     const double *at = in->tick->player;
@@ -37,11 +38,12 @@ const layer_type layer_PLAYER = {
 
 /* ---- The collision box -------------------------------------------------------------------------------------- */
 
-/* The id of the box that was tested and hit something. The box around the player has the player's id. */
+/* The id of the box that the collision test used, if it hit a point. The box around the player has the player's id
+ * instead. */
 #define COLLISION_ID UINT64_MAX
 
-/* The ids of a collision's lines: first the CROSS_LINES lines that cross out its box, then the paths of the box's
- * CORNERS corners, then the paths of the hits. */
+/* The lines of a collision have these ids, in this order: CROSS_LINES lines that cross out the box, one path for each
+ * of the box's CORNERS corners, and one path for each hit point. */
 enum { CORNERS = 8 };
 
 static octree_box box_around(const double center[3], double size)
@@ -60,7 +62,8 @@ static void add_path_line(scene *s, uint64_t id, const double from[3], const dou
         scene_add_line(s, id, from, to, style);
 }
 
-/* Draw the paths that the swept collision test used: of each corner of the player's box, and of each hit that moved. */
+/* Draw the paths of a swept collision test: the path of each corner of the player's box, and the path of each hit point
+ * that moved. */
 static void add_swept_paths(scene *s, const octree_tick *tick, double box_size, scene_style style)
 {
     const octree_box start = box_around(tick->from, box_size), end = box_around(tick->attempt, box_size);
@@ -74,8 +77,8 @@ static void add_swept_paths(scene *s, const octree_tick *tick, double box_size, 
         add_path_line(s, CROSS_LINES + CORNERS + i, tick->hit_from[i], tick->hits[i].position, style);
 }
 
-/* Draw the box that was tested, crossed out, and a cross on each hit. A box that is small on screen is hard to
- * recognize, so it also gets a large cross of fixed size. */
+/* Draw the box of the collision test, crossed out, and a cross on each hit point. If the box is small on screen, also
+ * draw a large cross of fixed size, because a small box is hard to see. */
 static void add_hit_box(scene *s, const layer_source *in, view_layer layer)
 {
     const octree_tick *tick = in->tick;

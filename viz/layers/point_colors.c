@@ -1,26 +1,29 @@
 /* SPDX-License-Identifier: MIT */
-/* point_colors.c - colours points by position, id, leaf or file values, and explains the colours in the legend. */
+/* point_colors.c - colours points by position, id, leaf or the values of a file, and explains the colours in the
+ * legend. */
 #include "point_colors.h"
 #include "layer_type.h"
 #include "octree/octree.h"
 
 #include <stdio.h>
 
-/* Return the position of a value between low (0) and high (1). Halving first avoids overflow. */
+/* Return the position of a value between low (0) and high (1). All numbers are halved first, so that the differences do
+ * not overflow. */
 static double fraction_between(double value, double low, double high)
 {
     const double whole = high / 2 - low / 2;
     return whole > 0 ? (value / 2 - low / 2) / whole : 0.5;
 }
 
-/* Whether a leaf is a dark cell of the chessboard pattern. Two leaves of the same depth that share a face differ. */
+/* Return whether a leaf is a dark cell of the chessboard pattern. Of two leaves of the same depth that share a face,
+ * one is dark and the other is not. */
 static bool is_dark_cell(const octree_node *leaf)
 {
     const unsigned octant = (unsigned)(leaf->address & 7);
     return (octant ^ octant >> 1 ^ octant >> 2) & 1;
 }
 
-#define DARK 180 /* brightness of a dark leaf's points, in 256ths */
+#define DARK 180 /* brightness of the points in a dark leaf, in 256ths of their full brightness */
 
 const char *const class_kind_names[THEME_KINDS] = {"unclassified", "ground", "vegetation",         "building",
                                                    "water",        "noise",  "road, rail, bridge", "other"};
@@ -31,15 +34,16 @@ unsigned kind_of_class(unsigned class)
     return class < sizeof kinds ? kinds[class] : 7;
 }
 
-/* How the points of one leaf are painted. */
+/* How the points of one leaf are coloured. */
 typedef struct painting {
-    view_point_color by; /* the meaning of the colour: POINTS_BY_LEAF stands for the file's colours or the height */
+    /* What the colour means; for POINTS_BY_LEAF this is replaced by the file's colours or the height. */
+    view_point_color by;
     const point_scale *scale;
     const point_values *values;
     theme_color plain; /* the colour of points with a missing value */
 } painting;
 
-/* Return the axis of a colour by x, y, z or height. */
+/* Return the axis whose coordinate decides the colour: x, y, z or height. */
 static int axis_of(view_point_color by)
 {
     return by == POINTS_BY_X ? 0 : by == POINTS_BY_Y ? 1 : 2;
@@ -93,10 +97,10 @@ void color_points(const view *v, const point_values *values, const octree_node *
 
 /* ---- The legend --------------------------------------------------------------------------------------------- */
 
-/* Add a line for each kind of class that a point has. */
+/* Add a legend line for each kind of LAS class that occurs among the points. */
 static void add_class_legend(legend *l, const point_values *values)
 {
-    unsigned kinds = 0; /* bit i: kind i */
+    unsigned kinds = 0; /* bit i is set if kind i occurs */
     for (size_t row = 0; row < values->count; row++)
         if (values->rows[row].has[POINT_CLASS])
             kinds |= 1u << kind_of_class(values->rows[row].class);
@@ -165,6 +169,7 @@ void add_point_legend(legend *l, const layer_source *in)
         }
         legend_add(l, SIGN_DOT, "points, by %s", view_point_color_name(v->point_color));
     }
-    if (v->point_scale.given || v->point_color == POINTS_BY_DENSITY) /* without a scale no point is shown */
+    /* If there is no scale, no point is shown, so the legend needs no bar. */
+    if (v->point_scale.given || v->point_color == POINTS_BY_DENSITY)
         legend_add_scale(l, scale_of(&v->point_scale.of, v->point_color));
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* shape_layer.c - the layer of a session's shapes: boxes, segments, points and labels that it draws beside its points.
- * An element's id is the index of its shape in the tick. */
+/* shape_layer.c - the layer of a session's shapes: boxes, segments, points and labels that are neither points of the
+ * tree nor nodes. An element's id is the index of its shape in the tick. */
 #include "layer_type.h"
 #include "layout.h"
 #include "text.h"
@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#define MARK 3 /* half the size of a point's marker, in half units */
+#define MARK 3 /* half the size of a point's marker, in halves of a picture unit */
 
 static bool has_shapes(const layer_source *in)
 {
@@ -24,7 +24,7 @@ static void add_box(scene *s, uint64_t id, const octree_shape *shape, scene_styl
     scene_add_outline(s, id, &box, style);
 }
 
-/* Write a label beside its position where there is room; otherwise on top of the picture. */
+/* Write a label beside its position if there is room. If not, write it there all the same, over other elements. */
 static void add_label(scene *s, text_space *words, uint64_t id, const octree_shape *shape, scene_style style)
 {
     _Static_assert(OCTREE_SHAPE_TEXT < SCENE_TEXT, "a label must hold a shape's text and one space before it");
@@ -34,13 +34,15 @@ static void add_label(scene *s, text_space *words, uint64_t id, const octree_sha
         return;
     label.in_world = true;
     memcpy(label.at, shape->at, sizeof label.at);
-    snprintf(label.text, sizeof label.text, " %s", shape->text); /* the space leaves room for a marker */
+    /* The space in the text leaves room for the point's marker. */
+    snprintf(label.text, sizeof label.text, " %s", shape->text);
     scene_add_label(s, label);
 }
 
 static void add_shapes(scene *s, const layer_source *in, view_layer layer)
 {
-    text_space words = {.count = 0}; /* empty: label positions must not depend on the other layers */
+    /* Starts empty, because positions of shape labels must not depend on other layers. */
+    text_space words = {.count = 0};
     for (size_t i = 0; i < in->tick->shape_count; i++) {
         const octree_shape *shape = &in->tick->shapes[i];
         const scene_style style = make_layer_style(layer, STROKE_SOLID, 2);

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /* velocity_layer.c - the layer of velocities: an arrow for each moving point that the view shows.
  *
- * An arrow starts at the point, follows its velocity for velocity_ticks() ticks, and ends at the world's bounds if it
- * meets them (there the point bounces). The number of ticks depends on the session alone, so lengths can be compared
- * from tick to tick. A point whose arrow has no length gets none.
+ * An arrow starts at the point and follows the point's velocity for velocity_ticks() ticks. If it meets the world's
+ * bounds before, it ends there, because the point bounces there. The number of ticks depends only on the session, so
+ * readers can compare lengths from tick to tick. A point whose arrow would have no length gets no arrow.
  *
- * The arrows of a large session would cover the picture, so there is one arrow per thousand boxes of the view's budget.
- * Arrows are chosen with the sieve that thins out points (node_boxes.h), starting from the sieve that the points of
- * this scene ended with: an arrow is never shown without its point, and the same points keep their arrows from tick to
- * tick. One pass counts how many arrows each of the 65 sieves would keep, by the number of zero bits at the end of each
- * id's digest. The first sieve that keeps few enough is used in a second pass, which adds the arrows. That is O(movers)
+ * The arrows of a large session would cover the picture, so there is at most one arrow per thousand boxes of the view's
+ * budget. Arrows are chosen with the sieve that also drops points (node_boxes.h), beginning with the last sieve of this
+ * scene's points. So an arrow is never shown without its point, and the same points keep their arrows from tick to
+ * tick. A first pass counts how many arrows each of the 65 sieves would keep, by the number of zero bits at the end of
+ * each id's digest. A second pass adds the arrows with the first sieve that keeps few enough. The cost is O(movers),
  * whatever the budget. Arrows shorter than the view's lod are left out and counted. */
 #include "velocity_layer.h"
 #include "layer_type.h"
@@ -20,15 +20,15 @@
 #include <math.h>
 #include <string.h>
 
-#define ARROW_FRACTION 10      /* the fastest arrow is at most 1 / ARROW_FRACTION of the world's longest side */
-#define BOXES_PER_ARROW 1000.0 /* one arrow per this many boxes of the budget */
+#define ARROW_FRACTION 10      /* the fastest arrow is at most a tenth of the world's longest side */
+#define BOXES_PER_ARROW 1000.0 /* there is one arrow per thousand boxes of the budget */
 
 unsigned velocity_ticks(const octree_game *game)
 {
     static const unsigned choices[] = {2, 5, 10, 20, 50, 100, 200, 500, 1000};
     const octree_box *world = &octree_game_session(game)->tree.world;
     const double speed = octree_game_fastest(game);
-    double half = 0; /* half the longest side; the whole side may overflow */
+    double half = 0; /* half the world's longest side; the whole side could overflow */
     unsigned ticks = 1;
     for (int axis = 0; axis < 3; axis++)
         half = fmax(half, world->max[axis] / 2 - world->min[axis] / 2);
@@ -44,10 +44,11 @@ static double clamp(double value, double low, double high)
     return value < high ? value : high;
 }
 
-/* Compute a body's position after some ticks, or the position where it meets the world's bounds earlier. */
+/* Compute a body's position after a number of ticks. If the body meets the world's bounds before, compute the position
+ * where it meets them. */
 static void extrapolate(const octree_body *body, const octree_box *world, double ticks, double end[3])
 {
-    int stops = -1; /* the axis whose bound the body meets first; -1: none */
+    int stops = -1; /* the axis whose bound the body meets first; -1: it meets none */
     for (int i = 0; i < 3; i++) {
         const double bound = body->velocity[i] > 0 ? world->max[i] : world->min[i];
         const double room = body->velocity[i] != 0 ? (bound - body->position[i]) / body->velocity[i] : ticks;
@@ -60,7 +61,7 @@ static void extrapolate(const octree_body *body, const octree_box *world, double
         end[stops] = body->velocity[stops] > 0 ? world->max[stops] : world->min[stops];
 }
 
-/* Whether an arrow appears shorter than the view's lod. */
+/* Return whether an arrow appears shorter on screen than the view's lod. */
 static bool is_small(const scene *s, double ends[2][3])
 {
     double from[2], to[2];
@@ -69,14 +70,14 @@ static bool is_small(const scene *s, double ends[2][3])
            fmax(fabs(to[0] - from[0]), fabs(to[1] - from[1])) < s->view.lod;
 }
 
-/* The facts that all arrows of a tick share. */
+/* The data that all arrows of a tick share. */
 typedef struct arrow_context {
     const scene *scene;
     const layer_source *in;
-    double ticks; /* the movement of this many ticks is the length of an arrow */
+    double ticks; /* an arrow is as long as the movement in this many ticks */
 } arrow_context;
 
-/* Whether the view's filter shows a body: by its position and by its leaf. */
+/* Return whether the view's filter shows both the position of a body and its leaf. */
 static bool is_body_shown(const arrow_context *a, const octree_body *body)
 {
     const view_filter *f = &a->scene->view.filter;
@@ -86,15 +87,15 @@ static bool is_body_shown(const arrow_context *a, const octree_body *body)
             filter_shows_points_of(f, &a->in->world, &leaf));
 }
 
-/* Compute the end of a body's arrow. Return false if the arrow has no length. */
+/* Compute the end of a body's arrow. Return false if the arrow would have no length. */
 static bool find_arrow_end(const arrow_context *a, const octree_body *body, double end[3])
 {
     extrapolate(body, &a->in->world, a->ticks, end);
     return memcmp(body->position, end, sizeof body->position) != 0;
 }
 
-/* Whether a body's arrow has a length, and the view shows the body. Most bodies need no exact end: they stay within the
- * bounds, and move far enough that rounding cannot hide it. */
+/* Return whether a body's arrow has a length and the view shows the body. The exact end of the arrow is computed only
+ * if the body may leave the world's bounds, or moves so little that rounding could hide it. */
 static bool has_arrow(const arrow_context *a, const octree_body *body)
 {
     const octree_box *world = &a->in->world;
@@ -108,10 +109,11 @@ static bool has_arrow(const arrow_context *a, const octree_body *body)
     return ((within && far) || find_arrow_end(a, body, end)) && is_body_shown(a, body);
 }
 
-/* The number of sieves: a sieve has 0 to 64 low bits set. */
+/* The number of sieves. Sieve i has its i lowest bits set, i from 0 to 64. */
 enum { SIEVES = 65 };
 
-/* Return the number of bits of the finest sieve that keeps an id: the number of zeros at the end of the id's digest. */
+/* Return the number of bits of the finest sieve that keeps an id. This is the number of zero bits at the end of the
+ * id's digest. */
 static unsigned count_passed_sieves(uint64_t id)
 {
     unsigned passed = 0;
@@ -121,10 +123,11 @@ static unsigned count_passed_sieves(uint64_t id)
 }
 
 /* Return the first sieve, from `sieve` on, that keeps few enough arrows: one per BOXES_PER_ARROW boxes of the budget,
- * but at least one, so that there is something to see. Store in the tally how many arrows it leaves out. */
+ * and at least one, so that readers see something. Store the number of dropped arrows in the tally. */
 static uint64_t choose_sieve(scene *s, const arrow_context *a, const octree_tick *tick, uint64_t sieve)
 {
-    /* [i]: at first the arrows for which sieve i is the finest that keeps them, then all arrows that sieve i keeps */
+    /* passing[i]: first the number of arrows for which sieve i is the finest that keeps them, then of all that it keeps
+     */
     size_t passing[SIEVES] = {0}, all = 0;
     const size_t most = s->view.budget ? (size_t)ceil((double)s->view.budget / BOXES_PER_ARROW) : SIZE_MAX;
     for (size_t i = 0; i < tick->mover_count; i++)
@@ -148,7 +151,8 @@ static void add_velocities(scene *s, const layer_source *in, view_layer layer)
     const arrow_context a = {s, in, velocity_ticks(in->game)};
     if (!view_shows_layer(&s->view, layer) || tick->mover_count == 0)
         return;
-    const uint64_t points = s->tally.one_in - 1; /* the sieve of the scene's points: a dropped point has no arrow */
+    /* The last sieve of the scene's points: a dropped point has no arrow. */
+    const uint64_t points = s->tally.one_in - 1;
     const uint64_t sieve = choose_sieve(s, &a, tick, points);
     for (size_t i = 0; i < tick->mover_count; i++) {
         const octree_body *body = &tick->movers[i];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* world_layer.c - the layer of the world: its box, the view's slice and region, and axes with numbers along the box
- * that the camera frames. */
+/* world_layer.c - the layer of the world. It shows the world's box, the view's slice and region, and axes with numbers
+ * along the box that the camera frames. */
 #include "layer_type.h"
 #include "layout.h"
 #include "number.h"
@@ -10,38 +10,41 @@
 #include <string.h>
 
 #define TICK_SPACE                                                                                                     \
-    40 /* the least distance between numbers on an axis that is horizontal in the picture, in units of the picture */
-#define UPRIGHT_SPACE 2   /* the least distance between numbers on an upright axis, in lines */
-#define MOST_TICKS 10     /* the largest number of intervals between numbers on an axis */
-#define TICK_LENGTH 0.012 /* the length of a tick mark, as a part of the box's longest side */
-#define END_ON_RATIO 0.1  /* an axis shorter in the picture than this part of side_length() is seen end on */
-#define DIGITS 9          /* significant digits of a number */
-#define FIRST_ID 1000     /* the id of the first tick mark of the x axis */
-#define OUTLINE 1e-3      /* for rounding: a corner at most this many pixels beyond an edge's line counts as on it */
-#define LOWEST 16         /* choose_edge: the weight of being low, against 1 for being at the left; level axes only */
-#define ROOM 40           /* choose_edge: the weight of room for a number at an end */
+    40 /* minimum distance between numbers on an axis that is horizontal in the picture, in picture units */
+#define UPRIGHT_SPACE 2   /* minimum distance between numbers on an upright axis, in lines of text */
+#define MOST_TICKS 10     /* maximum number of intervals between numbers on an axis */
+#define TICK_LENGTH 0.012 /* length of a tick mark, as a part of the box's longest side */
+/* An axis whose length in the picture is less than this part of side_length() is seen end on. */
+#define END_ON_RATIO 0.1
+#define DIGITS 9      /* significant digits of a printed number */
+#define FIRST_ID 1000 /* the id of the first tick mark of the x axis */
+#define OUTLINE 1e-3  /* pixels by which rounding may put a corner beyond the line of an edge */
+/* Weight of a low position in choose_edge(), for level axes; the weight of a position at the left is 1. */
+#define LOWEST 16
+#define ROOM 40 /* weight in choose_edge() of room for a number at an end of the edge */
 
-/* The axes of one scene. Corner numbers: bit i is set at the upper end of axis i. */
+/* The axes of one scene. In the number of a corner, bit i is set if the corner is at the upper end of axis i. */
 typedef struct axes {
     scene *scene;
     const octree_box *box; /* the box that the axes run along */
-    double corners[8][2];  /* the corners in pixels */
-    bool whole;            /* all corners are in front of the camera */
-    text_space words;      /* the room that labels already take */
+    double corners[8][2];  /* pixel of each corner */
+    bool whole;            /* true: all corners are in front of the camera */
+    text_space words;      /* the part of the picture that labels already cover */
 } axes;
 
 /* The edge of the box that an axis runs along. */
 typedef struct axis_edge {
     int axis;
-    unsigned corner; /* the corner at its lower end */
-    double out[2];   /* in the picture: the unit vector normal to the edge, away from the box; 0 if no edge is on the
-                        outline */
+    unsigned corner; /* number of the corner at the lower end of the edge */
+    /* The unit vector in the picture that is normal to the edge and points away from the box; 0 if no edge is on
+     * the outline. */
+    double out[2];
 } axis_edge;
 
 static const scene_style axis_style = {.layer = LAYER_WORLD, .role = ROLE_FAINT, .width = 1};
 
-/* Return the length in pixels that an axis would have if seen from the side, at the distance of the box's middle. An
- * orbiting camera does not change it. */
+/* Return the length in pixels that an axis would have if seen from the side, at the distance of the box's middle. It
+ * stays the same while the camera orbits. */
 static double side_length(const camera *c, int axis)
 {
     double middle = 0;
@@ -50,8 +53,8 @@ static double side_length(const camera *c, int axis)
     return 2 * c->half[axis] * c->zoom / (c->perspective ? fmax(middle, c->near) : 1);
 }
 
-/* Return the distance between numbers, in world units; 0 when there is no room, or when the numbers would need too many
- * digits. */
+/* Return the distance between two numbers on an axis, in world units. Return 0 if there is no room, or if the numbers
+ * would need too many digits. */
 static double number_step(const axes *a, int axis)
 {
     const double extent = a->box->max[axis] - a->box->min[axis];
@@ -62,12 +65,13 @@ static double number_step(const axes *a, int axis)
         return 0;
     const double step = number_round_up_to_1_2_5(extent / count);
     const double largest = fmax(fabs(a->box->min[axis]), fabs(a->box->max[axis]));
-    return step > 0 && largest / step < 1e8 ? step : 0; /* otherwise neighbouring numbers could print the same digits */
+    /* With a smaller step two neighbouring numbers could print the same digits. */
+    return step > 0 && largest / step < 1e8 ? step : 0;
 }
 
 /* ---- Choosing edges ------------------------------------------------------------------------------------------ */
 
-/* Whether no corner of the box lies beyond a line through a pixel; `out` is the line's normal. */
+/* Return whether no corner of the box lies beyond the line through the pixel `at`; `out` is the normal of this line. */
 static bool is_outline(const axes *a, const double at[2], const double out[2])
 {
     for (int i = 0; i < 8; i++)
@@ -76,7 +80,7 @@ static bool is_outline(const axes *a, const double at[2], const double out[2])
     return true;
 }
 
-/* Whether a number beside an end of an edge lies within the space view. */
+/* Return whether a number beside the end `at` of an edge lies within the space view. */
 static bool has_room(const axes *a, const double at[2], const double out[2])
 {
     const camera_window w = layout_space_area(a->scene);
@@ -85,10 +89,10 @@ static bool has_room(const axes *a, const double at[2], const double out[2])
     return x >= 0 && y >= 0 && x <= w.width && y <= w.height;
 }
 
-/* Choose the edge that an axis runs along. It lies on the outline of the box, so that numbers stand beside the box and
- * not on its contents. Each of the four parallel edges is rated in both directions: room for numbers at its ends counts
- * most; then, for a level axis, being low; then being at the left. If the camera is inside the box, no edge is on the
- * outline, and the result is the edge at corner 0. */
+/* Choose the edge along which an axis runs. It lies on the outline of the box, so that numbers stand beside the box and
+ * not on its contents. Each of the four parallel edges is rated, in both directions. Room for numbers at its ends
+ * counts most, then, for a level axis, a low position, then a position at the left. If the camera is inside the box, no
+ * edge is on the outline, and the result is the edge at corner 0. */
 static axis_edge choose_edge(const axes *a, int axis)
 {
     axis_edge edge = {.axis = axis};
@@ -109,8 +113,9 @@ static axis_edge choose_edge(const axes *a, int axis)
     return edge;
 }
 
-/* Whether an axis gets no numbers: it is seen end on and they would be all in one place, or it has no edge on the
- * outline and they would stand on the contents of the box. */
+/* Return whether an axis gets no numbers. An axis that is seen end on gets none, because all its numbers would be at
+ * the same place. An axis without an edge on the outline gets none, because its numbers would stand on the contents of
+ * the box. */
 static bool is_end_on(const axes *a, const axis_edge *e)
 {
     const double *from = a->corners[e->corner], *to = a->corners[e->corner | 1u << e->axis];
@@ -119,10 +124,10 @@ static bool is_end_on(const axes *a, const axis_edge *e)
     return a->whole && (inside || sqrt(x * x + y * y) < side_length(&a->scene->camera, e->axis) * END_ON_RATIO);
 }
 
-/* ---- Ticks and letters -------------------------------------------------------------------------------------- */
+/* ---- Tick marks and axis names ------------------------------------------------------------------------------ */
 
-/* Place a number beyond the end of its tick mark: away from the edge or, if the camera is inside the box, in the
- * direction of the tick mark. Return false when there is no room. */
+/* Place a number beyond the end of its tick mark, away from the edge. If the camera is inside the box, the number
+ * continues the direction of the tick mark. Return false if there is no room. */
 static bool place_number(axes *a, const axis_edge *e, double tick[2][3], scene_label *number)
 {
     double from[2], pixel[2], out[2];
@@ -144,7 +149,7 @@ static double longest_side(const scene *s)
     return s->camera.size / s->camera.scale;
 }
 
-/* Add a tick mark, which leads away from the box, and the number at its end where there is room. */
+/* Add a tick mark, which points away from the box, and a number at its end if there is room. */
 static void add_tick(axes *a, const axis_edge *e, double at, uint64_t id)
 {
     scene *s = a->scene;
@@ -169,11 +174,11 @@ static void add_ticks(axes *a, const axis_edge *e)
     if (step == 0 || is_end_on(a, e) || !isfinite(longest_side(a->scene)))
         return;
     const double first = ceil(a->box->min[axis] / step), last = floor(a->box->max[axis] / step);
-    for (double i = first; i <= last; i++) /* + 0.0 turns -0 into 0 */
+    for (double i = first; i <= last; i++) /* adding 0.0 turns -0 into 0 */
         add_tick(a, e, i * step + 0.0, (uint64_t)(axis + 1) * FIRST_ID + (uint64_t)(i - first));
 }
 
-/* Place an axis's letter beyond the end of the axis, in the axis's direction. Return false when there is no room. */
+/* Place the name of an axis, x, y or z, beyond the end of the axis. Return false if there is no room. */
 static bool place_letter(axes *a, double ends[2][3], scene_label *letter)
 {
     const scene *s = a->scene;
@@ -188,9 +193,9 @@ static bool place_letter(axes *a, double ends[2][3], scene_label *letter)
     return text_space_reserve_text(&a->words, s, letter->text, pixel, letter->at);
 }
 
-/* Add the letter at the end of an axis that is not seen end on. Numbers do not cover it. Without room beyond the end,
- * it stands at the end itself. `drawn`: also draw the axis's edge, which nothing else draws if the box is not the
- * world's. */
+/* Add the name of an axis, x, y or z, at its end, unless the axis is seen end on. Numbers do not cover the name. If
+ * there is no room beyond the end, the name stands at the end itself. If `drawn` is true, also draw the axis's edge,
+ * because nothing else draws it if the box is not the world's box. */
 static void add_axis(axes *a, const axis_edge *e, bool drawn)
 {
     scene_label letter = scene_make_label((uint64_t)e->axis, axis_style, "%c", "xyz"[e->axis]);
@@ -208,9 +213,9 @@ static void add_axis(axes *a, const axis_edge *e, bool drawn)
     scene_add_label(a->scene, letter);
 }
 
-/* Add three axes along edges of the box that the camera frames: each with its letter and, where the view shows text,
- * tick marks with round numbers. The step between numbers depends on the box and the kind of camera, not on the
- * position of an orbiting camera. */
+/* Add three axes along edges of the box that the camera frames. Each axis has its name. If the view shows text, it also
+ * has tick marks with round numbers. The step between numbers depends on the box and the kind of camera, so it stays
+ * the same while the camera orbits. */
 static void add_axes(scene *s, const octree_box *world)
 {
     const bool fitted = s->view.fit == FIT_BOX;

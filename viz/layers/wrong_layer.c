@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* wrong_layer.c - the layer of wrong foreign answers and wrong foreign nodes. It marks missing and extra points, and
- * draws a ring of fixed size around each wrong answer, so that it is visible however small it is in the world. */
+/* wrong_layer.c - the layer of wrong foreign answers and wrong foreign nodes. It marks missing and extra points. It
+ * draws a ring around each wrong answer. The ring has a fixed size on screen, so that it is visible even if the answer
+ * is small in the world. */
 #include "foreign_nodes.h"
 #include "judgement.h"
 #include "layer_type.h"
@@ -9,16 +10,17 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Half sizes of marks and rings, and the width of lines, in half units. */
+/* Half the size of markers, half the size of rings, and the width of lines, in halves of a picture unit. */
 #define MARK 9
 #define RING 28
 #define LINE_WIDTH 3
 
-/* Beyond these counts marks and rings shrink, so that they hide less. The ring of the worst answer keeps its size. */
+/* If there are more markers or rings than this, they are drawn smaller, so that they hide less. The ring of the worst
+ * answer keeps its size. */
 #define FEW_MARKS 50
 #define FEW_RINGS 3
 
-/* A marker has its point's id. A ring has an id that no point of a session file can have. */
+/* Return the element id of a ring. No point of a session file can have this id. (A marker has the id of its point.) */
 static uint64_t ring_id(size_t place)
 {
     return UINT64_MAX - place;
@@ -39,8 +41,8 @@ static bool is_in_session(const octree_session *session)
     return session->foreign_count > 0;
 }
 
-/* Find the middle of an answer's ring: the first missing or extra point; otherwise the query's target, or the middle of
- * its region. */
+/* Find the middle of an answer's ring. It is the first missing or extra point. If there is none, it is the query's
+ * target or the middle of its region. */
 static void find_ring_position(const octree_answer *answer, double place[3])
 {
     const octree_judgement *judgement = &answer->judgement;
@@ -81,7 +83,7 @@ static void mark_wrong_answer(scene *s, const octree_answer *answer, size_t plac
     text_space_reserve_mark(occupied, s, at, ring);
 }
 
-/* Write what is wrong with an answer beside its ring. Return false when there is no room. */
+/* Write the error of an answer beside its ring. Return false if there is no room. */
 static bool add_answer_label(scene *s, const octree_answer *answer, size_t place, text_space *occupied)
 {
     char words[JUDGEMENT_TEXT];
@@ -92,7 +94,7 @@ static bool add_answer_label(scene *s, const octree_answer *answer, size_t place
     return text_space_add_label_beside(occupied, s, label, at, RING);
 }
 
-/* Write the number of texts without room into the top right corner. */
+/* Write how many texts had no room into the top right corner. */
 static void add_left_out_count(scene *s, size_t count, text_space *occupied)
 {
     const camera_window w = layout_space_area(s);
@@ -104,7 +106,8 @@ static void add_left_out_count(scene *s, size_t count, text_space *occupied)
         scene_add_label_on_ground(s, &label, ROLE_BACKGROUND);
 }
 
-/* Marks come first, so that texts do not cover them. Texts of answers get room before texts of nodes. */
+/* Add markers, rings and texts. Markers come first, so that texts do not cover them. Texts of answers get room before
+ * texts of nodes. */
 static void add_wrong_answers(scene *s, const layer_source *in, view_layer layer)
 {
     (void)layer;
@@ -143,7 +146,8 @@ static bool has_point(const octree_point *points, size_t count, uint64_t id)
     return false;
 }
 
-/* Return the index of the first answer from which a point is missing, or in which it is extra; answer_count if none. */
+/* Return the index of the first answer in which the point with this id is missing, or extra if `missing` is false.
+ * Return answer_count if there is none. */
 static size_t find_answer(const octree_tick *tick, uint64_t id, bool missing)
 {
     size_t i = 0;
