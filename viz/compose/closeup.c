@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* closeup.c - the layer of the close-up.
  *
- * A close-up is a scene of its own, built from the same layers. Its camera looks in the same direction as the scene's,
- * with its subject in the middle, and cuts off everything farther in front of or behind the subject than beside it. The
- * picture itself gets a frame around the close-up, an outline of the enlarged area, and lines between the two. The
- * close-up gets a scale. */
+ * A close-up is a scene of its own, built from the same layers as the main scene. Its camera looks in the same
+ * direction as the camera of the main scene, at the middle of the subject. It cuts off everything that is farther in
+ * front of or behind the subject than the close-up reaches to its sides. The main scene gets a frame around the
+ * close-up, an outline of the enlarged area, and lines from the area to the frame. The close-up gets a scale. */
 #include "closeup.h"
 #include "number.h"
 
@@ -17,8 +17,8 @@
 
 /* ---- The scene of the close-up ------------------------------------------------------------------------------- */
 
-/* Return a box in the world that holds everything that the close-up can show. The view's filter skips whole branches of
- * the tree outside it. */
+/* Return a box in the world that contains everything that the close-up can show. It becomes part of the view's filter,
+ * so that whole branches of the tree outside the box are skipped. */
 static octree_box visible_box(const camera *c, const view *v)
 {
     octree_box box;
@@ -61,7 +61,8 @@ bool closeup_begin(scene *s, const layer_source *in, const double place[3], doub
     c->view.width = (int)w.width;
     c->view.height = (int)w.height;
     c->view.diagram = DIAGRAM_NONE;
-    c->view.budget = s->view.budget && budget < 1 ? 1 : (uint64_t)budget; /* its part of the picture's pixels */
+    /* The share of the budget is the close-up's share of the picture's pixels. */
+    c->view.budget = s->view.budget && budget < 1 ? 1 : (uint64_t)budget;
     c->view.layers &= ~(1u << LAYER_WORLD | 1u << LAYER_TEXT);
     c->camera = camera_make_close_up(&s->camera, (camera_window){0, 0, w.width, w.height}, place, times);
     const octree_box region = visible_box(&c->camera, &c->view);
@@ -82,8 +83,9 @@ enum {
     LEFT_OUT_ID = SCALE_ID + 3
 };
 
-/* Find the area of the picture that the close-up enlarges, cut at the edges of the space view: left, top, right, bottom
- * in pixels. It is always large enough to be visible. Return false when it lies outside the space view. */
+/* Find the area of the picture that the close-up enlarges: left, top, right and bottom in pixels. The area is cut at
+ * the edges of the space view, and is always large enough to be visible. Return false if it lies outside the space
+ * view. */
 static bool find_enlarged_area(const scene *s, double sides[4])
 {
     const camera *c = &s->closeup->camera;
@@ -103,7 +105,7 @@ static bool find_enlarged_area(const scene *s, double sides[4])
     return sides[0] < sides[2] && sides[1] < sides[3];
 }
 
-/* Outline the enlarged area, and draw lines from two of its corners to the nearest corners of the close-up's frame. */
+/* Outline the enlarged area. Draw lines from two of its corners to the nearest corners of the close-up's frame. */
 static void add_enlarged_area(scene *s, const double frame[4])
 {
     double area[4];
@@ -112,11 +114,11 @@ static void add_enlarged_area(scene *s, const double frame[4])
     const double left = area[0], top = area[1], right = area[2], bottom = area[3];
     const bool beside = right <= frame[0];
     const double lines[][2][2] = {
-        {{left, top}, {right, top}}, /* REGION_ID */
+        {{left, top}, {right, top}}, /* from here: ids from REGION_ID */
         {{left, bottom}, {right, bottom}},
         {{left, top}, {left, bottom}},
         {{right, top}, {right, bottom}},
-        {{beside ? right : left, beside ? top : bottom}, {frame[0], frame[1]}}, /* LEADER_ID */
+        {{beside ? right : left, beside ? top : bottom}, {frame[0], frame[1]}}, /* from here: ids from LEADER_ID */
         {{right, bottom}, {beside ? frame[0] : frame[2], beside ? frame[3] : frame[1]}},
     };
     for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++)
@@ -135,7 +137,8 @@ static void add_frame(scene *s)
     scene_add_rectangle(s, GROUND_ID, c->place, (int[]){width, height}, LAYER_CLOSEUP, ROLE_BACKGROUND);
 }
 
-/* Return the largest 1, 2 or 5 times a power of ten that is at most `limit`; 0 if that is too small for a double. */
+/* Return the largest length not above `limit` that is 1, 2 or 5 times a power of ten. Return 0 if it is too small for a
+ * double. */
 static double round_length(double limit)
 {
     double power = 1;
@@ -146,7 +149,7 @@ static double round_length(double limit)
     return limit >= 5 * power ? 5 * power : limit >= 2 * power ? 2 * power : power;
 }
 
-/* Remove the labels that a rectangle would cover at least in part, together with their backgrounds. */
+/* Remove the labels that a rectangle would cover completely or in part. Remove their backgrounds too. */
 static void drop_covered_labels(scene *s, const int corner[2], const int size[2])
 {
     size_t kept = 0;
@@ -166,7 +169,7 @@ static void drop_covered_labels(scene *s, const int corner[2], const int size[2]
     s->labels.count = kept;
 }
 
-/* Add a scale: a bar, its length in world units, and the magnification. */
+/* Add a scale: a bar, the length of the bar in world units, and the magnification. */
 static void add_scale(scene *s)
 {
     const int unit = s->unit, margin = 6 * unit;
@@ -191,7 +194,7 @@ static void add_scale(scene *s)
     scene_add_label(s, label);
 }
 
-/* Write what the budget leaves out of the close-up. */
+/* Write how many elements the budget leaves out of the close-up. */
 static void add_left_out(scene *s)
 {
     const scene_tally *t = &s->tally;

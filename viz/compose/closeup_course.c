@@ -1,19 +1,21 @@
 /* SPDX-License-Identifier: MIT */
 /* closeup_course.c - chooses the place and the magnification of the close-up.
  *
- * The problem: the close-up should show whatever happens in a tick, but a viewer must be able to follow it from frame
- * to frame, and it may depend only on the ticks up to the shown one.
+ * The problem: the close-up should show what happens in a tick, but a viewer must be able to follow it from frame to
+ * frame. It may depend only on ticks up to the shown tick.
  *
- * The subjects of a tick are boxes: the player, or the requested node, the answers, or the changes of the tick. The
- * first pass collects subjects that appear small in the view, and a second pass all others; a subject joins the group
- * if the whole group still fits into the close-up. The middle of the group is the middle of the close-up.
+ * The idea: every tick has subjects, which are boxes: the player, or the requested node, the answers, or the changes of
+ * the tick. Some of the subjects form a group. A first pass tries subjects that appear small in the view, a second pass
+ * all others. A subject joins the group if the whole group then still fits into the close-up. The middle of the group
+ * becomes the middle of the close-up.
  *
- * The magnification is fixed by the first small subject and never changes again: otherwise sizes could not be compared
- * from tick to tick. It is a round number that makes the subject about WANTED of the picture's height. The place
- * follows the player or the queries at every tick. A close-up that stood still until its subject left it would jump by
- * its whole width. Changes without queries happen here and there, so there the close-up moves only if it does not show
- * them all. A moving point counts together with its position in the next tick, so that it does not leave the close-up
- * at once. */
+ * The first small subject fixes the magnification for all ticks, because otherwise viewers could not compare sizes from
+ * tick to tick. The magnification is a round number that makes the subject about WANTED of the picture's height.
+ *
+ * The place follows the player or the queries at every tick. A close-up that stood still until its subject left it
+ * would jump by its whole width. In a tick without queries the changes are the subject. They are spread over the world,
+ * so the close-up moves only if it does not show all changes. The box of a moving point contains its position at the
+ * next tick too, so that the point does not leave the close-up at once. */
 #include "closeup_course.h"
 #include "layer_type.h"
 #include "layout.h"
@@ -22,14 +24,14 @@
 #include <math.h>
 #include <string.h>
 
-/* Sizes as parts of the picture's height. */
-#define SMALL (32.0 / 720)     /* a subject that appears larger than this needs no close-up */
+/* Sizes, as parts of the picture's height. */
+#define SMALL (32.0 / 720)     /* a subject of at least this size needs no close-up */
 #define WANTED (68.0 / 720)    /* the close-up enlarges the subject to about this size */
-#define STILL 0.4              /* in a tree alone nothing moves, so a subject may fill this part of the close-up */
-#define SURROUNDED (8.0 / 720) /* the margin around a query's neighbours; less if their leaf is small */
-#define CHANGED (31.0 / 720)   /* the margin around changes: those of later ticks are not known yet */
-#define LEAF_PART 0.5          /* of a leaf's half extent: enough to see the whole leaf in the close-up */
-#define MAX_MAGNIFICATION 1e6  /* the limit of --zoom */
+#define STILL 0.4              /* without a game nothing moves, so the subject may fill this part of the close-up */
+#define SURROUNDED (8.0 / 720) /* margin around a query and the points it found; smaller if their leaf is small */
+#define CHANGED (31.0 / 720)   /* margin around changes; it is wide because later ticks may change other places */
+#define LEAF_PART 0.5          /* margin as a part of the leaf's half extent; the close-up then shows the whole leaf */
+#define MAX_MAGNIFICATION 1e6  /* maximum magnification, as for the option --zoom */
 
 /* ---- Boxes -------------------------------------------------------------------------------------------------- */
 
@@ -60,7 +62,8 @@ static double half_extent(const octree_box *box)
 
 /* ---- Subjects ------------------------------------------------------------------------------------------------ */
 
-/* Return the region of a query or, for a query for neighbours, the box around its target and the neighbours found. */
+/* Return the box of an answer. It is the region of the query. A query for neighbours has no region; its box contains
+ * the target and the neighbours found. */
 static octree_box answer_box(const octree_answer *answer)
 {
     octree_box box = nothing;
@@ -72,7 +75,7 @@ static octree_box answer_box(const octree_answer *answer)
     return box;
 }
 
-/* Widen a box by a moving point's position at this tick and at the next. */
+/* Widen a box so that it contains a moving point's positions at this tick and at the next tick. */
 static void widen_by_movement(octree_box *box, const octree_body *mover)
 {
     double next[3];
@@ -82,7 +85,7 @@ static void widen_by_movement(octree_box *box, const octree_body *mover)
     widen(box, next, next);
 }
 
-/* Return the box around all points that a tick edits or moves and all nodes that it splits or merges. */
+/* Return a box that contains all points that a tick edits or moves, and all nodes that it splits or merges. */
 static octree_box changes_box(const layer_source *in)
 {
     const octree_tick *tick = in->tick;
@@ -96,8 +99,9 @@ static octree_box changes_box(const layer_source *in)
     return box;
 }
 
-/* The height of the picture in pixels, and the length of a pixel in world units at the distance that the camera looks
- * at. The camera is that of tick 0: an orbiting camera does not show a thing at the same size at every tick. */
+/* The scale of a view: the height of the picture in pixels, and the length of a pixel in world units at the position
+ * that the camera looks at. The scale is that of tick 0, because an orbiting camera shows the same thing at different
+ * sizes at different ticks. */
 typedef struct view_scale {
     double height, pixel;
 } view_scale;
@@ -105,7 +109,7 @@ typedef struct view_scale {
 static view_scale make_view_scale(const layer_source *in)
 {
     scene with = {.has_closeup = true};
-    double center[3]; /* any position will do: only its distance from the camera matters */
+    double center[3]; /* any position: only the camera's distance from it matters */
     scene_set_view(&with, in->view);
     scene_box_middle(&in->world, center);
     const camera c = camera_make(in->view, layout_camera_area(&with, &in->world), &in->world, center, 0);
@@ -117,7 +121,8 @@ static double part_of_height(const view_scale *m, double reach)
     return 2 * reach / m->pixel / m->height;
 }
 
-/* Whether the subjects are queries (or a tree alone), not the changes of a tick. */
+/* Return whether the subjects are queries, or the scene shows a tree without a game. If not, the subjects are the
+ * changes of the tick. */
 static bool has_queries(const layer_source *in)
 {
     return in->answer_count > 0 || !in->tick;
@@ -125,7 +130,8 @@ static bool has_queries(const layer_source *in)
 
 /* ---- Magnification ------------------------------------------------------------------------------------------- */
 
-/* Return the greatest of 1, 2, 3, 4, 5, 6 and 8 times a power of ten that is at most `limit`; limit is at least 1. */
+/* Return the greatest number not above `limit` that is 1, 2, 3, 4, 5, 6 or 8 times a power of ten. `limit` must be at
+ * least 1. */
 static double round_down(double limit)
 {
     static const double steps[] = {8, 6, 5, 4, 3, 2, 1};
@@ -138,15 +144,15 @@ static double round_down(double limit)
     return power;
 }
 
-/* Return the part of the picture's height that a close-up shows at a magnification. */
+/* Return the height of the area that a close-up shows at a magnification, as a part of the picture's height. */
 static double visible_part(const layer_source *in, const view_scale *m, double times)
 {
     const camera_window w = layout_closeup_area(in->view);
     return fmin(w.width, w.height) / m->height / times;
 }
 
-/* Return the magnification for a subject of this half extent; 0 if the subject has no extent or appears large enough
- * already. In a tree alone the subject may fill more of the close-up. */
+/* Return the magnification for a subject with the half extent `reach`. Return 0 if the subject has no extent or appears
+ * large enough already. Without a game the subject may fill more of the close-up. */
 static double magnification_for(double reach, const layer_source *in, const view_scale *m)
 {
     const double part = part_of_height(m, reach),
@@ -160,8 +166,8 @@ double closeup_magnification(const closeup_course *course, const layer_source *i
     return in->view->closeup && layout_closeup_area(in->view).width > 0 ? magnification_for(course->reach, in, &m) : 0;
 }
 
-/* Return the half extent of a subject with a margin, so that neighbours at nearly the same place also show their leaf.
- */
+/* Return the half extent of a subject with a margin. Without a margin, the leaf of neighbours at nearly the same place
+ * would not be visible. */
 static double half_extent_with_leaf(const layer_source *in, const octree_box *seen, const view_scale *m)
 {
     double middle[3];
@@ -174,17 +180,17 @@ static double half_extent_with_leaf(const layer_source *in, const octree_box *se
 
 /* ---- Place --------------------------------------------------------------------------------------------------- */
 
-/* The search for the group of subjects that a close-up shows. */
+/* The search for a group of subjects that fit into one close-up. */
 typedef struct group_search {
     const layer_source *in;
     view_scale m;
-    double size_limit; /* larger subjects are ignored; a part of the picture's height */
-    double reach;      /* the half extent of the first small subject; 0: none yet */
+    double size_limit; /* larger subjects are ignored; as a part of the picture's height */
+    double reach;      /* half extent of the first small subject, in world units; 0: none found yet */
     octree_box group;
 } group_search;
 
-/* Add a subject to the group if all of it then fits into the close-up. The first subject fixes the reach. `is_sized`
- * says that the user chose the subject's size; any other subject is shown with its leaf. */
+/* Add a subject to the group if the whole group then still fits into the close-up. The first subject sets g->reach.
+ * `is_sized` is true if the user chose the size of the subject; any other subject gets a margin that shows its leaf. */
 static void add_to_group(group_search *g, const octree_box *more, bool is_sized)
 {
     octree_box both = g->group;
@@ -222,7 +228,7 @@ static void add_candidates(group_search *g)
     }
 }
 
-/* Find the group: first from small subjects, then from all. */
+/* Find the group. Small subjects are tried first, then all subjects. */
 static group_search find_group(const closeup_course *course, const layer_source *in)
 {
     group_search g = {in, make_view_scale(in), SMALL, course->reach, nothing};
@@ -232,7 +238,7 @@ static group_search find_group(const closeup_course *course, const layer_source 
     return g;
 }
 
-/* Whether a close-up at `place` shows the whole group. */
+/* Return whether a close-up at `place` shows the whole group. */
 static bool shows_group(const group_search *g, const double place[3])
 {
     double reach = 0;
@@ -241,7 +247,8 @@ static bool shows_group(const group_search *g, const double place[3])
     return part_of_height(&g->m, reach) < visible_part(g->in, &g->m, magnification_for(g->reach, g->in, &g->m));
 }
 
-/* Follow the queries at every tick; follow changes only if the close-up does not show them all. */
+/* Move the close-up to the queries of the tick. If there are none, move it to the changes, but only if it does not show
+ * all of them already. */
 static void follow_queries_or_changes(closeup_course *course, const layer_source *in)
 {
     const group_search g = find_group(course, in);
@@ -258,7 +265,8 @@ void closeup_follow(closeup_course *course, const layer_source *in)
 {
     const octree_player *player = in->session ? &in->session->player : NULL;
     if (player && player->kind != OCTREE_PLAYER_NONE) {
-        course->reach = fmax(player->box_size, player->step / 2); /* a step does not leave the close-up */
+        /* At least half a step, so that a step does not leave the close-up. */
+        course->reach = fmax(player->box_size, player->step / 2);
         memcpy(course->place, in->tick->player, sizeof course->place);
     } else if (layout_closeup_area(in->view).width > 0) {
         follow_queries_or_changes(course, in);

@@ -1,27 +1,28 @@
 /* SPDX-License-Identifier: MIT */
-/* closeup_course.h - decides tick by tick which place the close-up of a recording shows, and how much it enlarges. */
+/* closeup_course.h - chooses for each tick the place that the close-up shows, and its magnification. */
 #ifndef COMPOSE_CLOSEUP_COURSE_H
 #define COMPOSE_CLOSEUP_COURSE_H
 
-struct layer_source; /* layer_type.h */
+struct layer_source; /* defined in layer_type.h */
 
-/* The state from tick to tick. All zero before tick 0. */
+/* The state that is kept from tick to tick. All members are 0 before tick 0. */
 typedef struct closeup_course {
-    double reach;    /* half the extent of the subject, in world units; fixed once known; 0: not yet known */
-    double place[3]; /* the middle of the close-up, in the world */
+    double reach;    /* half extent of the subject, in world units; set once; 0: not yet known */
+    double place[3]; /* position in the world of the close-up's middle */
 } closeup_course;
 
-/* Move the course to the next tick of a game, or to a tree. A close-up shows
- *   with a player: the player, its box and its step;
- *   without a player: the queries and the points that they found or, in a tick without queries, the points that move
- *     and the nodes that split and merge. It begins at the first tick in which these appear small in the view;
- *   for a tree alone: the requested node, the queries and the points that they found.
- * If these subjects are far apart, it shows the first small one (or the first, if none is small) and the subjects that
- * fit beside it. It stays where it is while a tick does nothing, or changes only things that it already shows. */
+/* Move the course to the next tick of a game, or to a tree. The subjects of a close-up are
+ *   - in a game with a player: the player, its box and its step;
+ *   - in a game without a player: the queries and the points that they found; in a tick without queries, the points
+ *     that move and the nodes that split or merge. The close-up begins at the first tick in which these appear small;
+ *   - for a tree without a game: the requested node, the queries and the points that they found.
+ * If the subjects are far apart, the close-up shows the first small subject (or the first subject, if none is small)
+ * and the subjects that fit beside it. The close-up stays where it is if a tick changes nothing, or only things that it
+ * already shows. */
 void closeup_follow(closeup_course *course, const struct layer_source *in);
 
-/* Return how many times the close-up enlarges, a round number. 0 means no close-up: the view wants none, the picture is
- * too small, there is no subject, or the subject is large enough already. */
+/* Return the magnification of the close-up, a round number. Return 0 if there is no close-up: the view has none, the
+ * picture is too small, there is no subject, or the subject is large enough already. */
 double closeup_magnification(const closeup_course *course, const struct layer_source *in);
 
 #endif

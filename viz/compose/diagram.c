@@ -1,17 +1,18 @@
 /* SPDX-License-Identifier: MIT */
-/* diagram.c - the layer of the diagram: the tree drawn as a tree, as in the paper's Figure 2.
+/* diagram.c - the layer of the diagram. The diagram shows the tree as in Figure 2 of the paper: the root at the top,
+ * and each level in a row below it.
  *
  * The problem: a reader wants to see the whole structure, but a tree of 40,000 leaves has more nodes than the picture
- * has pixels across. The idea: draw the upper levels node by node and fold the lower ones.
- *   - Each level is a row, the root at the top. diagram_slots.h decides where a node stands and which levels have room.
- *   - Nodes that have room are squares (leaves with half the side), in the colours of the space view, or grey if the
- *     view's filter hides them. A line leads from each node to its parent: bold if a query visited the node, dashed if
- *     a query pruned it.
- *   - The other levels are folded into bars. A bar stands for the nodes in a column two units wide. Its height is
- *     logarithmic: each doubling of the number of nodes adds a sixteenth of the row.
- *   - The path from the root to the player's leaf, or to the requested node, is drawn on top of both.
- * In a game, rows are added four at a time, so that they seldom move when the tree grows deeper. The cost is at most
- * two walks over the tree for the slots and one for the bars. */
+ * has pixels across. The idea: draw the nodes of the upper levels one by one, and fold the lower levels.
+ *    - diagram_slots.h chooses the position of each node and the levels that have room.
+ *    - A node that has room is a square; the side of a leaf is half as long. Nodes have the colours of the space view,
+ *      or are grey if the view's filter hides them. A line connects each node with its parent. It is bold if a query
+ *      visited the node, and dashed if a query pruned it.
+ *    - The other levels are folded into bars. A bar represents the nodes of one level in a column two units wide. Its
+ *      height is logarithmic: twice as many nodes make it a sixteenth of the row higher.
+ *    - The path from the root to the player's leaf, or to the requested node, is drawn on top of nodes and bars.
+ * In a game, rows are added four at a time, so that they seldom move when the tree becomes deeper. The cost is at most
+ * two walks over the tree for the slots and one walk for the bars. */
 #include "diagram_slots.h"
 #include "foreign_nodes.h"
 #include "layer_type.h"
@@ -26,27 +27,29 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Sizes in units of the picture. */
-#define NODE 6      /* the side of an inner node; a leaf's side is half as long */
-#define RING 2      /* the width that a ring adds to a node on the path, both sides together */
-#define EDGE 8      /* the margin of a diagram without text */
-#define NARROWEST 2 /* the least width of a share */
-#define BAR 2       /* the width of a bar */
+/* Sizes in picture units. */
+#define NODE 6      /* side of an inner node; the side of a leaf is half as long */
+#define RING 2      /* how much wider the ring around a node on the path is than the node, both sides together */
+#define EDGE 8      /* margin of a diagram without text */
+#define NARROWEST 2 /* minimum width of a share */
+#define BAR 2       /* width of a bar */
 
-/* The margins for text: left and right in letters, above and below in lines; and the least width in letters and height
- * in lines of a diagram with text. */
+/* The margins for text: left and right in characters, above and below in lines. WORDS_WIDTH and WORDS_HEIGHT are the
+ * minimum width in characters and height in lines of a diagram with text. */
 enum { WORDS_LEFT = 4, WORDS_RIGHT = 8, WORDS_ABOVE = 2, WORDS_BELOW = 2, WORDS_WIDTH = 25, WORDS_HEIGHT = 9 };
 
-#define BAR_STEPS 16       /* the number of heights that a bar can have; the tallest fills the row */
-#define ROWS_AT_ONCE 4     /* a game's diagram has a multiple of this number of rows, so that rows seldom move */
-#define MOST_DIGITS 999999 /* a larger number is rounded to three digits */
+#define BAR_STEPS 16       /* number of heights that a bar can have; the tallest bar fills the row */
+#define ROWS_AT_ONCE 4     /* in a game the number of rows is a multiple of this, so that rows seldom move */
+#define MOST_DIGITS 999999 /* a number larger than this is rounded to three digits */
 
-/* Ids of panels. A node's panel has its address. Other panels have a highest bit that no address has. */
+/* The ids of rectangles. The rectangle of a node has the node's address. Other ids have a highest bit that no address
+ * has. */
 #define GROUND_ID UINT64_C(0)
-#define BAR_ID (UINT64_C(1) << 61)  /* plus depth << 32 plus column */
-#define PATH_ID (UINT64_C(1) << 62) /* plus depth; plus 32 for the dark ring between a node and its ring */
+#define BAR_ID (UINT64_C(1) << 61)  /* plus (depth << 32) plus the column */
+#define PATH_ID (UINT64_C(1) << 62) /* plus the depth; plus 32 for the dark gap between a node and its ring */
 
-/* The points where lines meet a node, in pixels: at the top from its parent, at the bottom from its children. */
+/* The pixels at which lines meet a node: at (x, head) the line from its parent, at (x, foot) the lines to its children.
+ */
 typedef struct anchor {
     double x, head, foot;
 } anchor;
@@ -57,17 +60,18 @@ typedef struct diagram {
     diagram_slots slots;
     size_t capacity;
     camera_window window;
-    double left, width; /* the interval of pixels that all slots share */
-    double top, pitch;  /* the top of the first row, and the height of a row, in pixels */
+    double left, width; /* left end and width of the area that the slots divide, in pixels */
+    double top, pitch;  /* top of the first row, and height of a row, in pixels */
     unsigned rows;
     uint64_t next_label;
-    bool has_text;                        /* there is room for text */
-    octree_address path;                  /* the address of the node at the end of the path; 0: no path */
+    bool has_text;                        /* true: there is room for text */
+    octree_address path;                  /* address of the node at the end of the path; 0: no path */
     octree_node end;                      /* the node at the end of the path */
-    anchor anchors[OCTREE_MAX_DEPTH + 1]; /* [d]: the anchor of the path's node at depth d */
+    anchor anchors[OCTREE_MAX_DEPTH + 1]; /* anchors[d]: the anchor of the path's node at depth d */
 } diagram;
 
-/* Return the number of rows: for a tree alone the number of levels, for a game a multiple of ROWS_AT_ONCE. */
+/* Return the number of rows. For a tree without a game it is the number of levels; in a game it is rounded up to a
+ * multiple of ROWS_AT_ONCE. */
 static unsigned count_rows(const diagram *d, unsigned depth)
 {
     const octree *tree = d->in->tree;
@@ -78,8 +82,8 @@ static unsigned count_rows(const diagram *d, unsigned depth)
     return rows < most ? rows : most;
 }
 
-/* Divide the diagram's area of the picture, and arrange the tree in it. Return false when there is no room, or no
- * memory (s->out_of_memory). */
+/* Divide the diagram's area of the picture, and arrange the tree in it. Return false if there is no room, or if memory
+ * runs out (s->out_of_memory is then true). */
 static bool arrange_tree(diagram *d)
 {
     scene *s = d->scene;
@@ -105,20 +109,21 @@ static bool arrange_tree(diagram *d)
     return true;
 }
 
-/* Whether a node is on the path. */
+/* Return whether a node is on the path. */
 static bool is_on_path(const diagram *d, octree_address node, unsigned depth)
 {
     const unsigned deep = d->path ? octree_address_depth(d->path) : 0;
     return d->path && depth <= deep && d->path >> 3 * (deep - depth) == node;
 }
 
-/* Return the y of the middle of a row. */
+/* Return the y of the middle of a row, in pixels. */
 static double row_middle(const diagram *d, unsigned depth)
 {
     return d->top + (depth + 0.5) * d->pitch;
 }
 
-/* Return the anchor of a node. `middle` is its position, 0 to 1; `height` is in pixels. */
+/* Return the anchor of a node. `middle` is its horizontal position, from 0 (left) to 1; `height` is its height in
+ * pixels. */
 static anchor anchor_at(const diagram *d, unsigned depth, double middle, double height)
 {
     const double y = row_middle(d, depth);
@@ -135,7 +140,8 @@ static void fill_centered(const diagram *d, uint64_t id, double x, double y, dou
 
 /* ---- Nodes -------------------------------------------------------------------------------------------------- */
 
-/* Compare a node's address and a visit in the order of a walk: each node comes before its children. */
+/* Compare the address of a node with a visit, in the order of a walk: each node comes before its children. A comparison
+ * function for bsearch(). */
 static int compare_in_walk_order(const void *node, const void *visit)
 {
     const octree_address a = *(const octree_address *)node, b = ((const octree_visit *)visit)->node;
@@ -160,7 +166,8 @@ static scene_style edge_style(const diagram *d, octree_address node, unsigned ro
     return make_role_style(LAYER_DIAGRAM, role, pruned ? STROKE_DASHED : STROKE_SOLID, visited ? 2 : 1);
 }
 
-/* Compute the width and height of a node: limited by its slot and its row; a leaf is half as large as an inner node. */
+/* Compute the width and height of a node. They are limited by its slot and its row. A leaf is half as large as an inner
+ * node. */
 static void measure_node(const diagram *d, const diagram_node *node, double size[2])
 {
     const int unit = d->scene->unit;
@@ -183,7 +190,7 @@ static void add_line(const diagram *d, octree_address child, const anchor *from,
     scene_add_picture_line(d->scene, child, (double[]){from->x, from->foot}, (double[]){to->x, to->head}, style);
 }
 
-/* Draw a ring around a node on the path, with a dark ring between the two. */
+/* Draw a ring around a node on the path, with a dark gap between the node and the ring. */
 static void add_ring(const diagram *d, unsigned depth, double x, const double size[2])
 {
     const double y = row_middle(d, depth);
@@ -194,10 +201,12 @@ static void add_ring(const diagram *d, unsigned depth, double x, const double si
     }
 }
 
-/* Draw the unfolded nodes and their lines. `on_path` selects the nodes on the path, which come last. */
+/* Draw the nodes that are not folded, and their lines. `on_path` selects either the nodes on the path, which are drawn
+ * last, or the other nodes. */
 static void add_nodes(diagram *d, bool on_path)
 {
-    anchor anchors[OCTREE_MAX_DEPTH + 1]; /* [d]: the current ancestor at depth d; parents come before their children */
+    /* anchors[d]: the current ancestor at depth d; parents come before their children. */
+    anchor anchors[OCTREE_MAX_DEPTH + 1];
     for (size_t i = 0; i < d->slots.count; i++) {
         const diagram_node *node = &d->slots.nodes[i];
         const unsigned depth = node->depth, role = role_of(d, node);
@@ -217,7 +226,7 @@ static void add_nodes(diagram *d, bool on_path)
     }
 }
 
-/* Draw the path from the root, on top of the other lines and of the bars. */
+/* Draw the path from the root on top of the other lines and the bars. */
 static void add_path(const diagram *d)
 {
     const unsigned deep = octree_address_depth(d->path);
@@ -235,16 +244,16 @@ static void add_path(const diagram *d)
 
 /* ---- Folded levels ------------------------------------------------------------------------------------------- */
 
-/* The nodes of one level in one column. */
+/* The nodes of one level in one column of the diagram. */
 typedef struct bar {
     size_t nodes, leaves;
-    size_t points; /* in the leaves */
-    bool shown;    /* the view's filter shows at least one of the nodes */
+    size_t points; /* number of points in these leaves */
+    bool shown;    /* true: the view's filter shows at least one of the nodes */
 } bar;
 
 typedef struct folding {
     diagram *d;
-    bar *bars; /* level by level, from the first folded one; `columns` bars a level */
+    bar *bars; /* bars of the first folded level, then of the next level ...; `columns` bars per level */
     size_t columns;
 } folding;
 
@@ -263,7 +272,8 @@ static void count_node(const octree_node *node, double middle, void *context)
         d->anchors[node->depth] = anchor_at(d, node->depth, middle, fmin(NODE * d->scene->unit, d->pitch));
 }
 
-/* Return the height of a bar in steps: 1 for one node, 2 for two or three, 3 for four to seven ... */
+/* Return the height of a bar in steps of a sixteenth of the row: 1 for one node, 2 for two or three nodes, 3 for four
+ * to seven ... */
 static unsigned bar_steps(size_t nodes)
 {
     unsigned steps = 0;
@@ -284,7 +294,7 @@ static void add_bar(const folding *f, unsigned depth, size_t column, const bar *
     d->scene->tally.folded += b->nodes;
 }
 
-/* Count the nodes in each column, draw the bars, and find the path's position in them. */
+/* Count the nodes in each column, draw the bars, and compute the anchors of the path at the folded levels. */
 static void add_bars(diagram *d)
 {
     const diagram_slots *slots = &d->slots;
@@ -315,7 +325,7 @@ static void add_text(diagram *d, double x, double y, theme_role role, const char
     scene_add_label(d->scene, label);
 }
 
-/* Return the x at which a text must begin to end at the right edge. */
+/* Return the x at which a text must begin so that it ends at the right edge. */
 static double right_aligned_x(const diagram *d, const char *text)
 {
     const scene *s = d->scene;
@@ -326,9 +336,9 @@ static void write_rows(diagram *d)
 {
     const scene *s = d->scene;
     const double left = d->window.x + EDGE * s->unit, top = d->window.y + s->text.line / 2;
-    const unsigned row_step =
-        (unsigned)ceil(s->text.height / d->pitch); /* where rows are lower than letters, only every n-th has text */
-    /* The diagram always shows Octreel's own tree; say so if the space view shows foreign nodes instead. */
+    /* If rows are lower than a line of text, only every n-th row has text. */
+    const unsigned row_step = (unsigned)ceil(s->text.height / d->pitch);
+    /* The diagram always shows Octreel's own tree. The heading says so if the space view shows foreign nodes. */
     add_text(d, left, top, ROLE_FAINT, shows_own_tree(d->in) ? "depth" : "Octreel's depth");
     add_text(d, right_aligned_x(d, "nodes"), top, ROLE_FAINT, "nodes");
     for (unsigned depth = 0; depth <= d->slots.stats.depth; depth += row_step) {
@@ -343,7 +353,7 @@ static void write_rows(diagram *d)
     }
 }
 
-/* Describe the node at the end of the path. A long address is cut, since the diagram shows the whole path. */
+/* Describe the node at the end of the path. A long address is cut, because the diagram shows the whole path anyway. */
 static void write_path_end(diagram *d)
 {
     const octree_node *end = &d->end;
@@ -363,7 +373,7 @@ static void write_path_end(diagram *d)
 
 /* ---- The layer ---------------------------------------------------------------------------------------------- */
 
-/* Find the end of the path: the player's leaf or, in a tree alone, the requested node. */
+/* Find the end of the path: the player's leaf or, without a game, the requested node. */
 static void find_path(diagram *d)
 {
     const layer_source *in = d->in;

@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /* diagram_slots.c - arranges the nodes of a tree across the diagram (diagram_slots.h explains the layout).
  *
- * The tree's statistics give the number of nodes at each depth, and with it the deepest level that can fit at all. One
- * walk copies the nodes down to that level, in pre-order. A pass from the last node to the first adds up the shares,
- * since children come after their parent. If rounding up has made the sum larger than the room, the deepest level is
- * dropped and the shares are added again. A pass from the first node to the last then assigns the slots, with one
- * record for each depth that holds how much of the ancestor's slot is assigned. Everything is tried first with room
- * for empty octants and, if the whole tree does not fit that way, again without. Each pass is O(nodes copied), and
- * there is at most one pair of passes for each of the 21 levels. */
+ * The tree's statistics contain the number of nodes at each depth. From these numbers follows the deepest level that
+ * can fit. One walk copies the nodes down to this level, in pre-order. A pass from the last node to the first adds up
+ * the shares, because children come after their parent. Shares are rounded up, so their sum may be larger than the
+ * room. The deepest level is then dropped and the shares are added up again. A pass from the first node to the last
+ * assigns the slots. It has one record for each depth, with the part of the ancestor's slot that is already assigned.
+ *
+ * All of this is first tried with room for empty octants. If the whole tree does not fit in this way, it is repeated
+ * without room for them. Each pass is O(nodes copied), and there is at most one pair of passes for each of the 21
+ * levels. */
 #include "diagram_slots.h"
 #include "octree/octree.h"
 
@@ -18,11 +20,11 @@
 
 /* ---- Choosing levels ----------------------------------------------------------------------------------------- */
 
-/* Return the deepest level that can fit before shares are rounded up. The shares are then the leaves of the tree cut
- * off at that level and, if they count, its empty octants. */
+/* Return the deepest level that can fit if shares are not rounded up. The shares are counted as if the tree ended at
+ * this level: one for each leaf and, if `empty` is 1, one for each empty octant. */
 static unsigned deepest_possible(const octree_stats *stats, unsigned empty, size_t room)
 {
-    size_t leaves = 0, inner = 0; /* at the levels down to `depth` */
+    size_t leaves = 0, inner = 0; /* number of leaves and of inner nodes, at the root level down to `depth` */
     unsigned depth = 0;
     for (; depth < stats->depth; depth++) {
         leaves += stats->leaves_at_depth[depth];
@@ -65,7 +67,7 @@ static void drop_level(diagram_slots *slots)
 
 /* ---- Shares ------------------------------------------------------------------------------------------------- */
 
-/* Round up to the next of 1, 2, 3, 4, 6, 8, 12, 16, 24 ... */
+/* Round up to the next number of the series 1, 2, 3, 4, 6, 8, 12, 16, 24 ... */
 static uint64_t round_up(uint64_t shares)
 {
     uint64_t step = 1;
@@ -95,7 +97,8 @@ static unsigned empty_octants(const diagram_node *node)
 /* Add up the shares, from the last node to the first. Return the sum of the shares of the root's octants. */
 static uint64_t add_shares(diagram_slots *slots)
 {
-    uint64_t below[OCTREE_MAX_DEPTH + 2] = {0}; /* [d]: the sum of the shares at depth d since the last parent */
+    /* below[d]: sum of the shares of nodes at depth d since the last parent. */
+    uint64_t below[OCTREE_MAX_DEPTH + 2] = {0};
     for (size_t i = slots->count; i-- > 0;) {
         diagram_node *node = &slots->nodes[i];
         const unsigned depth = node->depth;
@@ -108,14 +111,14 @@ static uint64_t add_shares(diagram_slots *slots)
 
 /* ---- Slots -------------------------------------------------------------------------------------------------- */
 
-/* How much of a node's slot has been assigned to its octants. */
+/* Which part of a node's slot is already assigned to its octants. */
 typedef struct slot_progress {
     const diagram_node *node;
-    unsigned octant; /* the next one */
+    unsigned octant; /* the next octant to which a slot is assigned */
     uint64_t assigned;
 } slot_progress;
 
-/* Assign the slot of the child at `octant`. The octants between the last child and this one are empty. */
+/* Assign the slot of the child at `octant`. All octants between the child before and this child are empty. */
 static void assign_slot(slot_progress *d, unsigned empty, unsigned octant, uint64_t share, diagram_node *child)
 {
     const double left = d->node->left, width = d->node->right - left, all = (double)d->node->child_shares;
@@ -141,7 +144,7 @@ static void place_nodes(diagram_slots *slots)
     }
 }
 
-/* Copy the levels that can fit, and drop levels until the shares fit into the room. */
+/* Copy the levels that can fit. Then drop the deepest level until the shares fit into the room. */
 static bool arrange_levels(diagram_slots *slots, const octree *tree, unsigned empty, size_t room)
 {
     slots->empty = empty;
@@ -180,9 +183,9 @@ void diagram_slots_release(diagram_slots *slots)
 
 typedef struct folding {
     const diagram_slots *slots;
-    size_t next;               /* the index of the next node in slots->nodes; the walk has the same order */
-    const diagram_node *above; /* the last node on the walk that is drawn one by one */
-    size_t before;             /* the points of `above` that the walk has passed */
+    size_t next;               /* index of the next node in slots->nodes; the walk visits nodes in the same order */
+    const diagram_node *above; /* the last visited node that is not folded */
+    size_t before;             /* number of points of `above` that the walk has already passed */
     diagram_visitor visit;
     void *context;
 } folding;

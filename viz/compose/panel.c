@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: MIT */
-/* panel.c - the text layer: the column at the left that describes the tick, or the tree.
+/* panel.c - the text layer. It is the column at the left of the picture that describes the tick, or the tree.
  *
- * A reader compares frames, so a fact should stand at the same place in every frame. Rows come in a fixed order: title
- * and key, events, keys, player, statistics, what the view leaves out, hits, wrong answers, answers, refusals. A
- * missing player leaves its rows empty, and the player's coordinates keep the same number of decimals all session long.
- * Rows whose number varies come last; the legend fills the bottom of the column.
+ * Readers compare frames, so a fact should stand at the same place in every frame. The rows have a fixed order: title
+ * and key press, events, key presses, player, statistics, elements that the view leaves out, collision hits, wrong
+ * answers, answers, refusals. If the player is missing, its rows stay empty. The player's coordinates have the same
+ * number of decimals throughout the session. Rows whose number varies come last. The legend fills the bottom of the
+ * column.
  *
- * The column has a fixed number of letters, so every value is cut or rounded to fit. If the rows need more lines than
- * the picture has, the last ones are replaced by a line that counts them. A picture too small for a column shows only
- * the most important lines, in its corner.
+ * A line has a fixed number of characters, so every value is cut or rounded to fit. If the rows need more lines than
+ * the picture has, the last rows are replaced by a line that counts them. A picture without room for the column shows
+ * only the most important lines, in its corner.
  *
- * This layer is added last, because it counts what the other layers left out (scene_tally). */
+ * This layer is added last, because it counts the elements that the other layers left out (scene_tally). */
 #include "foreign_nodes.h"
 #include "judgement.h"
 #include "layer_type.h"
@@ -27,9 +28,10 @@
 /* ---- Numbers in columns ------------------------------------------------------------------------------------- */
 
 #define MOST_DECIMALS 9
-#define WORLD_NUMBER 12 /* letters of a coordinate of the world or the region */
+#define WORLD_NUMBER 12 /* maximum number of characters of a coordinate of the world or the region */
 
-/* Return the number of decimals that a number needs; more than MOST_DECIMALS if it needs an exponent. */
+/* Return the number of decimals that a number needs. The result is greater than MOST_DECIMALS if the number needs an
+ * exponent. */
 static int decimals_of(double value)
 {
     char text[NUMBER_TEXT];
@@ -37,9 +39,10 @@ static int decimals_of(double value)
     return strchr(text, 'e') ? MOST_DECIMALS + 1 : point ? (int)strlen(point + 1) : 0;
 }
 
-/* Return the number of decimals of the player's coordinates, the same at every tick, so that digits keep their place.
- * For a player moved by keys it suits every position that the keys can reach; more than MOST_DECIMALS if they need an
- * exponent. For any other player the world's largest coordinate has six digits. */
+/* Return the number of decimals of the player's coordinates. It is the same at every tick, so that digits keep their
+ * place. For a player that is moved by key presses, it suits every position that key presses can reach; it is greater
+ * than MOST_DECIMALS if such a position needs an exponent. For any other player, it gives the world's largest
+ * coordinate six digits. */
 static int decimals_of_player(const layer_source *in)
 {
     const octree_player *player = &in->session->player;
@@ -58,7 +61,7 @@ static int decimals_of_player(const layer_source *in)
     return decimals;
 }
 
-/* Write a position: one row for each axis. */
+/* Write a position as three rows, one row for each axis. */
 static void write_position(pen *p, const char *name, const double position[3], int decimals)
 {
     for (int i = 0; i < 3; i++) {
@@ -67,12 +70,12 @@ static void write_position(pen *p, const char *name, const double position[3], i
         if (decimals > MOST_DECIMALS || !(fabs(position[i]) < 1e9))
             number_format(position[i], 9, text);
         else
-            snprintf(text, sizeof text, "%.*f", decimals, position[i] + 0.0); /* + 0.0 turns -0 into 0 */
+            snprintf(text, sizeof text, "%.*f", decimals, position[i] + 0.0); /* adding 0.0 turns -0 into 0 */
         write_row(p, axis, "", "%s", text);
     }
 }
 
-/* Write the ends of a box: one row for each axis. */
+/* Write the minimum and maximum of a box as three rows, one row for each axis. */
 static void write_box_rows(pen *p, const char *name, const octree_box *box)
 {
     char from[NUMBER_TEXT], to[NUMBER_TEXT], heading[SCENE_TEXT * 2];
@@ -107,7 +110,7 @@ static void write_statistics(pen *p, const layer_source *in, const octree_stats 
     write_row(p, "leaf capacity", "", "%zu", definition.leaf_capacity);
 }
 
-/* Whether the player is moved by keys. */
+/* Return whether the player is moved by key presses. */
 static bool has_keys(const layer_source *in)
 {
     return in->session->player.kind == OCTREE_PLAYER_KEYS;
@@ -130,8 +133,8 @@ static const char *no_event_text(const layer_source *in)
     return !in->tick->number ? "start" : has_keys(in) ? "waited" : "no event";
 }
 
-/* Write the names of the tick's events, except splits and merges of a tree that is not shown. The most urgent event
- * sets the colour. */
+/* Write the names of the tick's events. Splits and merges are left out if their tree is not shown. The most urgent
+ * event decides the colour. */
 static void write_events(pen *p, const layer_source *in)
 {
     const octree_tick *tick = in->tick;
@@ -159,7 +162,7 @@ static void write_answers(pen *p, const layer_source *in)
     p->name = ROLE_FAINT;
 }
 
-/* Write the number of wrong foreign answers, the query kind of the worst one, and what is wrong with it. */
+/* Write the number of wrong foreign answers, and the query kind and the error of the worst one. */
 static void write_wrong_answers(pen *p, const layer_source *in)
 {
     char words[JUDGEMENT_TEXT];
@@ -175,7 +178,7 @@ static void write_wrong_answers(pen *p, const layer_source *in)
     p->name = ROLE_FAINT;
 }
 
-/* Write the number of wrong foreign nodes, and what is wrong with the first one. */
+/* Write the number of wrong foreign nodes, and the error of the first one. */
 static void write_wrong_nodes(pen *p, const layer_source *in)
 {
     char text[WRONG_NODE_TEXT];
@@ -201,7 +204,8 @@ static void write_refusals(pen *p, const octree_tick *tick)
         write_row(p, "", "", "and %zu more", tick->refusal_count - 2);
 }
 
-/* Write this tick's key in brackets, always at the same place, and a few keys before and after it. */
+/* Write the key press of this tick in brackets, always at the same place, and the key presses of a few ticks before and
+ * after it. */
 static void write_keys(pen *p, const layer_source *in)
 {
     const uint64_t now = in->tick->number;
@@ -212,7 +216,8 @@ static void write_keys(pen *p, const layer_source *in)
     if (!count)
         return;
     for (uint64_t i = 0; i <= KEYS_BEHIND + KEYS_AHEAD; i++) {
-        const uint64_t tick = now + i - KEYS_BEHIND; /* counts from 1; smaller values wrap around and give a blank */
+        /* Ticks count from 1; a tick before 1 wraps around to a huge number, and a space is written. */
+        const uint64_t tick = now + i - KEYS_BEHIND;
         const char key = tick - 1 < count ? keys[tick - 1] : ' ';
         used += (size_t)snprintf(text + used, sizeof text - used,
                                  i != KEYS_BEHIND ? "%c "
@@ -236,8 +241,8 @@ static void write_broken(pen *p, const layer_source *in)
     write_wrapped(p, ROLE_WARNING, in->broken);
 }
 
-/* Write the title: in title letters if they leave room for `beside` small letters at the right, otherwise in small
- * ones. Return the height of the letters. */
+/* Write a title. It has large characters if these leave room for `beside` small characters at the right; otherwise it
+ * has small characters. Return the height of the characters in pixels. */
 static int write_title(pen *p, const char *text, size_t beside)
 {
     const scene *s = p->scene;
@@ -250,7 +255,7 @@ static int write_title(pen *p, const char *text, size_t beside)
     return fits ? s->title.height : s->text.height;
 }
 
-/* Write the tick's number, and at its right the key that was pressed and its meaning. */
+/* Write the number of the tick and, at the right, the key that was pressed and its meaning. */
 static void write_tick_title(pen *p, const layer_source *in, const char *title)
 {
     const char key = in->tick->key;
@@ -305,7 +310,7 @@ static void write_folded_depths(pen *p, const scene_tally *tally)
         write_row(p, "drawn as bars", "", "depths %u to %u", tally->folded_from, tally->folded_to);
 }
 
-/* Write a row for each kind of element that is smaller than the view's lod. */
+/* Write a row for each kind of element of which some are left out because they are smaller than the view's lod. */
 static void write_small_counts(pen *p, const scene_tally *tally)
 {
     const size_t counts[] = {tally->small, tally->small_marked, tally->arrows.small};
@@ -320,7 +325,7 @@ static void write_small_counts(pen *p, const scene_tally *tally)
     }
 }
 
-/* Write how many nodes and points are shown, if the view leaves some out. */
+/* If the view leaves out nodes or points, write how many are shown. */
 static void write_shown_counts(pen *p, const scene_tally *tally)
 {
     const view *v = &p->scene->view;
@@ -334,8 +339,8 @@ static void write_shown_counts(pen *p, const scene_tally *tally)
                   plural_ending(tally->points));
 }
 
-/* Write a row for each rule that leaves out or folds elements, and how many are shown. Without such a row there is no
- * rule line either. */
+/* Write a row for each rule by which elements are left out or folded, and how many elements are shown. If there is no
+ * such row, the thin line above these rows is left out too. */
 static void write_view_limits(pen *p)
 {
     const scene_tally *tally = &p->scene->tally;
@@ -362,7 +367,7 @@ static void write_view_limits(pen *p)
 
 /* ---- The column --------------------------------------------------------------------------------------------- */
 
-/* Remove the rule lines of the column that begin at pixel row `from` or below. */
+/* Remove the thin lines between rows of the column that begin at pixel row `from` or below it. */
 static void drop_rules(scene *s, int from)
 {
     size_t kept = 0;
@@ -372,12 +377,12 @@ static void drop_rules(scene *s, int from)
     s->panels.count = kept;
 }
 
-/* Replace the rows that do not fit by a line that counts them. */
+/* If not all rows fit into the picture, replace the last rows by a line that counts them. */
 static void cut_rows(pen *p)
 {
     scene *s = p->scene;
     const int last = s->view.height - s->text.height,
-              line = s->text.line; /* `last`: the lowest y at which a row may begin */
+              line = s->text.line; /* `last`: greatest y at which a row may begin, in pixels */
     size_t kept = 0, rows = 0;
     double at = -1, first = 0;
     if (p->y - line <= last)
@@ -399,8 +404,8 @@ static void cut_rows(pen *p)
     p->y += line;
 }
 
-/* Write the player's rows, if the session has a player. A player that is away leaves its room empty, so that the rows
- * below stay where they are. */
+/* If the session has a player, write its rows. If the player is missing at this tick, leave the rows empty, so that the
+ * rows below stay where they are. */
 static void write_player(pen *p, const layer_source *in)
 {
     const int end = p->y + 3 * p->scene->text.line;
@@ -448,7 +453,7 @@ static void write_tree_rows(pen *p, const layer_source *in)
     write_answers(p, in);
 }
 
-/* Write only the most important lines, on top of a picture without room for the column. */
+/* Write only the most important lines, on top of a picture that has no room for the column. */
 static void add_corner_lines(scene *s, const layer_source *in, const char *title)
 {
     pen p = pen_in_corner(s);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* tick_scene.c - the table of layers, and the functions that compose scenes from it. */
+/* tick_scene.c - contains the table of layers, and composes scenes from the layers. */
 #include "tick_scene.h"
 #include "closeup.h"
 #include "layer_type.h"
@@ -21,9 +21,10 @@ view_layer layer_of_query(octree_query_kind kind)
     return layers[kind];
 }
 
-/* Whether a query of a layer's kind was asked so far, or is known to come. A player moved by keys can ask for the
- * nearest point, and such a session also lists the queries of every tick. Other queries count only once they are asked:
- * a session that is filmed while it is written does not contain later ones. */
+/* Return whether a query of a layer's kind was made at some tick so far, or is known to come. In a session whose player
+ * is moved by key presses, a key press may ask for the nearest point, and the queries that are made at every tick are
+ * known. In other sessions a query counts only once it is made, because a session that is filmed while it is written
+ * does not contain later queries yet. */
 static bool has_query_of(const layer_source *in, view_layer layer)
 {
     const bool known = in->game && in->session->player.kind == OCTREE_PLAYER_KEYS;
@@ -65,7 +66,7 @@ static void add_layers(scene *s, const layer_source *in)
     add_layer(s, in, LAYER_TEXT);
 }
 
-/* Fill the close-up's scene with the same layers. */
+/* Add the same layers to the scene of the close-up. */
 static void add_closeup(scene *s, const layer_source *in, const double place[3], double times)
 {
     layer_source close;
@@ -77,7 +78,7 @@ static void add_closeup(scene *s, const layer_source *in, const double place[3],
     s->out_of_memory |= s->closeup->out_of_memory;
 }
 
-/* Under DIAGRAM_ONLY the panel is the only other layer. */
+/* Build the scene. Under DIAGRAM_ONLY only the diagram and the panel are added. */
 static bool build_scene(scene *s, layer_source *in, const double player[3], closeup_course course)
 {
     const view *v = in->view;
@@ -145,7 +146,7 @@ bool tree_scene_build(scene *s, const view *v, const octree *tree, const tree_su
                        .values = subject->values,
                        .title = subject->title,
                        .requested = subject->node};
-    double center[3]; /* the camera looks at this position, as it looks at the player of a game */
+    double center[3]; /* the position that the camera looks at; in a game it is the player's position */
     scene_box_middle(v->fit == FIT_BOX ? &v->focus : &in.world, center);
     return build_scene(s, &in, center, (closeup_course){0});
 }

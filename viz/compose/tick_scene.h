@@ -9,35 +9,35 @@
 #include "point_values.h"
 #include "scene.h"
 
-/* A tick's panel shows the keys of this many ticks before and after its own. */
+/* The panel shows the key presses of this many ticks before and after its own tick. */
 enum { KEYS_BEHIND = 5, KEYS_AHEAD = 6 };
 
-/* The state that a scene needs from all ticks up to its own. All zero before tick 0. */
+/* The state that a scene needs from all ticks up to its own tick. All members are 0 before tick 0. */
 typedef struct tick_history {
-    heat heat; /* empty unless the view shows a heat layer */
+    heat heat; /* empty if the view shows no heat layer */
     closeup_course closeup;
 } tick_history;
 
 void tick_history_release(tick_history *h);
 
-/* Add the game's last tick, unless it is a gap. Return false when there is no memory. */
+/* Add the game's last tick to the history, unless it is a gap. Return false if memory runs out. */
 bool tick_history_add(tick_history *h, const view *v, const octree_game *game);
 
-/* Fill a scene with the last tick of a game. h is the history up to this tick or up to the tick before; null leaves the
- * heat layers empty. `values` may be null. Return false when there is no memory. */
+/* Build the scene of the last tick of a game. `h` is the history up to this tick or up to the tick before; if it is
+ * null, the heat layers have no elements. `values` may be null. Return false if memory runs out. */
 bool tick_scene_build(scene *s, const view *v, const octree_game *game, const tick_history *h,
                       const point_values *values);
 
-/* The things that a scene shows of a tree in addition to its nodes and points. */
+/* What a scene of a tree shows in addition to the tree's nodes and points. */
 typedef struct tree_subject {
     const char *title;
-    octree_address node; /* the node to mark; the diagram shows the path to it; 0: none */
+    octree_address node; /* the node to mark, to which the diagram shows the path; 0: none */
     const octree_answer *answers;
     size_t answer_count;
-    const point_values *values; /* colours, classes and intensities of its points; may be null */
+    const point_values *values; /* colours, classes and intensities of the tree's points; may be null */
 } tree_subject;
 
-/* Fill a scene with a tree alone. Return false when there is no memory. */
+/* Build the scene of a tree without a game. Return false if memory runs out. */
 bool tree_scene_build(scene *s, const view *v, const octree *tree, const tree_subject *subject);
 
 #endif
