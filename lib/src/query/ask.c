@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* ask.c - the tables of octree/query.h, and checking and asking a query of any kind by its row. */
+/* ask.c - the tables of octree/query.h. Checks and asks a query of any kind, by the table row of its kind. */
 #include "float_mode.h"
 #include "kind.h"
 #include "search.h"
@@ -174,7 +174,7 @@ octree_status ask_query(query_run *run, const octree_query *query, const double 
         run->how.skip = query->skip;
         run->how.skip_id = query->skip_id;
     }
-    /* The exact answer judges; epsilon is the error that the foreign answer may have. */
+    /* epsilon is the permitted error of the foreign answer. The exact answer that judges it has no error. */
     if (query_is_judged(query))
         run->how.epsilon = 0;
     else if (query->epsilon > 0)
@@ -190,7 +190,8 @@ octree_status ask_query(query_run *run, const octree_query *query, const double 
 
 /* ---- Outside a game ----------------------------------------------------------------------------------------- */
 
-/* Copy a list's items to a block of exactly their size and release the list. Null for no items or no memory. */
+/* Copy a list's items to a block of exactly their size, and release the list. Null if there are no items or no
+ * memory. */
 static void *move_to_block(arena *memory, list *l, size_t item_size)
 {
     void *items = l->count ? arena_allocate(memory, l->count * item_size) : NULL;

@@ -23,29 +23,30 @@
 #include "search.h"
 #include "tasks.h"
 
-/* An inner node whose children are being searched. */
+/* An inner node on the current path, whose children are being searched. */
 typedef struct frame {
     const node *node;
     octree_address address;
-    double center[3];     /* of its cell, in units in which the world extends from -1 to 1 */
-    double squares[3][2]; /* squared distance of a child on each axis: [axis][0: near half, 1: far half] */
-    uint8_t near;         /* the nearest octant */
-    uint8_t flips[8];     /* octant ^ near of each child, in order of distance */
-    uint8_t next;         /* index of the next element of `flips` */
-    uint8_t left;         /* mask of the octants not yet searched */
+    double center[3];     /* the centre of the node's cell, in units in which the world extends from -1 to 1 */
+    double squares[3][2]; /* on each axis, the squared distance from the target to a child: [axis][0: near half, 1: far
+                             half] */
+    uint8_t near;         /* the octant nearest to the target */
+    uint8_t flips[8];     /* `octant ^ near` of each child, sorted by distance */
+    uint8_t next;         /* the index of the next element of `flips` */
+    uint8_t left;         /* bit mask of the octants that are not searched yet */
 } frame;
 
 typedef struct search {
     const octree *tree;
     neighbor_heap found;
     meter meter;
-    double root_squares[3];         /* squared distance from the target to the world on each axis */
-    unsigned open;                  /* count of open frames; the innermost has depth open - 1 */
-    frame frames[OCTREE_MAX_DEPTH]; /* frames[d] is the frame of depth d */
+    double root_squares[3];         /* on each axis, the squared distance from the target to the world */
+    unsigned open;                  /* the number of open frames; the innermost one has depth open - 1 */
+    frame frames[OCTREE_MAX_DEPTH]; /* frames[d] is the frame of the path's node of depth d */
 } search;
 
-/* Swap two values and their labels if they are out of order. Without branches, because they would be unpredictable.
- */
+/* Swap two values, and the labels that belong to them, if the values are out of order. Without branches, because they
+ * would be unpredictable. */
 static inline void sort_two_labeled(double *a, double *b, uint8_t *of_a, uint8_t *of_b)
 {
     const double lesser = *b < *a ? *b : *a, greater = *b < *a ? *a : *b;
@@ -56,8 +57,8 @@ static inline void sort_two_labeled(double *a, double *b, uint8_t *of_a, uint8_t
     *of_b ^= change;
 }
 
-/* Sort the octants by distance. The subset sums of increments a <= b <= c ascend as 0, a, b, min(c, a + b), and then
- * the complements of these in reverse order. */
+/* Sort the octants by distance. An octant's distance is a sum of some of three increments a <= b <= c. The eight sums
+ * ascend as 0, a, b, min(c, a + b), and then the complements of these four in reverse order. */
 static void sort_octants_by_distance(frame *f)
 {
     double a = f->squares[0][1] - f->squares[0][0];
@@ -75,7 +76,8 @@ static void sort_octants_by_distance(frame *f)
         f->flips[7 - i] = 7 ^ f->flips[i];
 }
 
-/* Measure the planes that split a frame's cell. Its centre and the squares of its near halves are already set. */
+/* Measure the distances to the planes that split a frame's cell. The cell's centre and the squares of the near halves
+ * are already set. */
 static void measure_planes(const search *s, frame *f)
 {
     f->near = 0;
@@ -134,7 +136,7 @@ static double square_of_child(const frame *f, unsigned flip)
     return (f->squares[0][flip >> 2] + f->squares[1][flip >> 1 & 1]) + f->squares[2][flip & 1];
 }
 
-/* Search the nearest remaining child of the innermost node, or close the node if no child is within reach. */
+/* Search the nearest unsearched child of the innermost node. If no such child is within reach, close the node. */
 static void search_next_child(search *s)
 {
     frame *f = &s->frames[s->open - 1];
@@ -160,7 +162,7 @@ static void search_next_child(search *s)
     s->open--;
 }
 
-/* Fill the frame of a node on the path to the target's leaf; the octant on the path counts as searched. */
+/* Fill the frame of a node on the path to the target's leaf. The octant on the path counts as searched already. */
 static frame *open_path_node(search *s, const node *n, uint64_t code, const uint32_t keys[3], unsigned depth)
 {
     frame *f = &s->frames[depth];
@@ -178,12 +180,13 @@ static frame *open_path_node(search *s, const node *n, uint64_t code, const uint
     return f;
 }
 
-/* Search the octants of a node that are not on the path to the target's leaf. Usually all are out of reach. */
+/* Search those octants of a node that are not on the path to the target's leaf. Usually all of them are out of
+ * reach. */
 static void search_siblings(search *s, frame *f, unsigned depth)
 {
     const double reach = s->found.node_reach;
     const double x = square_of_child(f, 4), y = square_of_child(f, 2), z = square_of_child(f, 1);
-    if ((x > reach) & (y > reach) & (z > reach)) { /* one branch: three would be unpredictable */
+    if ((x > reach) & (y > reach) & (z > reach)) { /* one branch, because three would be unpredictable */
         meter_prune(&s->meter, f->address, f->left);
         return;
     }
@@ -193,8 +196,8 @@ static void search_siblings(search *s, frame *f, unsigned depth)
         search_next_child(s);
 }
 
-/* The codes of the adjacent cells of the target's cell that the search will probably visit: those within a quarter of
- * the cell's size from the target for k = 1, within half for k > 1. Returns their count. */
+/* Store the codes of those neighbouring cells of the target's cell that the search will probably visit. They are within
+ * a quarter of the cell's size from the target if k = 1, within half of it if k > 1. Returns the number of codes. */
 static unsigned find_adjacent_codes(const uint32_t keys[3], unsigned depth, size_t k, uint64_t codes[3])
 {
     const uint32_t size = cell_size(depth), close = k > 1 ? size / 2 : size / 4;
@@ -212,7 +215,7 @@ static unsigned find_adjacent_codes(const uint32_t keys[3], unsigned depth, size
     return count;
 }
 
-/* Prefetch the leaves adjacent to the target's leaf while that one is being loaded. */
+/* Prefetch the leaves adjacent to the target's leaf, while the processor loads the target's leaf. */
 static void prefetch_adjacent_leaves(const path *p, uint64_t code, const uint32_t keys[3], size_t k)
 {
     uint64_t codes[3];
@@ -229,7 +232,7 @@ static void prefetch_adjacent_leaves(const path *p, uint64_t code, const uint32_
     }
 }
 
-/* The keys of the target, clamped to the world. */
+/* Store the keys of the target's position after clamping it to the world. */
 static void find_nearest_keys(const octree *tree, const double target[3], uint32_t keys[3])
 {
     for (int i = 0; i < 3; i++) {
@@ -238,9 +241,11 @@ static void find_nearest_keys(const octree *tree, const double target[3], uint32
     }
 }
 
-/* The number of nodes on the path, from the root down, whose splitting planes are all out of reach of the target: 20
- * minus the highest bit in which the keys of target - reach and target + reach differ on any axis. The reach in keys is
- * widened by the error of the keys plus two. 0 where keys are not reliable or the target is outside the world. */
+/* The number of nodes on the path, from the root down, whose splitting planes are all out of reach of the target.
+ *
+ * It is 20 minus the highest bit in which the keys of target - reach and target + reach differ on any axis. The reach
+ * in keys is widened by the error of the keys plus two. The result is 0 if the keys are not reliable or the target is
+ * outside the world. */
 static unsigned count_nodes_out_of_reach(const search *s, const uint32_t keys[3])
 {
     const double reach = sqrt(s->found.node_reach) / s->found.metric.scale;
@@ -280,7 +285,7 @@ static void search_from_root(search *s)
         meter_trace(&s->meter, morton_address(code, depth), OCTREE_TRACE_VISITED);
     unsigned depth = p.depth;
     if (p.nodes[depth]->octants) {
-        depth++; /* the target's octant has no node: search the children of this node like those of the others */
+        depth++; /* no node exists for the target's octant, so all children of this node are searched like siblings */
     } else {
         leaf_prefetch(p.nodes[depth]);
         prefetch_adjacent_leaves(&p, code, keys, s->found.k);
@@ -297,7 +302,7 @@ static void search_from_root(search *s)
 
 #define NO_RADIUS (-1.0)
 
-/* Search with valid arguments and k >= 1. Returns the number of points found. */
+/* Search the tree. The arguments are valid and k >= 1. Returns the number of points found. */
 static size_t search_tree(const octree *tree, const double target[3], size_t k, double radius, const octree_search *how,
                           octree_neighbor *neighbors)
 {
@@ -376,7 +381,7 @@ static octree_status check_batch_arguments(const octree *tree, const double (*ta
     return status;
 }
 
-/* Targets: the lead of prefetching in the caller's arrays, which are not accessed in order. */
+/* The caller's arrays are not accessed in order. Their elements are prefetched this many targets ahead. */
 #define PREFETCH_AHEAD 4
 
 typedef struct target_batch {
@@ -426,7 +431,7 @@ static void search_in_morton_order(target_batch *b, arena *memory)
 {
     run_tasks(b->tree, find_codes_of_share, b->tasks, b);
     morton_sort_tasks(b->tree, memory, b->order, b->order + b->count, b->count, 0, false);
-    /* One task traces: the caller's tracer need not be thread-safe. */
+    /* With a tracer there is only one task, because the caller's tracer need not be thread-safe. */
     if (b->how.trace)
         b->tasks = 1;
     run_tasks(b->tree, search_targets_of_share, b->tasks, b);
@@ -443,7 +448,8 @@ octree_status octree_nearest_batch(const octree *tree, const double (*targets)[3
     const octree_status status = check_batch_arguments(tree, targets, count, &search, neighbors);
     if (status != OCTREE_OK || count == 0)
         return status;
-    arena memory = {.allocator = tree->def.allocator}; /* queries do not change the tree's own byte count */
+    /* an arena of its own, because queries must not change the tree's byte count */
+    arena memory = {.allocator = tree->def.allocator};
     target_batch b = {tree, targets, count, search, neighbors, found, .tasks = count_tasks(tree, count)};
     const size_t size = count <= SIZE_MAX / 2 / sizeof(morton_item) ? 2 * count * sizeof(morton_item) : SIZE_MAX;
     b.order = size < SIZE_MAX ? arena_allocate(&memory, size) : NULL;

@@ -16,13 +16,14 @@
 #include "search.h"
 
 #if defined(__GNUC__)
-#define RARE __attribute__((noinline)) /* not inlined, so that the frequent path saves fewer registers */
+#define RARE                                                                                                           \
+    __attribute__((noinline)) /* keeps rare code out of line, so that the frequent path saves fewer registers */
 #else
 #define RARE
 #endif
 
-/* With k neighbours found, the farthest one limits the search. Nodes keep the tolerance of exact mode in FAST mode: the
- * bound of epsilon and the order of siblings (nearest.c) depend on it. */
+/* Set the reach of the search. With k neighbours found, the farthest one limits it. In FAST mode nodes keep the
+ * tolerance of EXACT mode, because the bound of epsilon and the order of siblings (nearest.c) depend on it. */
 static void set_reach(neighbor_heap *h, double worst)
 {
     h->point_reach = h->how.mode == OCTREE_FAST ? worst : metric_above(worst);
@@ -58,7 +59,7 @@ static int compare_near_tie(const neighbor_heap *h, const octree_point *p, const
     return order ? order : octree_compare_points(p, q);
 }
 
-/* The order of the results: by distance, then by id, then by position. */
+/* Compare two neighbours in the order of the results: by distance, then by id, then by position. */
 static inline int compare_neighbors(const neighbor_heap *h, const octree_point *p, double p_square,
                                     const octree_point *q, double q_square)
 {
@@ -69,7 +70,7 @@ static inline int compare_neighbors(const neighbor_heap *h, const octree_point *
     return compare_near_tie(h, p, q, p_square);
 }
 
-/* ---- Few ---------------------------------------------------------------------------------------------------- */
+/* ---- Up to 32 neighbours: a sorted array of keys -------------------------------------------------------------- */
 
 static unsigned slot_of_key(double key)
 {
@@ -87,8 +88,8 @@ static double make_slot_key(double square, unsigned place)
     return square;
 }
 
-/* A neighbour with a square or key below this value is certainly nearer than one with `key`: each key is off by at most
- * 2^-47 of itself, and metric_below() covers the errors of the squares. */
+/* Return a limit: a neighbour with a smaller square or key is certainly nearer than the neighbour with `key`. Each key
+ * is off by at most 2^-47 of itself, and metric_below() covers the errors of the squares. */
 static double certainly_below(double key)
 {
     return key * (1 - 0x1p-45) - 0x1p-998;
@@ -99,7 +100,7 @@ static RARE bool is_nearer(const neighbor_heap *h, const octree_point *point, do
     return compare_neighbors(h, point, square, h->few.points[place], h->few.squares[place]) < 0;
 }
 
-/* Compare the neighbours of two keys. */
+/* Compare the neighbours that two keys belong to, exactly. */
 static int compare_keys(const neighbor_heap *h, double a, double b)
 {
     const unsigned place = slot_of_key(a);
@@ -113,11 +114,12 @@ static void begin_few_neighbors(neighbor_heap *h)
     for (int i = 0; i < FEW_FIRST; i++)
         h->few.keys[i] = -1;
     for (unsigned i = 0; i < h->k; i++)
-        h->few.keys[FEW_FIRST + i] = make_slot_key(2 * METRIC_FINITE, i); /* greater than the key of any point */
+        /* this initial key is greater than the key of any point */
+        h->few.keys[FEW_FIRST + i] = make_slot_key(2 * METRIC_FINITE, i);
 }
 
-/* Insert a key in ascending order and drop the key at `last`. Without branches, because they would be unpredictable:
- * each key becomes the median of itself, its predecessor and the new key. */
+/* Insert a key in ascending order and drop the key at index `last`. Each key becomes the median of itself, its
+ * predecessor and the new key. This needs no branches, which would be unpredictable. */
 static inline void insert_key(double *keys, size_t last, double key)
 {
 #ifdef OCTREE_SSE2
@@ -138,7 +140,8 @@ static inline void insert_key(double *keys, size_t last, double key)
 #endif
 }
 
-/* Among the last neighbours whose keys are too close to decide, move the farthest one to the end. */
+/* The keys of the last neighbours may be too close to decide which is farthest. Move the one that is farthest by exact
+ * comparison to the end. */
 static RARE void settle_last(const neighbor_heap *h, double *keys, size_t last)
 {
     size_t farthest = last;
@@ -162,7 +165,7 @@ static void add_to_few_neighbors(neighbor_heap *h, const octree_point *point, do
         return;
     f->points[place] = point;
     f->squares[place] = square;
-    /* A square that is NaN also becomes METRIC_FINITE. */
+    /* A square that is too large or NaN becomes METRIC_FINITE. */
     insert_key(f->keys, last, make_slot_key(square < METRIC_FINITE ? square : METRIC_FINITE, place));
     if (h->count < h->k)
         return;
@@ -185,14 +188,14 @@ static void sort_few_neighbors(const neighbor_heap *h, double *keys)
         h->items[i].point = *h->few.points[slot_of_key(keys[i])];
 }
 
-/* ---- Many --------------------------------------------------------------------------------------------------- */
+/* ---- More than 32 neighbours: a binary heap ------------------------------------------------------------------- */
 
 static inline int compare_items(const neighbor_heap *h, const octree_neighbor *p, const octree_neighbor *q)
 {
     return compare_neighbors(h, &p->point, p->distance, &q->point, q->distance);
 }
 
-/* Replace the top of the heap of `count` items by `item` and restore the heap order downwards. */
+/* Replace the top of a heap of `count` items by `item`, and move the item down to its place. */
 static void sink_in_heap(const neighbor_heap *h, const octree_neighbor *item, size_t count)
 {
     octree_neighbor *items = h->items;
@@ -207,7 +210,7 @@ static void sink_in_heap(const neighbor_heap *h, const octree_neighbor *item, si
     items[at] = *item;
 }
 
-/* Append an item at index `at` and restore the heap order upwards. */
+/* Append an item to the heap at index `at`, and move it up to its place. */
 static void rise_in_heap(const neighbor_heap *h, const octree_neighbor *item, size_t at)
 {
     octree_neighbor *items = h->items;
@@ -236,7 +239,7 @@ static void sort_heap(const neighbor_heap *h)
     }
 }
 
-/* ---- Both --------------------------------------------------------------------------------------------------- */
+/* ---- Any number of neighbours --------------------------------------------------------------------------------- */
 
 void neighbor_heap_begin(neighbor_heap *h, const octree_search *how, double radius, octree_neighbor *room, size_t k)
 {
@@ -263,8 +266,8 @@ void neighbor_heap_add(neighbor_heap *h, const octree_point *point, double squar
         add_to_heap(h, point, square);
 }
 
-/* In FAST mode squares may underflow or round to the same double, so that the order need not be that of the distances:
- * sort by the distances themselves. */
+/* Sort by the distances themselves. In FAST mode squares may underflow or round to the same double, so their order may
+ * differ from that of the distances. */
 static RARE void sort_by_distance(neighbor_heap *h)
 {
     for (size_t i = 0; i < h->count; i++) {
@@ -285,7 +288,7 @@ void neighbor_heap_finish(neighbor_heap *h)
         const double distance = metric_distance(h->metric.target, h->items[i].point.position);
         const double before = i > 0 ? h->items[i - 1].distance : 0;
         ascend = ascend && distance >= before;
-        /* In EXACT mode the order is exact; rounded distances must not contradict it. */
+        /* In EXACT mode the order is exact. A distance that was rounded below its predecessor is raised to it. */
         h->items[i].distance = h->how.mode == OCTREE_FAST ? distance : fmax(distance, before);
     }
     if (h->how.mode == OCTREE_FAST && !ascend)

@@ -11,45 +11,50 @@
 
 #include <stddef.h>
 
-/* Up to 32 neighbours in numbered slots. A key is a neighbour's square whose lowest FEW_BITS bits hold its slot. Keys
- * ascend, except that the last of k keys belongs to the neighbour that is farthest by exact comparison. */
+/* Up to 32 neighbours in numbered slots. The key of a neighbour is its square, with the lowest FEW_BITS bits replaced
+ * by its slot number. The keys ascend, with one exception: the last of k keys belongs to the neighbour that is farthest
+ * by exact comparison. */
 #define FEW_BITS 5
 #define FEW_NEIGHBORS (1 << FEW_BITS)
-/* Index of the first key. The smaller sentinels before it let pairwise insertion run past the start. */
+/* The index of the first key. The elements before it are smaller sentinels, so that insertion in pairs may run past the
+ * start. */
 #define FEW_FIRST 3
 typedef struct few_neighbors {
     double keys[FEW_FIRST + FEW_NEIGHBORS];
-    double squares[FEW_NEIGHBORS]; /* indexed by slot, like `points` */
+    double squares[FEW_NEIGHBORS]; /* the square of each neighbour, indexed by slot like `points` */
     const octree_point *points[FEW_NEIGHBORS];
 } few_neighbors;
 
 typedef struct neighbor_heap {
     metric metric;
     octree_search how;
-    double radius; /* negative: the distance is not limited */
+    double radius; /* the search radius; negative: the distance is not limited */
     double radius_square;
-    double shrink;      /* 1 / (1 + epsilon)^2, rounded up: nodes are pruned beyond the farthest square times this */
-    double point_reach; /* a point with a greater square is not among the k nearest */
-    double node_reach;  /* a node with a greater square contains none of the k nearest */
-    octree_neighbor *items; /* the caller's array; `distance` holds scaled squares until the end */
+    double shrink; /* 1 / (1 + epsilon)^2, rounded up: a node is pruned if its square exceeds the farthest square times
+                      this factor */
+    double point_reach;     /* a point with a greater square is not among the k nearest */
+    double node_reach;      /* a node with a greater square contains none of the k nearest */
+    octree_neighbor *items; /* the caller's array. Until the end of the search `distance` holds scaled squares */
     size_t count, k;
-    few_neighbors few; /* used instead of `items` until the end if k <= FEW_NEIGHBORS */
+    few_neighbors few; /* used in place of `items` until the end of the search, if k <= FEW_NEIGHBORS */
 } neighbor_heap;
 
-/* Start a search. h->metric is already set; radius < 0 means no limit; `room` holds k neighbours. */
+/* Start a search. h->metric is already set. radius < 0 means that the distance is not limited. `room` has room for k
+ * neighbours. */
 void neighbor_heap_begin(neighbor_heap *h, const octree_search *how, double radius, octree_neighbor *room, size_t k);
 
-/* The square beyond which points are not among the k nearest, given that a point with the square `square` exists. */
+/* The limit of squares: points beyond it are not among the k nearest. It uses that a point with the square `square`
+ * exists. */
 static inline double neighbor_heap_reach(const neighbor_heap *h, double square)
 {
     const double reach = metric_above(square);
     return h->k == 1 && h->how.skip == OCTREE_SKIP_NONE && reach < h->point_reach ? reach : h->point_reach;
 }
 
-/* Offer a point whose square is not above point_reach. It is kept if it is not skipped and is among the k nearest. */
+/* Offer a point whose square is at most point_reach. The point is kept if it is among the k nearest and not skipped. */
 void neighbor_heap_add(neighbor_heap *h, const octree_point *point, double square);
 
-/* Sort the neighbours by distance, id and position, and replace squares by distances. */
+/* Sort the neighbours by distance, id and position. Replace their squares by distances. */
 void neighbor_heap_finish(neighbor_heap *h);
 
 #endif

@@ -3,20 +3,20 @@
 #include "float_mode.h"
 #include "region.h"
 
-/* Squared distances from the ball's centre to the parts of a cell, axis by axis. Values of the lower and upper half are
- * indexed by 0 and 1, because branches would be unpredictable. */
+/* Squared distances from the ball's centre to the parts of a cell, along each axis. Index 0 stands for the lower half,
+ * 1 for the upper half. An index needs no branch, which would be unpredictable. */
 typedef struct ball_cell {
-    double center[3];  /* of the cell, in units in which the world extends from -1 to 1 */
-    double near[3];    /* to the nearest place of the cell */
-    double ends[3][2]; /* to the lower plane of the cell and to the upper one */
-    double middle[3];  /* to the plane that splits the cell */
-    double half[3][2]; /* to the nearest place of its lower half and of its upper one */
+    double center[3];  /* the cell's centre, in units in which the world extends from -1 to 1 */
+    double near[3];    /* the squared distance to the nearest coordinate in the cell */
+    double ends[3][2]; /* the squared distances to the cell's lower and upper planes */
+    double middle[3];  /* the squared distance to the plane that splits the cell */
+    double half[3][2]; /* the squared distances to the nearest coordinate in the lower and in the upper half */
 } ball_cell;
 
 typedef struct ball {
     metric metric;
     octree_mode mode;
-    double radius; /* not scaled */
+    double radius; /* the radius in world units, not scaled */
     double square; /* the square of the scaled radius */
     double reach;  /* a point or cell with a greater square is outside the ball */
     double whole;  /* a cell with a smaller square is inside the ball of radius + epsilon */
@@ -82,7 +82,7 @@ static uint64_t scan_ball_points(const void *shape, const octree_point *points, 
     return found;
 }
 
-/* Measure the root's cell. The masks are those of the root itself, in the lowest bit. */
+/* Measure the root's cell. The lowest bits of the returned masks are about the root itself. */
 static octant_masks measure_root(ball *b, const octree *tree)
 {
     ball_cell *c = &b->cells[0];

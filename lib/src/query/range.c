@@ -6,7 +6,8 @@
 
 #include <stdlib.h>
 
-/* The box with its faces moved out by epsilon, rounded inwards so that no point beyond epsilon counts as inside. */
+/* The box with its faces moved out by epsilon. The result is rounded inwards, so that no point farther out than epsilon
+ * counts as inside. */
 static octree_box widen_box(const octree_box *box, double epsilon)
 {
     octree_box wide;
@@ -61,8 +62,8 @@ octree_status octree_range_count(const octree *tree, const octree_box *box, size
     return status;
 }
 
-/* ---- Results in an array ------------------------------------------------------------------------------------------
- */
+/* ---- Results in an array
+ * ------------------------------------------------------------------------------------------ */
 
 typedef struct collection {
     octree_point *points;
@@ -78,7 +79,7 @@ static bool collect_first(const octree_point *point, void *context)
     return true;
 }
 
-/* Restore the heap order, greatest point on top, after the top was replaced. */
+/* Restore the heap order after the top was replaced. The greatest point is on top. */
 static void sink_in_heap(octree_point *heap, size_t count)
 {
     for (size_t at = 0, child; (child = 2 * at + 1) < count; at = child) {
@@ -97,8 +98,8 @@ static int compare_reversed(const void *a, const void *b)
     return octree_compare_points(b, a);
 }
 
-/* Keep the `room` smallest points. A full array is sorted in descending order, which makes it a heap with the greatest
- * point on top; each smaller point then replaces the top. */
+/* An octree_point_visitor: keep the `room` smallest points. When the array is full it is sorted in descending order,
+ * which makes it a heap with the greatest point on top. From then on each smaller point replaces the top. */
 static bool collect_smallest(const octree_point *point, void *context)
 {
     collection *c = context;
@@ -158,7 +159,7 @@ octree_status octree_collision_box(const double center[3], double box_size, octr
     if (status == OCTREE_OK)
         status = check_length(box_size);
     for (int i = 0; status == OCTREE_OK && i < 3; i++) {
-        const double middle = center[i]; /* read first: `center` may point into *box */
+        const double middle = center[i]; /* read before *box is written: `center` may point into *box */
         box->min[i] = exact_add_up(middle, -box_size);
         box->max[i] = exact_add_down(middle, box_size);
     }

@@ -7,22 +7,24 @@
 typedef struct frame {
     const node *node;
     octree_address address;
-    uint8_t pending; /* octants of children not yet visited */
-    uint8_t inside;  /* octants that lie within the region */
+    uint8_t pending; /* bit mask of the octants whose children are not visited yet */
+    uint8_t inside;  /* bit mask of the octants that lie within the region */
 } frame;
 
-/* Leaves wait in a queue while their points are loaded from memory; the descent continues meanwhile. */
+/* The room of a queue of leaves. A leaf waits in it while its points are loaded from memory; meanwhile the descent
+ * continues. */
 #define QUEUE_ROOM 16
 
 typedef struct descent {
     region *region;
     unsigned depth;
     frame frames[OCTREE_MAX_DEPTH + 1];
-    unsigned queued, scanned; /* the numbers of leaves put into the queue and scanned so far */
+    /* the number of leaves put into the queue so far, and the number of leaves scanned so far */
+    unsigned queued, scanned;
     const node *queue[QUEUE_ROOM];
 } descent;
 
-/* Visit every point in and below a node. False when the visitor stopped. */
+/* Visit every point in and below a node. False if the visitor stopped the search. */
 static bool visit_points_below(region *r, const node *n)
 {
     const unsigned children = bits_count8(n->octants);
@@ -93,7 +95,7 @@ static void open_node(descent *d, const node *n, octree_address address, unsigne
     meter_prune(&r->meter, address, n->octants & ~masks.meets);
 }
 
-/* Visit a node that meets the region. False when the visitor stopped. */
+/* Visit a node that meets the region. False if the visitor stopped the search. */
 static bool visit_node(descent *d, const node *n, octree_address address, unsigned octant, bool inside)
 {
     if (inside)
@@ -149,8 +151,8 @@ static key_box find_box_keys(const octree *tree, const octree_box *box)
     return keys;
 }
 
-/* The keys such that every cell strictly between them is inside the box. A box whose face is a plane contains the cell
- * that begins at that plane. */
+/* Return a box of keys: every cell strictly between them lies inside the box. If a face of the box coincides with a
+ * plane, the box contains the cell that begins at that plane. */
 static key_box find_enclosing_keys(const octree *tree, const octree_box *box, key_box keys)
 {
     for (int i = 0; i < 3; i++)
@@ -197,7 +199,7 @@ octant_masks box_shape_enter(void *shape, const octree *tree, unsigned depth, un
         const int32_t middle = low + half, high = low + size;
         const uint8_t below = octants_beside[i][0], above = octants_beside[i][1];
         s->low[depth][i] = low;
-        /* The node itself meets the box, so that only its middle plane decides. */
+        /* The node itself meets the box, so only its middle plane decides which octants do. */
         meets &= bits_if(s->near.min[i] < middle, below) | bits_if(middle <= s->near.max[i], above);
         inside &= (bits_if(s->whole.min[i] < low, below) & bits_if(middle <= s->whole.max[i], below)) |
                   (bits_if(s->whole.min[i] < middle, above) & bits_if(high <= s->whole.max[i], above));
@@ -211,7 +213,7 @@ typedef struct twin_box {
     __m128d min[3], max[3];
 } twin_box;
 
-/* A mask of two bits: whether each of two points is in the box. */
+/* Return a mask of two bits, one for each point: the bit is set if the point is in the box. */
 static inline uint64_t scan_point_pair(const twin_box *box, const double a[3], const double b[3])
 {
     const __m128d xy_a = _mm_loadu_pd(a), xy_b = _mm_loadu_pd(b);
@@ -225,7 +227,7 @@ static inline uint64_t scan_point_pair(const twin_box *box, const double a[3], c
     return (uint64_t)_mm_movemask_pd(inside);
 }
 
-/* For an odd count the last pair overlaps the pair before it, so that no branch depends on the parity. */
+/* If the count is odd, the last pair overlaps the pair before it, so no branch depends on the parity. */
 static uint64_t scan_points_in_pairs(const octree_box *box, const octree_point *points, unsigned count)
 {
     twin_box twin;

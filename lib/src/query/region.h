@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* region.h - visiting the points in a region of space: a box, a ball, or the volume that a moving box sweeps. Private.
  *
- * A region is a `shape` with two functions, enter and scan. The traversal is depth first. A shape keeps state for the
- * current cell of each depth, so that a child's state is computed from its parent's.
+ * The traversal of the nodes is the same for all regions; a region supplies a `shape` with two functions, enter and
+ * scan. The traversal is depth first. A shape keeps state for the current cell of each depth, so that a child's state
+ * is computed from its parent's.
  */
 #ifndef OCTREE_REGION_H
 #define OCTREE_REGION_H
@@ -15,13 +16,14 @@ typedef struct octant_masks {
     uint8_t inside; /* the octant lies within the region */
 } octant_masks;
 
-/* The octants in the lower and in the upper half of a cell, for each axis. */
+/* For each axis, a bit mask of the octants in the lower half of a cell and one of those in the upper half. */
 static const uint8_t octants_beside[3][2] = {{0x0f, 0xf0}, {0x33, 0xcc}, {0x55, 0xaa}};
 
 typedef struct region {
     const octree *tree;
     void *shape;
-    /* Returns the masks of a cell at a depth: the given octant of the cell last entered one level above. */
+    /* Returns the masks of a cell at a depth. The cell is the given octant of the cell that was last entered one level
+     * above. */
     octant_masks (*enter)(void *shape, const octree *tree, unsigned depth, unsigned octant);
     /* Returns a mask of the points that are in the region; 1 <= count <= SCAN_POINTS. */
     uint64_t (*scan)(const void *shape, const octree_point *points, unsigned count);
@@ -31,29 +33,29 @@ typedef struct region {
     meter meter;
 } region;
 
-/* Visit or count the points in a region and report the cost. `root` holds the masks of the root in the lowest bit. */
+/* Visit or count the points in a region and report the cost. The lowest bits of `root` are about the root itself. */
 void region_search(region *r, octant_masks root);
 
 /* ---- A closed box ------------------------------------------------------------------------------------------- */
 
-/* A box in keys (plane.h), so that cells are compared by integers. Keys are monotone: a point whose key is strictly
- * between those of the faces is in the box, and a point whose key is outside them is not. A face at or beyond the
- * world's face has a key one beyond all others. */
+/* A box in keys (plane.h), so that cells are compared with integers. Keys ascend with the coordinates. So a point whose
+ * key is strictly between those of the faces is in the box, and a point whose key is outside them is not. A face at or
+ * beyond the world's face has a key one beyond all other keys. */
 typedef struct key_box {
     int32_t min[3], max[3];
 } key_box;
 
 typedef struct box_shape {
     const octree_box *box;
-    key_box near;                     /* the box: cells that do not meet it are pruned */
-    key_box whole;                    /* the box widened by epsilon: cells inside it are taken whole */
+    key_box near;                     /* the box itself: cells that do not meet it are pruned */
+    key_box whole;                    /* the box widened by epsilon: nodes whose cell is inside it are taken whole */
     int32_t low[OCTREE_MAX_DEPTH][3]; /* the lowest keys of the current cell at each depth */
 } box_shape;
 
-/* The shape of a box. `whole` is the box itself, or the box widened by epsilon. */
+/* Make the shape of a box. `whole` is the same box, or the box widened by epsilon. */
 box_shape box_shape_make(const octree *tree, const octree_box *box, const octree_box *whole);
 
-/* The functions for region_search(). */
+/* The functions of a box's shape, for region_search(). */
 octant_masks box_shape_root(const box_shape *s, const octree *tree);
 octant_masks box_shape_enter(void *shape, const octree *tree, unsigned depth, unsigned octant);
 uint64_t box_shape_scan(const void *shape, const octree_point *points, unsigned count);

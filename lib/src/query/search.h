@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* search.h - shared by all queries: argument checks, and the count and trace of visited nodes. Private. */
+/* search.h - functions that all queries share: argument checks, and counting and tracing the visited nodes. Private. */
 #ifndef OCTREE_SEARCH_H
 #define OCTREE_SEARCH_H
 
@@ -9,21 +9,21 @@
 
 #include <math.h>
 
-#define SCAN_POINTS 64 /* the number of points of a leaf that are compared in one call */
+#define SCAN_POINTS 64 /* the greatest number of points of a leaf that are compared in one call */
 
-/* *how, or the default options for null. */
+/* Return a copy of *how, or the default options if `how` is null. */
 octree_search search_or_default(const octree_search *how);
 
-/* Returns OK, BAD_OPTION, NOT_FINITE or BAD_SIZE. */
+/* Check the options of a search. Returns OK, BAD_OPTION, NOT_FINITE or BAD_SIZE. */
 octree_status check_search_options(const octree_search *how);
 
-/* Returns OK or NOT_FINITE. */
+/* Check that a position is finite. Returns OK or NOT_FINITE. */
 octree_status check_finite_position(const double position[3]);
 
-/* Returns OK, NOT_FINITE, or BAD_SIZE for a negative length. */
+/* Check that a length is finite and not negative. Returns OK, NOT_FINITE, or BAD_SIZE for a negative length. */
 octree_status check_length(double length);
 
-/* Returns OK, NULL_ARGUMENT, NOT_FINITE (a NaN) or BAD_RANGE. */
+/* Check a box. Returns OK, NULL_ARGUMENT, NOT_FINITE (a NaN) or BAD_RANGE (min > max). */
 octree_status check_box(const octree_box *box);
 
 /* Whether `size` bytes hold printable ASCII characters and a final zero. */
@@ -35,14 +35,15 @@ static inline double larger(double a, double b)
     return a > b ? a : b;
 }
 
-/* Whether a square is compared without exact arithmetic: in FAST mode, unless it overflowed. */
+/* Whether a square is compared as a double, without exact arithmetic. It is in FAST mode, unless the square
+ * overflowed. */
 static inline bool is_compared_as_double(octree_mode mode, double square)
 {
     return mode == OCTREE_FAST && square < HUGE_VAL;
 }
 
-/* Whether a point with this scaled square is within a radius, whose scaled square is given too. The caller has already
- * excluded points that are certainly farther. */
+/* Whether a point is within a radius. `square` is the scaled squared distance of the point, `radius_square` the scaled
+ * squared radius. The caller has already excluded points that are certainly farther. */
 static inline bool is_within_ball(const metric *m, octree_mode mode, const octree_point *point, double square,
                                   double radius, double radius_square)
 {
@@ -53,9 +54,9 @@ static inline bool is_within_ball(const metric *m, octree_mode mode, const octre
     return metric_compare_radius(m->target, point->position, radius) <= 0;
 }
 
-/* A visitor's context: call `visit` for all points but one. */
+/* A context for visit_unless_self(), which calls `visit` for all points except `self`. */
 typedef struct collision {
-    const octree_point *self; /* the colliding point, which is skipped; may be null */
+    const octree_point *self; /* the colliding point itself, which is skipped; may be null */
     octree_point_visitor visit;
     void *context;
 } collision;
@@ -82,7 +83,7 @@ static inline void meter_visit(meter *m, octree_address address)
     meter_trace(m, address, OCTREE_TRACE_VISITED);
 }
 
-/* Record a node that is inside the region. */
+/* Record a node that is taken whole, because it is inside the region. */
 static inline void meter_take_whole(meter *m, octree_address address)
 {
     m->count.taken++;

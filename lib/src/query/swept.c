@@ -15,8 +15,8 @@
  *
  * If d_i or d_j is 0, the box around the step implies this already.
  *
- * Error bound. Everything is scaled by a power of two that brings step, positions and world below 8; this is exact but
- * for less than 2^-1074. Let u = 2^-53 and S = |d_i| far_j + |d_j| far_i + R, where far is the distance from a to the
+ * Error bound. Everything is scaled by a power of two that brings step, positions and world below 8. The scaling has an
+ * error below 2^-1074. Let u = 2^-53 and S = |d_i| far_j + |d_j| far_i + R, where far is the distance from a to the
  * farther end of the world. For a point, the error of side is at most 5u S (roundings in d, in p - a, in the product,
  * in the sum, and their combination), that of R at most 4u S. For a cell, planes are treated as evenly spaced: side at
  * its lowest corner is that of the world's lowest corner (5u S) plus two products of a key (4u of at most 2S each);
@@ -29,19 +29,19 @@
 #include "region.h"
 #include "sweep.h"
 
-/* Two parallel faces, whose normal lies in the plane of the axes i and j. */
+/* Two parallel faces of the hull. Their normal lies in the plane of the axes i and j. */
 typedef struct hull_faces {
     int i, j;
     double step_i, step_j;       /* the components of the step d on these axes */
-    double lowest;               /* side() of the world's lowest corner */
-    double per_key_i, per_key_j; /* the decrease of side() per key on axis i, its increase per key on axis j */
-    double reach, whole;         /* R plus the error band; R minus the band, possibly negative */
+    double lowest;               /* the value of side() at the world's lowest corner */
+    double per_key_i, per_key_j; /* the decrease of side() per key on axis i, and its increase per key on axis j */
+    double reach, whole;         /* R plus the error band, and R minus the error band; `whole` may be negative */
 } hull_faces;
 
 typedef struct hull {
-    metric metric; /* of the start of the step, a */
+    metric metric; /* the metric whose target is a, the start of the step */
     hull_faces faces[3];
-    unsigned face_count; /* 1 for a step along two axes, 3 for a step along three */
+    unsigned face_count; /* 1 if the step changes two coordinates, 3 if it changes three */
 } hull;
 
 /* The largest absolute coordinate on an axis. */
@@ -61,11 +61,11 @@ static double choose_scale(const octree *tree, const sweep *box)
     return ldexp(1.0, -(exponent < -1000 ? -1000 : exponent > 1021 ? 1021 : exponent));
 }
 
-/* The step and the world on one axis, relative to the start of the step, scaled. */
+/* The step and the bounds of the world on one axis, scaled and relative to the start of the step. */
 typedef struct axis_view {
     double step, low, high;
-    double far;   /* distance to the farther end of the world */
-    double error; /* the largest error of a plane */
+    double far;   /* the distance to the farther bound of the world */
+    double error; /* the largest error of the position of a plane */
 } axis_view;
 
 static axis_view view_axis(const metric *m, const axis *a, double start, double end)
@@ -96,7 +96,8 @@ static hull_faces make_faces(const axis_view view[3], double size, int i, int j)
     };
 }
 
-/* Make the hull of a diagonal step. False for a step along one axis: it has no such faces, and *h is not written. */
+/* Make the hull of a diagonal step. False for a step along one axis: its hull is the box around the step, and *h is not
+ * written. */
 static bool hull_make(hull *h, const octree *tree, const sweep *box)
 {
     bool moves[3];
@@ -119,7 +120,8 @@ static bool hull_make(hull *h, const octree *tree, const sweep *box)
     return true;
 }
 
-/* The octants of a cell that may lie between all faces, and those that certainly do. `low` holds its lowest keys. */
+/* The octants of a cell that may lie between all pairs of faces, and the octants that certainly do. `low` holds the
+ * lowest keys of the cell. */
 static octant_masks hull_octants(const hull *h, const int32_t low[3], unsigned depth)
 {
     const double half = (double)cell_size(depth) / 2, quarter = half / 2;
@@ -128,7 +130,7 @@ static octant_masks hull_octants(const hull *h, const int32_t low[3], unsigned d
         const hull_faces *f = &h->faces[k];
         const double middle = f->lowest + (low[f->j] + half) * f->per_key_j - (low[f->i] + half) * f->per_key_i;
         const double x = f->per_key_i * quarter, y = f->per_key_j * quarter, grown = fabs(x) + fabs(y);
-        for (int column = 0; column < 4; column++) { /* the two octants that differ on the third axis only */
+        for (int column = 0; column < 4; column++) { /* each column is two octants that differ on the third axis only */
             const int upper_i = column >> 1, upper_j = column & 1;
             const unsigned octants = octants_beside[f->i][upper_i] & octants_beside[f->j][upper_j];
             const double side = fabs((middle + (upper_j ? y : -y)) - (upper_i ? x : -x));
@@ -149,7 +151,8 @@ static double hull_side(const hull *h, const hull_faces *f, const double p[3])
 /* ---- The search --------------------------------------------------------------------------------------------- */
 
 typedef struct swept_shape {
-    box_shape around; /* the box around the whole step; first, because enter() of a box casts to it */
+    box_shape around; /* the box around the whole step. The first member, because box_shape_enter() casts the shape to a
+                         box_shape */
     hull hull;
     sweep box;
 } swept_shape;
@@ -158,7 +161,8 @@ static octant_masks enter_swept_cell(void *shape, const octree *tree, unsigned d
 {
     swept_shape *s = shape;
     const octant_masks around = box_shape_enter(&s->around, tree, depth, octant);
-    if ((around.meets & (around.meets - 1)) == 0) /* a single octant: test its children instead */
+    /* only one octant meets the box: its own children are tested instead */
+    if ((around.meets & (around.meets - 1)) == 0)
         return (octant_masks){around.meets, 0};
     const octant_masks between = hull_octants(&s->hull, s->around.low[depth], depth);
     return (octant_masks){around.meets & between.meets, around.inside & between.inside};
@@ -196,7 +200,7 @@ static void search_swept_box(const octree *tree, const sweep *box, const octree_
     shape.box = *box;
     const bool diagonal = hull_make(&shape.hull, tree, box);
     region r = {tree, &shape, enter_swept_cell, scan_swept_points, visit_unless_self, visitor, .meter.how = how};
-    if (!diagonal) { /* along one axis, the box around the step is the exact answer */
+    if (!diagonal) { /* for a step along one axis, the box around the step is the exact answer */
         r.enter = box_shape_enter;
         r.scan = box_shape_scan;
     }
