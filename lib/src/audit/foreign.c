@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* foreign.c - checks that foreign nodes form a tree, and keeps a copy of the current ones with their depths, kinds and
+/* foreign.c - checks that foreign nodes form a forest. Keeps a copy of the current nodes, with their depths, kinds and
  * point counts.
  */
 #include "foreign.h"
@@ -17,7 +17,7 @@ const char *octree_node_visit_name(octree_node_visit visit)
 }
 
 #define DEPTH_UNKNOWN UINT_MAX
-#define DEPTH_ON_PATH (UINT_MAX - 1) /* find_depths() is walking through this node */
+#define DEPTH_ON_PATH (UINT_MAX - 1) /* a depth not known yet: find_depths() is on its way through the node */
 
 /* ---- Checks ------------------------------------------------------------------------------------------------- */
 
@@ -94,8 +94,8 @@ static octree_status list_places(arena *memory, const octree_foreign_tree *tree,
     return OCTREE_OK;
 }
 
-/* Find the depths of a node and of its ancestors. Walk up to an ancestor whose depth is known and mark the path, then
- * walk back down. A walk that reaches a mark has found a node that is its own ancestor. */
+/* Find the depths of a node and of its ancestors. The function walks up to an ancestor whose depth is known, marks the
+ * nodes on the way, then walks back down. If it reaches a marked node on the way up, this node is its own ancestor. */
 static octree_status find_depths(arena *memory, octree_foreign_place *places, size_t from, list *path)
 {
     size_t at = from;
@@ -116,7 +116,8 @@ static octree_status find_depths(arena *memory, octree_foreign_place *places, si
     return OCTREE_OK;
 }
 
-/* List the nodes' places, and their keys by id. Errors, and *fault: as octree_foreign_check(). */
+/* List the places of the nodes, and the nodes' keys sorted by id. Errors, and the wrong node in *fault, are those of
+ * octree_foreign_check(). */
 static octree_status index_nodes(arena *memory, const octree_foreign_tree *tree, list *places, list *keys,
                                  size_t *fault)
 {
@@ -193,12 +194,12 @@ static uint64_t digest_foreign_node(uint64_t digest, const octree_foreign_node *
     return octree_digest_word(digest, (uint64_t)node->precision);
 }
 
-/* Store the index of a node's kind among all kinds so far. A new kind is added while there is room; further kinds share
- * the last index. False when there is no memory. */
+/* Store in place->kind the index of the node's kind in the list of kinds. A new kind is added to the list while there
+ * is room; further kinds share the last index. False when there is no memory. */
 static bool find_node_kind(foreign *f, octree_foreign_place *place)
 {
     const char(*kinds)[OCTREE_NODE_KIND] = f->kinds.items;
-    const size_t last = place->kind; /* the kind of the node before, which is usually the same */
+    const size_t last = place->kind; /* the kind of the previous node, which is usually also the kind of this node */
     place->kind = 0;
     if (last < f->kinds.count && strcmp(kinds[last], place->node->kind) == 0)
         place->kind = (unsigned)last;
@@ -213,8 +214,8 @@ static bool find_node_kind(foreign *f, octree_foreign_place *place)
     return true;
 }
 
-/* Add the points of all descendants to each node: start at each leaf and go on to a parent when its last child is done.
- */
+/* Add the points of all descendants to each node's count. The walk starts at each leaf. It continues with a node's
+ * parent after the last child of the parent is done. */
 static void sum_points_below(foreign *f)
 {
     octree_foreign_place *places = f->places.items;

@@ -2,8 +2,8 @@
 /* judge.c - judges the answer of a foreign index by the exact answer.
  *
  * The problem: an index may promise exact answers, answers that are exact for positions rounded to floats, or answers
- * within epsilon; and where several neighbours are equally far, any of them is right. Comparing two lists of ids would
- * report right answers as wrong.
+ * within epsilon; and where several neighbours are equally far, any of them is right. So a comparison of two lists of
+ * ids would report right answers as wrong.
  *
  * The idea: make two lists of points, the foreign answer and the exact one, both with the positions that the promise is
  * about. Regions compare them as sets, sorted by id: a missing point is wrong, and an extra one is wrong unless it lies
@@ -30,11 +30,11 @@ typedef struct judge_state {
     judge *judge;
     const judged_query *about;
     octree_judgement *made;
-    octree_answer asked; /* the query's members, rounded to floats where the foreign index promises floats */
+    octree_answer asked; /* the query's members; they are rounded to floats if the foreign index promises floats */
     bool rounds;
     metric metric;
-    list *collected; /* where a search puts the points that it finds */
-    bool failed;     /* there was no memory */
+    list *collected; /* the list to which a search appends the points that it finds */
+    bool failed;     /* true: there was no memory */
 } judge_state;
 
 static bool finds_neighbors(const judge_state *s)
@@ -44,7 +44,7 @@ static bool finds_neighbors(const judge_state *s)
 
 /* ---- Positions ---------------------------------------------------------------------------------------------- */
 
-/* Start judging a query. The state stays where it is: judged points refer to its target. */
+/* Start judging a query. *s must not move in memory after this, because its judged points point to its target. */
 static void begin_judging(judge_state *s, judge *j, const judged_query *about, octree_judgement *made)
 {
     const octree *tree = about->points->tree;
@@ -84,7 +84,8 @@ static int compare_ids(const void *a, const void *b)
     return (p->point.id > q->point.id) - (p->point.id < q->point.id);
 }
 
-/* Compare real distances to the target. Squares in doubles decide where they are surely apart. */
+/* Compare the real distances of two points to the target. Squares in doubles decide if they differ by more than their
+ * error. */
 static int compare_distances(const judged_point *a, const judged_point *b)
 {
     if (a->square > metric_above(b->square))
@@ -102,8 +103,8 @@ static int compare_ranks(const void *a, const void *b)
 
 /* ---- The foreign answer ------------------------------------------------------------------------------------- */
 
-/* Record how the answer is wrong, unless a lower kind of wrong is recorded already. `id` counts only for the kinds that
- * name one. */
+/* Record how the answer is wrong, unless a kind with a lower value is recorded already. `id` is used only for the kinds
+ * that name an id. */
 static void record_wrong(judge_state *s, octree_wrong_kind wrong, uint64_t id)
 {
     octree_judgement *made = s->made;
@@ -113,7 +114,7 @@ static void record_wrong(judge_state *s, octree_wrong_kind wrong, uint64_t id)
     made->wrong_id = wrong <= OCTREE_WRONG_SKIPPED ? id : 0;
 }
 
-/* Remove repeated points from the foreign answer, which is sorted by id. */
+/* Remove repeated points from the foreign answer, which is sorted by id, and record that it has them. */
 static void remove_duplicates(judge_state *s, list *points)
 {
     judged_point *items = points->items;
@@ -127,7 +128,7 @@ static void remove_duplicates(judge_state *s, list *points)
     points->count = kept;
 }
 
-/* List the points of the foreign answer by id, each once, without those that the query skips. */
+/* List the points of the foreign answer, sorted by id, each once. Points that the query skips are left out. */
 static void list_foreign_answer(judge_state *s)
 {
     judge *j = s->judge;
@@ -152,7 +153,7 @@ static void list_foreign_answer(judge_state *s)
 
 /* ---- The exact answer --------------------------------------------------------------------------------------- */
 
-/* The exact answer for positions as they are: the game has asked it already. */
+/* List the exact answer for positions as they are. The game has asked the tree for it already. */
 static void list_exact_answer(judge_state *s)
 {
     const judged_query *about = s->about;
@@ -163,7 +164,7 @@ static void list_exact_answer(judge_state *s)
     }
 }
 
-/* The farthest that rounding to floats moves a point of the world along one axis. */
+/* The greatest distance by which rounding to floats moves a point of the world along one axis. */
 static double largest_rounding(const octree *tree)
 {
     double largest = 0;
@@ -172,7 +173,7 @@ static double largest_rounding(const octree *tree)
     return largest > FLT_MAX ? largest : largest * 0x1p-24 + 0x1p-149;
 }
 
-/* An octree_point_visitor: keep a point of the region. Neighbours are kept wherever they are. */
+/* An octree_point_visitor: collect a point if it is in the region. For a query for neighbours, collect every point. */
 static bool collect_judged_point(const octree_point *point, void *context)
 {
     judge_state *s = context;
@@ -183,7 +184,8 @@ static bool collect_judged_point(const octree_point *point, void *context)
     return !s->failed;
 }
 
-/* Collect the points in a ball around the target. Valid searches cannot fail; s->failed records a lack of memory. */
+/* Collect the points in a ball around the target. The search is valid, so it can fail only for lack of memory, which
+ * sets s->failed. */
 static void collect_ball(judge_state *s, double radius, double slack)
 {
     static const octree_box all = {{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}};
@@ -219,11 +221,11 @@ static void collect_nearest(judge_state *s, double slack)
     exact->count = exact->count < k ? exact->count : k;
 }
 
-/* The exact answer for positions rounded to floats. */
+/* List the exact answer for positions rounded to floats. */
 static void list_rounded_exact_answer(judge_state *s)
 {
     const octree *tree = s->about->points->tree;
-    /* in space a point moves by up to sqrt(3) times the largest rounding on an axis */
+    /* rounding moves a point in space by up to sqrt(3) times the largest rounding along one axis */
     const double slack = 2 * largest_rounding(tree);
     s->collected = &s->judge->exact;
     if (finds_neighbors(s)) {
@@ -251,8 +253,8 @@ static void list_wrong_point(judge_state *s, const judged_point *p, size_t *coun
     ++*count;
 }
 
-/* List the points of `from` that are not in `without`. Both lists are sorted by id. Points within `slack` of the region
- * are right where slack is above 0. */
+/* List as wrong the points of `from` that are not in `without`. Both lists are sorted by id. If `slack` is above 0,
+ * points within this distance of the region are not wrong. */
 static void list_difference(judge_state *s, const list *from, const list *without, double slack, size_t *count)
 {
     const judged_point *items = from->items, *others = without->items;
@@ -280,12 +282,13 @@ static void judge_region(judge_state *s)
 
 /* ---- Neighbours --------------------------------------------------------------------------------------------- */
 
-/* Whether a, which is farther than the exact neighbour b, is farther than epsilon allows. */
+/* Whether point a is farther than epsilon allows. The exact neighbour b of the same rank is nearer than a. */
 static bool is_too_far(const judge_state *s, const judged_point *a, const judged_point *b)
 {
     if (!(s->asked.epsilon > 0) || same_position(b->at, s->asked.target))
         return true;
-    const double factor = 1 + s->asked.epsilon; /* its rounding error is within the band of metric_above */
+    /* the rounding error of the factor is within the band of metric_above() */
+    const double factor = 1 + s->asked.epsilon;
     return a->square > metric_above(factor * factor * (b->square + 0x1p-999));
 }
 
@@ -306,8 +309,9 @@ static void judge_ranks(judge_state *s, const judged_point *foreign, const judge
         record_wrong(s, OCTREE_WRONG_FARTHER, 0);
 }
 
-/* List what is wrong in a wrong answer. Every right answer contains all points that are nearer than the last exact
- * neighbour, as many of the points at its distance as there is room for, and no farther point. */
+/* List the missing and the extra points of a wrong answer. Every right answer contains all points that are nearer than
+ * the last exact neighbour. It fills the remaining places with points at the distance of this neighbour. It contains no
+ * farther point. */
 static void list_wrong_neighbors(judge_state *s)
 {
     const judge *j = s->judge;
@@ -346,7 +350,8 @@ static void judge_neighbors(judge_state *s, size_t given)
 
 /* ---- An answer ---------------------------------------------------------------------------------------------- */
 
-/* Compare both lists unless one of them is incomplete. `given` is the number of ids in the foreign answer. */
+/* Compare the foreign answer with the exact one, unless one of the lists is incomplete. `given` is the number of ids in
+ * the foreign answer. */
 static void compare_lists(judge_state *s, size_t given)
 {
     if (!s->failed && finds_neighbors(s))
@@ -378,8 +383,8 @@ static void remove_lost_points(list *l, point_test *is_lost, void *context)
     l->count = kept;
 }
 
-/* List as the foreign answer all points that a right answer may contain: those within epsilon of the last exact
- * neighbour. */
+/* List all points that a right answer may contain, in place of the foreign answer: the points within epsilon of the
+ * last exact neighbour. */
 static void list_possible_neighbors(judge_state *s)
 {
     const list *exact = &s->judge->exact;
@@ -392,7 +397,8 @@ static void list_possible_neighbors(judge_state *s)
                  s->rounds ? 2 * largest_rounding(s->about->points->tree) : 0x1p-1000);
 }
 
-/* Make the best answer without the lost points: the nearest others, or all others of the region. */
+/* Make the best answer that has none of the lost points: the nearest other points, or all other points of the
+ * region. */
 static void list_best_answer(judge_state *s, point_test *is_lost, void *context)
 {
     list *foreign = &s->judge->foreign;
@@ -421,7 +427,8 @@ bool judge_without(judge *j, const judged_query *about, point_test *is_lost, poi
         return !s.failed;
     list_best_answer(&s, is_lost, context);
     compare_lists(&s, j->foreign.count);
-    const octree_point *missed = j->wrong.items; /* only lost points: the others are the best there are */
+    /* report only lost points: the best answer contains all others that a right answer needs */
+    const octree_point *missed = j->wrong.items;
     for (size_t i = 0; !s.failed && made.wrong && i < made.missing_count; i++)
         s.failed = !report(&missed[listed + i], context);
     j->wrong.count = listed;
@@ -434,7 +441,7 @@ void judge_assign_lists(const judge *j, octree_answer *answers, size_t count)
 {
     const uint64_t *given = j->given.items;
     const octree_point *wrong = j->wrong.items;
-    size_t ids = 0, points = 0; /* of the answers before */
+    size_t ids = 0, points = 0; /* the numbers of ids and points in the answers before this one */
     for (size_t i = 0; i < count; i++) {
         octree_judgement *made = &answers[i].judgement;
         made->given = made->given_count ? given + ids : NULL;

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* wrong_nodes.c - finds what is provably wrong with foreign nodes, by themselves and in what queries did with them.
+/* wrong_nodes.c - finds foreign nodes that are provably wrong, either in themselves or because a query visited or
+ * pruned them wrongly.
  *
  * The problem: an index may hold its points anywhere (in leaves, in inner nodes, in several nodes at once), it may list
- * them or not, its boxes may overlap, and its answers may be approximate. A rule of one index is no rule of another, so
- * this file reports only what no index may do.
+ * them or not, its boxes may overlap, and its answers may be approximate. Rules of one index do not hold for another,
+ * so this file reports only nodes that are wrong in every index.
  *
  * The idea: decide which nodes hold a point. A node holds the points that it lists. A leaf that lists nothing holds all
  * points in its box. By these rules a point is lost if no node holds it. A query that prunes a node loses the points
@@ -50,8 +51,8 @@ static octree_foreign_place *places_of(const foreign *f)
     return f->places.items;
 }
 
-/* Count a fault, and list it while there is room. `place` is the index of the wrong node; SIZE_MAX if the fault is not
- * in a node of the tree. False when there is no memory. */
+/* Count a wrong node, and list it while there is room. `place` is the index of the node; SIZE_MAX if the report is
+ * about no existing node. False when there is no memory. */
 static bool report_wrong_node(foreign *f, size_t place, octree_wrong_node wrong)
 {
     f->state.wrong[wrong.kind]++;
@@ -83,7 +84,8 @@ bool foreign_node_contains(const octree_foreign_node *node, const double positio
     return box_contains(&box, rounded);
 }
 
-/* Whether a child's box lies in its parent's. They are compared as floats if one of them has this precision. */
+/* Whether a child's box lies in its parent's box. The boxes are compared as floats if one of the two nodes has the
+ * precision FLOATS. */
 static bool is_within_parent(const octree_foreign_node *child, const octree_foreign_node *parent)
 {
     octree_box inner = child->box, outer = parent->box;
@@ -106,7 +108,7 @@ static bool check_boxes_in_parents(foreign *f)
     return ok;
 }
 
-/* Check the points that a node lists. */
+/* Check the points that a node lists. False when there is no memory. */
 static bool check_listed_points(foreign *f, const audited_points *points, size_t place)
 {
     const octree_foreign_node *node = places_of(f)[place].node;
@@ -134,7 +136,8 @@ static int compare_by_place(const void *a, const void *b)
     return p->place != q->place ? (p->place > q->place) - (p->place < q->place) : (p->id > q->id) - (p->id < q->id);
 }
 
-/* Report the points that a node lists more than once, by node and then by point. The holdings are sorted. */
+/* Report the points that a node lists more than once, sorted by node and then by point. f->holdings is sorted
+ * already. */
 static bool report_repeated(foreign *f)
 {
     const foreign_holding *items = f->holdings.items;
@@ -168,8 +171,8 @@ typedef struct holding_search {
     foreign *foreign;
     const audited_points *points;
     const octree_foreign_node *leaf;
-    size_t lost; /* the number of unlisted points that no leaf holds so far */
-    bool failed; /* there was no memory */
+    size_t lost; /* the number of unlisted points that are in no leaf found so far */
+    bool failed; /* true: there was no memory */
 } holding_search;
 
 static bool is_own_point(const audited_points *points, uint64_t id)
@@ -177,7 +180,7 @@ static bool is_own_point(const audited_points *points, uint64_t id)
     return points->own_id && *points->own_id == id;
 }
 
-/* An octree_point_visitor: collect a point that no node lists. */
+/* An octree_point_visitor: collect the point if no node lists it. */
 static bool collect_unlisted(const octree_point *point, void *context)
 {
     holding_search *s = context;
@@ -188,7 +191,7 @@ static bool collect_unlisted(const octree_point *point, void *context)
     return !s->failed;
 }
 
-/* An octree_point_visitor: mark a point that is in the box of the leaf. */
+/* An octree_point_visitor: record that a leaf holds the point, if the point is in the box of the leaf. */
 static bool mark_held_point(const octree_point *point, void *context)
 {
     holding_search *s = context;
@@ -202,7 +205,7 @@ static bool mark_held_point(const octree_point *point, void *context)
     return s->lost > 0;
 }
 
-/* A box that contains all positions that round to floats in the leaf's box. */
+/* A box that contains every position that is in the leaf's box after rounding to floats. */
 static octree_box enlarged_box(const octree_foreign_node *leaf)
 {
     octree_box box = leaf->box;
@@ -226,7 +229,7 @@ static void mark_points_in_boxes(holding_search *search)
     }
 }
 
-/* Report the points that no node holds, in the order of their ids. */
+/* Report the points that no node holds, sorted by id. False when there is no memory. */
 static bool find_lost_points(foreign *f, const audited_points *points)
 {
     static const octree_box all = {{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}};
@@ -264,7 +267,7 @@ void foreign_begin_tick(foreign *f)
         state->visits[kind] = 0;
 }
 
-/* Find what is wrong with the nodes apart from queries. */
+/* Find the wrong nodes that can be found without queries. False when there is no memory. */
 static bool find_standing_faults(foreign *f, const audited_points *points)
 {
     octree_foreign_state *state = &f->state;
@@ -296,7 +299,7 @@ bool foreign_check_nodes(foreign *f, const audited_points *points)
 
 /* ---- Queries ------------------------------------------------------------------------------------------------ */
 
-/* A query that named foreign nodes. */
+/* A query that is being recorded, with the foreign nodes that it names. */
 typedef struct node_query {
     foreign *foreign;
     const audited_points *points;
@@ -308,7 +311,7 @@ static foreign_mark *marks_of(const foreign *f)
     return f->marks.items;
 }
 
-/* Record that the query visited, pruned or hit a node. */
+/* Record that the query visited, pruned or hit the node with this id. False when there is no memory. */
 static bool record_node_visit(const node_query *q, octree_node_visit visit, uint64_t id)
 {
     foreign *f = q->foreign;
@@ -321,13 +324,14 @@ static bool record_node_visit(const node_query *q, octree_node_visit visit, uint
     node->visits |= 1u << visit;
     foreign_mark *mark = &marks_of(f)[place];
     const bool first = mark->query != f->query;
-    if (first || mark->visit == OCTREE_NODE_PRUNED) /* a node that the query also visited is not pruned */
+    if (first ||
+        mark->visit == OCTREE_NODE_PRUNED) /* a node that the query both pruned and visited does not count as pruned */
         *mark = (foreign_mark){.query = f->query, .visit = visit};
     return list_push(f->memory, &f->visits, &place, sizeof place);
 }
 
-/* The pruned node that excludes a node: the first node from `place` upwards that the query named, if the query pruned
- * it; else SIZE_MAX. */
+/* The pruned node that excludes the node at `place` from the query; SIZE_MAX if none does. Only the first node that the
+ * query names counts, on the way from `place` up to the root. */
 static size_t find_pruned_ancestor(const foreign *f, size_t place)
 {
     while (place != SIZE_MAX && marks_of(f)[place].query != f->query)
@@ -335,7 +339,7 @@ static size_t find_pruned_ancestor(const foreign *f, size_t place)
     return place != SIZE_MAX && marks_of(f)[place].visit == OCTREE_NODE_PRUNED ? place : SIZE_MAX;
 }
 
-/* The next node that holds a point; SIZE_MAX where there is no further one. *at is 0 before the first call. */
+/* The index of the next node that holds a point; SIZE_MAX if there are no more. *at is 0 before the first call. */
 static size_t next_holder(const foreign *f, const octree_point *point, size_t *at)
 {
     const foreign_holding *items = f->holdings.items;
@@ -349,7 +353,7 @@ static size_t next_holder(const foreign *f, const octree_point *point, size_t *a
     return SIZE_MAX;
 }
 
-/* Whether the query pruned all nodes that hold a point, and there is one. */
+/* Whether nodes hold the point and the query pruned all of these nodes. */
 static bool is_pruned(const octree_point *point, void *context)
 {
     const node_query *q = context;
@@ -362,7 +366,8 @@ static bool is_pruned(const octree_point *point, void *context)
     return holders > 0;
 }
 
-/* Report the pruned nodes above the holders of a lost point. A query reports a node once, with the first point lost. */
+/* Report the pruned nodes that exclude the holders of a lost point. For each query a node is reported once, with the
+ * first point lost. */
 static bool report_pruned(const octree_point *point, void *context)
 {
     const node_query *q = context;
