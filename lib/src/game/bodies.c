@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* bodies.c - the bodies of a game: a hash table by id, their motion, and the edits of a tick.
  *
- * A position is computed from the origin, the velocity and the number of ticks since then, so that no error adds up
- * over ticks. A body that bounces follows a triangle wave between the two faces of the world (reflect_path()). Many
- * moves at once go through octree_move_many(), which is faster than single moves from a few hundred points on.
+ * A body's motion starts at an origin at some tick. Its position is computed from the origin, the velocity and the
+ * number of ticks since then, so that rounding errors do not add up. A body that bounces follows a triangle wave
+ * between the two faces of the world (reflect_path()). Many moves at once go through octree_move_many(), which is
+ * faster than single moves from a few hundred points on.
  */
 #include "bodies.h"
 #include "float_rules.h"
@@ -17,7 +18,7 @@ static size_t home_slot_of(const bodies *b, uint64_t id)
     return (size_t)octree_digest_word(OCTREE_DIGEST_START, id) & (b->slot_count - 1);
 }
 
-/* The slot that holds an id, or the empty slot where it would be inserted. Requires slot_count > 0. */
+/* Return the slot that holds an id, or the empty slot into which the id would be inserted. Requires slot_count > 0. */
 static size_t find_body_slot(const bodies *b, uint64_t id)
 {
     size_t slot = home_slot_of(b, id);
@@ -40,7 +41,7 @@ moving_body *bodies_find(const bodies *b, uint64_t id)
     return entry ? &bodies_items(b)[entry - 1] : NULL;
 }
 
-/* Make room for `count` bodies with at least half of the slots empty. False when there is no memory. */
+/* Make room for `count` bodies, so that at least half of the slots are empty. False when there is no memory. */
 static bool make_room_in_slots(bodies *b, arena *memory, size_t count)
 {
     if (2 * count <= b->slot_count)
@@ -63,7 +64,7 @@ static bool is_moving(const double velocity[3])
     return velocity[0] != 0 || velocity[1] != 0 || velocity[2] != 0;
 }
 
-/* Add a body with an unused id. Its motion starts at its position at this tick. False when there is no memory. */
+/* Add a body whose id is not in use. Its motion starts at its position at this tick. False when there is no memory. */
 static bool bodies_add(bodies *b, arena *memory, const octree_body *body, uint64_t tick)
 {
     if (!make_room_in_slots(b, memory, b->items.count + 1))
@@ -80,7 +81,8 @@ static bool bodies_add(bodies *b, arena *memory, const octree_body *body, uint64
     return true;
 }
 
-/* Empty a slot and close the gap: later entries move up, unless that would put them before their home slot. */
+/* Empty a slot and close the gap. Entries after the gap move up, unless that would put them before the slot of their
+ * hash value. */
 static void clear_slot(bodies *b, size_t gap)
 {
     const size_t mask = b->slot_count - 1;
@@ -118,9 +120,9 @@ static void store_body_position(moving_body *body, const double to[3], uint64_t 
     memcpy(body->position, to, sizeof body->position);
 }
 
-/* Fold a straight path into an interval: a triangle wave with period 2 * (max - min). Where the period overflows, the
- * computation uses quarters of all lengths; a path that still overflows stays at its origin. *direction is 1 for the
- * direction of the velocity, -1 for the opposite one, 0 at rest. */
+/* Fold a straight path into an interval, as if it were reflected at the ends: a triangle wave with period 2 * (max -
+ * min). If the period overflows, the computation uses quarters of all lengths. A path that still overflows stays at its
+ * origin. *direction is 1 if the body moves in the direction of the velocity, -1 if in the opposite one, 0 at rest. */
 static double reflect_path(double origin, double velocity, double ticks, double min, double max, int *direction)
 {
     const double straight = origin + velocity * ticks;
@@ -141,8 +143,8 @@ static double reflect_path(double origin, double velocity, double ticks, double 
     return position < min ? min : position > max ? max : position;
 }
 
-/* Compute position and velocity on one axis, reflected at the faces of the world. At a face the velocity already points
- * back into the world. */
+/* Compute position and velocity on one axis. The faces of the world reflect the body. When the body is at a face, its
+ * velocity already points back into the world. */
 static void bounce_on_axis(const moving_body *body, const octree_box *world, double ticks, int axis, octree_body *now)
 {
     const double min = world->min[axis], max = world->max[axis];
@@ -151,11 +153,11 @@ static void bounce_on_axis(const moving_body *body, const octree_box *world, dou
     const double velocity = body->velocity[axis] * direction;
     const bool leaves = (at == max && velocity > 0) || (at == min && velocity < 0);
     now->position[axis] = at;
-    now->velocity[axis] = (leaves ? -velocity : velocity) + 0.0; /* + 0.0 turns -0.0 into 0 */
+    now->velocity[axis] = (leaves ? -velocity : velocity) + 0.0; /* adding 0.0 turns -0.0 into 0.0 */
 }
 
-/* The position and velocity of a body at a tick. Most bodies have not reached a face yet; one test without branches
- * finds that. */
+/* The position and velocity of a body at a tick. Most bodies have not reached a face yet; a single test without
+ * branches recognizes them. */
 static octree_body body_at_tick(const moving_body *body, const octree_box *world, uint64_t tick)
 {
     octree_body now = {.id = body->id};
@@ -171,12 +173,13 @@ static octree_body body_at_tick(const moving_body *body, const octree_box *world
     return now;
 }
 
-/* Restart the motion of a body at another position, with its velocity at this tick. */
+/* Restart the motion of a body at another position. The body keeps its velocity at this tick. */
 static void restart_motion(moving_body *body, const octree_box *world, const double place[3], uint64_t tick)
 {
     const octree_body now = body_at_tick(body, world, tick);
     for (int i = 0; i < 3; i++)
-        if (now.velocity[i] != 0) /* 0 also stands for a body that is too fast to follow: it keeps its velocity */
+        /* 0 can also mean that the body is too fast to follow: such a body keeps its velocity */
+        if (now.velocity[i] != 0)
             body->velocity[i] = now.velocity[i];
     memcpy(body->origin, place, sizeof body->origin);
     body->since = tick;
@@ -222,13 +225,15 @@ bool game_record_refusal(octree_game *game, uint64_t id, octree_status why, cons
     return list_push(&game->memory, &game->refusals, &refusal, sizeof refusal);
 }
 
-/* Record a refusal by the tree, which is part of the game. False when there is no memory, here or in the tree. */
+/* If the status is a refusal by the tree, record it; refusals are part of the game. False when there is no memory, here
+ * or in the tree. */
 static bool record_if_refused(octree_game *game, uint64_t id, octree_status status, const double position[3])
 {
     return status == OCTREE_OK || (status != OCTREE_NO_MEMORY && game_record_refusal(game, id, status, position));
 }
 
-/* The tick at which the motion of an edited body starts: edits come before the motion of their tick. */
+/* The tick at which the motion of an edited body starts. It is the tick before, because edits come before the motion of
+ * their tick. */
 static uint64_t motion_start_tick(const octree_game *game)
 {
     return game->tick.number ? game->tick.number - 1 : 0;
@@ -275,7 +280,7 @@ static bool insert_body(octree_game *game, const octree_body *body)
 
 static bool remove_body(octree_game *game, uint64_t id)
 {
-    static const double nowhere[3] = {0, 0, 0}; /* a removal has no position */
+    static const double nowhere[3] = {0, 0, 0}; /* the position recorded for a removal, which has no position */
     moving_body *body = bodies_find(&game->bodies, id);
     const octree_status status = body ? game_remove(game, body->position, id) : OCTREE_NOT_FOUND;
     if (status == OCTREE_OK)
@@ -308,18 +313,18 @@ static bool apply_edit(octree_game *game, const octree_edit *edit)
 
 /* ---- Many moves at once --------------------------------------------------------------------------------------- */
 
-/* A list of moves of different bodies, in the form that octree_move_many() takes. */
+/* A list of moves of different bodies, as arrays for octree_move_many(). */
 typedef struct motion {
     octree_point *points; /* the bodies as the tree stores them */
     double (*to)[3];
     octree_status *statuses;
-    uint32_t *bodies; /* for each move the index of its body */
+    uint32_t *bodies; /* the index of the body of each move */
     size_t count, room;
 } motion;
 
 #define MOVE_SIZE (sizeof(octree_point) + sizeof(double[3]) + sizeof(octree_status) + sizeof(uint32_t))
 
-/* Allocate the four arrays in one block, which begins with the points. */
+/* Allocate the four arrays in one memory block, which begins with the points. False when there is no memory. */
 static bool motion_allocate(motion *m, arena *memory, size_t room)
 {
     *m = (motion){.room = room, .points = arena_allocate(memory, room * MOVE_SIZE)};
@@ -349,7 +354,7 @@ static void collect_moves_by_velocity(const octree_game *game, motion *m)
 {
     for (size_t i = 0; i < game->bodies.items.count; i++) {
         const moving_body *body = &bodies_items(&game->bodies)[i];
-        /* A body at rest keeps its bits: body_at_tick() would turn -0.0 into +0.0. */
+        /* A body at rest is left out and keeps its bits: body_at_tick() would turn -0.0 into +0.0. */
         if (!is_moving(body->velocity))
             continue;
         const octree_body now = body_at_tick(body, &game->session->tree.world, game->tick.number);
@@ -358,9 +363,10 @@ static void collect_moves_by_velocity(const octree_game *game, motion *m)
     }
 }
 
-enum { MANY = 256 }; /* the least number of moves for which octree_move_many() is faster */
+enum { MANY = 256 }; /* with this many moves or more, octree_move_many() is faster than single moves */
 
-/* Move the points in the tree only. False when there is no memory; some points may have moved. */
+/* Move the points in the tree, without changing the bodies. False when there is no memory; some points may have
+ * moved. */
 static bool move_points(octree *tree, motion *m)
 {
     if (m->count >= MANY)
@@ -373,8 +379,8 @@ static bool move_points(octree *tree, motion *m)
     return ok;
 }
 
-/* Move the points in the tree and then the bodies. `edited`: an edit moves them, which restarts their motion. False
- * when there is no memory. */
+/* Move the points in the tree and then the bodies. `edited` is true if edits move the bodies, which restarts their
+ * motion. False when there is no memory. */
 static bool apply_motion(octree_game *game, motion *m, bool edited)
 {
     bool ok = move_points(game->tree, m);
@@ -392,7 +398,8 @@ static bool apply_motion(octree_game *game, motion *m, bool edited)
     return ok;
 }
 
-/* Collect moves from the first edit on, until an edit moves an unknown body or one that the run moves already. */
+/* Collect a run of moves: from the first edit on, until an edit moves an unknown body or a body that the run moves
+ * already. */
 static void collect_run_of_moves(octree_game *game, const octree_edit *edits, size_t count, motion *m)
 {
     const size_t run = ++game->bodies.runs;
@@ -407,14 +414,14 @@ static void collect_run_of_moves(octree_game *game, const octree_edit *edits, si
     }
 }
 
-/* Apply edits that are all moves, in runs that move no body twice. */
+/* Apply edits that are all moves. They are divided into runs that move no body twice. False when there is no memory. */
 static bool apply_move_edits(octree_game *game, const octree_edit *edits, size_t count)
 {
     motion m;
     bool ok = motion_allocate(&m, &game->memory, count);
     for (size_t done = 0; ok && done < count; done += m.count ? m.count : 1) {
         collect_run_of_moves(game, edits + done, count - done, &m);
-        /* An edit of an unknown body is not collected: it is refused. */
+        /* An edit of an unknown body is not part of a run: it is refused. */
         ok = m.count > 0 ? apply_motion(game, &m, true) : apply_edit(game, edits + done);
     }
     motion_release(&m, &game->memory);
@@ -462,7 +469,7 @@ bool game_list_movers(octree_game *game)
         if (!is_moving(body->velocity))
             continue;
         octree_body now = body_at_tick(body, &game->session->tree.world, game->tick.number);
-        /* Show the stored position: a full leaf may have refused the move. */
+        /* Show the position that the tree stores, because a full leaf may have refused the move. */
         memcpy(now.position, body->position, sizeof now.position);
         /* A body that is too fast to follow does not move. */
         if (is_moving(now.velocity) && !list_push(&game->memory, &game->movers, &now, sizeof now))

@@ -1,29 +1,30 @@
 /* SPDX-License-Identifier: MIT */
-/* bodies.h - the bodies of a game by id: edits, and motion by velocities. Private. */
+/* bodies.h - the bodies of a game, found by id: edits of bodies, and their motion. Private. */
 #ifndef OCTREE_BODIES_H
 #define OCTREE_BODIES_H
 
 #include "pool.h"
 #include "octree/game.h"
 
-/* A body's position is computed from its origin and the ticks since then, never by adding tick by tick. */
+/* A body and its motion. The position is computed from the origin and the ticks since then, not from the previous
+ * tick. */
 typedef struct moving_body {
     uint64_t id;
     double position[3]; /* the position that the tree stores */
     double origin[3];
     double velocity[3];
-    uint64_t since;   /* the tick of the origin */
-    uint64_t moved;   /* the last tick that moved the body; UINT64_MAX if none has */
-    double before[3]; /* the position stored before that tick */
-    size_t run;       /* the last run of edits that moved the body; 0 if none has */
+    uint64_t since;   /* the tick at which the body was at `origin` */
+    uint64_t moved;   /* the last tick that moved the body; UINT64_MAX: no tick has */
+    double before[3]; /* the position that the tree stored before the tick `moved` */
+    size_t run;       /* the number of the last run of edits that moved the body; 0: no run has */
 } moving_body;
 
 typedef struct bodies {
-    list items;        /* a list of moving_body */
-    uint32_t *slots;   /* a hash table by id with linear probing; each slot holds an index + 1, or 0 */
+    list items;      /* a list of moving_body */
+    uint32_t *slots; /* a hash table of ids with linear probing; a slot holds an index of `items` + 1; 0: it is empty */
     size_t slot_count; /* the length of `slots`: a power of two, or 0 */
     size_t movers;     /* the number of bodies whose velocity is not zero */
-    size_t runs;       /* the number of runs of edits so far that move bodies */
+    size_t runs;       /* the number of runs so far; a run is a sequence of edits that move different bodies */
 } bodies;
 
 void bodies_release(bodies *b, arena *memory);
@@ -36,23 +37,24 @@ static inline moving_body *bodies_items(const bodies *b)
 /* The body with this id, or null. */
 moving_body *bodies_find(const bodies *b, uint64_t id);
 
-/* Insert or move a point in the tree and record the change for the tree summary. Returns what octree_insert() or
- * octree_move() returns. */
+/* Insert or move a point in the tree, and record the changed positions for the tree summary. Returns the status of
+ * octree_insert() or octree_move(). */
 octree_status game_insert(octree_game *game, const double position[3], uint64_t id);
 octree_status game_move(octree_game *game, const double from[3], uint64_t id, const double to[3]);
 
-/* Record a refusal in the tick. False when there is no memory. */
+/* Add a refusal to the tick. False when there is no memory. */
 bool game_record_refusal(octree_game *game, uint64_t id, octree_status why, const double position[3]);
 
 /* Check whether a body can be inserted: DUPLICATE (its id is in use), NOT_FINITE (its velocity), or OK. */
 octree_status game_check_body(const octree_game *game, const octree_body *body);
 
-/* Add a body whose point was inserted with this status: OK adds it, an error records a refusal. False when there is no
- * memory. */
+/* Add a body after its point was inserted with this status. If the status is OK, the body is added; otherwise a refusal
+ * is recorded. False when there is no memory. */
 bool game_add_body(octree_game *game, const octree_body *body, octree_status status);
 
-/* Apply the edits of a tick in their order; move the bodies by their velocities; list the moving bodies as they are
- * after the tick. All return false when there is no memory. */
+/* The steps of a tick. game_apply_edits() applies its edits in their order. game_move_bodies() moves the bodies by
+ * their velocities. The last function lists the moving bodies as they are after the tick. All return false when there
+ * is no memory. */
 bool game_apply_edits(octree_game *game, const octree_input *input);
 bool game_move_bodies(octree_game *game);
 bool game_list_movers(octree_game *game);

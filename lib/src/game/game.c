@@ -27,10 +27,10 @@ const char *octree_shape_name(octree_shape_kind kind)
 
 /* ---- The collision test --------------------------------------------------------------------------------------
  *
- * The test queries the tree before the step is made, at the end of the step and without the player's own point. It
- * finds the points that a step would collide with, and nothing has to be undone. With sweep, a query of the tree finds
- * the points at rest, and the bodies that this tick has moved are tested one by one: their path is relative to the
- * player's, and the tree stores only its end.
+ * The test queries the tree before the player's step is made. It tests the position at the end of the step and leaves
+ * out the player's own point. It finds the points that a step would collide with, and nothing has to be undone. With
+ * sweep, a query of the tree finds the points at rest, and the bodies that this tick has moved are tested one by one:
+ * their path is relative to the player's, and the tree stores only its end.
  */
 
 static bool was_moved_in_tick(const octree_game *game, const moving_body *body)
@@ -38,7 +38,7 @@ static bool was_moved_in_tick(const octree_game *game, const moving_body *body)
     return body->moved == game->tick.number;
 }
 
-/* An octree_point_visitor: collect a hit; with sweep, unless this tick has moved the body. */
+/* An octree_point_visitor: collect a hit. With sweep, bodies that this tick has moved are left out. */
 static bool collect_hit(const octree_point *point, void *context)
 {
     octree_game *game = context;
@@ -48,7 +48,8 @@ static bool collect_hit(const octree_point *point, void *context)
     return !game->out_of_memory;
 }
 
-/* Collect points of the tree; with sweep, without the bodies that this tick has moved. */
+/* Collect the points of the tree that collide with the player. With sweep, bodies that this tick has moved are left
+ * out. False when there is no memory. */
 static bool collect_hit_points(octree_game *game, const octree_point *self)
 {
     const octree_tick *tick = &game->tick;
@@ -60,7 +61,7 @@ static bool collect_hit_points(octree_game *game, const octree_point *self)
     return !game->out_of_memory;
 }
 
-/* Collect the bodies that this tick has moved. */
+/* Collect the bodies that this tick has moved and that collide with the player. False when there is no memory. */
 static bool collect_hit_moved_bodies(octree_game *game)
 {
     const sweep box = {game->tick.from, game->tick.attempt, game->session->player.box_size};
@@ -79,7 +80,7 @@ static bool collect_hit_moved_bodies(octree_game *game)
     return true;
 }
 
-/* List the position of each hit before the tick, in the order of the hits. */
+/* List the position of each hit before the tick, in the order of the hits. False when there is no memory. */
 static bool list_hit_origins(octree_game *game)
 {
     const octree_point *hits = game->hits.items;
@@ -94,7 +95,8 @@ static bool list_hit_origins(octree_game *game)
     return true;
 }
 
-/* Collect the points in the player's box into `hits`, sorted by id: at `to` or, with sweep, on the whole way there. */
+/* Collect the points that collide with the player into `hits`, sorted by id. Without sweep the player's box is tested
+ * at `to`; with sweep it is tested on the whole way there. False when there is no memory. */
 static bool test_collision(octree_game *game, const double to[3])
 {
     octree_tick *tick = &game->tick;
@@ -118,15 +120,16 @@ static int key_direction(char key, int axis)
     return (key == "dwe"[axis]) - (key == "asf"[axis]);
 }
 
-/* Record that the player stays. With sweep the collision test is repeated for a waiting player, so that it finds the
- * bodies that move into it. */
+/* Record that the player's step was refused and the player stays. With sweep, repeat the collision test for a waiting
+ * player, to find the bodies that move into it. */
 static bool refuse_player_step(octree_game *game, octree_status why, const double to[3])
 {
     return game_record_refusal(game, game->session->player.id, why, to) &&
            (!game->session->player.sweep || test_collision(game, game->tick.player));
 }
 
-/* Make a step whose end is inside the world and free of hits. A full leaf can still refuse it. */
+/* Make a step whose end is inside the world and free of hits. A full leaf can still refuse it. False when there is no
+ * memory. */
 static bool make_player_step(octree_game *game, const int64_t steps[3], const double to[3])
 {
     const uint64_t id = game->session->player.id;
@@ -139,7 +142,8 @@ static bool make_player_step(octree_game *game, const int64_t steps[3], const do
     return true;
 }
 
-/* Store the player's position now and before the tick. A player that is a body is where edits and motion put it. */
+/* Store the player's position after the tick, and its position before. If the player is a body, edits and motion have
+ * already moved it. */
 static void update_player(octree_game *game)
 {
     octree_tick *tick = &game->tick;
@@ -213,7 +217,8 @@ static bool check_foreign_nodes(octree_game *game, const octree_foreign_tree *re
     return foreign_check_nodes(&game->foreign, &points);
 }
 
-/* Check the foreign nodes; ask the queries and show the shapes of the tick, then those of every tick. */
+/* Check the foreign nodes. Then ask the queries and list the shapes: those of the tick first, then those of every tick.
+ * False when there is no memory. */
 static bool ask_and_show(octree_game *game, const octree_input *input)
 {
     const octree_input always = session_input(game->session, OCTREE_EVERY_TICK);
@@ -223,7 +228,7 @@ static bool ask_and_show(octree_game *game, const octree_input *input)
            list_shapes(game, input->shapes, input->shape_count) && list_shapes(game, always.shapes, always.shape_count);
 }
 
-/* The tick's splits and merges, and the digest and statistics of its tree. */
+/* Store the tick's splits and merges, and the digest and statistics of its tree. False when there is no memory. */
 static bool summarize_tree(octree_game *game)
 {
     tree_summary *summary = &game->summary;
@@ -239,7 +244,7 @@ static bool summarize_tree(octree_game *game)
     return ok;
 }
 
-/* Point the tick to the lists, which must not grow any more. */
+/* Set the tick's pointers to the lists. The lists must not grow any more in this tick. */
 static void publish_tick(octree_game *game)
 {
 #define PUBLISH(name, shown_count, type)                                                                               \
@@ -254,7 +259,7 @@ static void publish_tick(octree_game *game)
         game->tick.events |= OCTREE_EVENT_WRONG;
 }
 
-/* Finish a tick. In a gap nothing is tested, asked or shown. Returns OK or NO_MEMORY. */
+/* Finish a tick. In a gap, no collision is tested, no query asked and no shape listed. Returns OK or NO_MEMORY. */
 static octree_status finish_tick(octree_game *game, const octree_input *input)
 {
     bool ok = true;
@@ -270,7 +275,8 @@ static octree_status finish_tick(octree_game *game, const octree_input *input)
 
 /* ---- The beginning and the end of a game -------------------------------------------------------------------- */
 
-/* Put the player at its first position, or at the center of the world. Halves are added, so that nothing overflows. */
+/* Put the player at its first position, or at the center of the world. The center is a sum of halves, so that nothing
+ * overflows. */
 static octree_status place_player(octree_game *game)
 {
     const octree_player *player = &game->session->player;
@@ -378,7 +384,7 @@ static bool play_changes(octree_game *game, const octree_input *input)
     return game_apply_edits(game, input) && game_move_bodies(game) && step_player(game);
 }
 
-/* Play one tick with the given input, or if it is null with the session's. */
+/* Play one tick with the given input. If `given` is null, use the session's input. */
 static octree_status play_tick(octree_game *game, char key, const octree_input *given)
 {
     if (is_visited(game->tree))
@@ -391,7 +397,7 @@ static octree_status play_tick(octree_game *game, char key, const octree_input *
         return OCTREE_BAD_KEY;
     const octree_input own = session_input(game->session, game->tick.number + 1), *input = given ? given : &own;
     begin_tick(game, input->gap ? '.' : key);
-    /* in a gap the player does not move */
+    /* in a gap the player makes no step */
     if (input->gap)
         update_player(game);
     else if (!play_changes(game, input))

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* game_state.h - the members of octree_game, which the files of this room share. Private. */
+/* game_state.h - the struct octree_game, whose members all files of lib/src/game use. Private. */
 #ifndef OCTREE_GAME_STATE_H
 #define OCTREE_GAME_STATE_H
 
@@ -7,7 +7,8 @@
 #include "foreign.h"
 #include "tree_summary.h"
 
-/* The lists that octree_tick shows: the member, the member for its count, and the type of the items. */
+/* The lists that octree_tick points to. Each row has the member, the member for its count, and the type of the
+ * items. */
 #define GAME_SHOWN_LISTS(X)                                                                                            \
     X(hits, hit_count, octree_point)                                                                                   \
     X(refusals, refusal_count, octree_refusal)                                                                         \
@@ -19,8 +20,8 @@
     X(shapes, shape_count, octree_shape)                                                                               \
     X(movers, mover_count, octree_body)
 
-/* All lists that a tick starts empty. Besides those above: where each hit was before the tick (with sweep), and the
- * points and neighbours of all answers. */
+/* All lists that are empty at the start of a tick: the lists above, the position of each hit before the tick (with
+ * sweep), and the points and neighbours of all answers. */
 #define GAME_LISTS(X)                                                                                                  \
     GAME_SHOWN_LISTS(X)                                                                                                \
     X(hit_from, none, double[3])                                                                                       \
@@ -32,15 +33,15 @@ struct octree_game {
     octree *tree;
     arena memory;
     bodies bodies;
-    int64_t steps[3]; /* the player's net steps on each axis; its position is computed from them */
-    double fastest;   /* the largest speed of the session's bodies along one axis */
+    int64_t steps[3]; /* on each axis, the player's steps up minus its steps down; its position is computed from them */
+    double fastest;   /* the largest initial speed of the session's bodies along one axis */
     bool quit;
-    bool out_of_memory; /* a visitor or tracer could not record a hit or a node */
+    bool out_of_memory; /* true: a visitor or tracer had no memory to record a hit or a node */
     tree_summary summary;
     foreign foreign;
     judge judge;
     octree_tick tick;
-    char gap[OCTREE_GAP_TEXT]; /* the reason, if the tick is a gap */
+    char gap[OCTREE_GAP_TEXT]; /* the reason of the gap, if the tick is a gap */
 #define LIST(name, shown_count, type) list name;
     GAME_LISTS(LIST)
 #undef LIST

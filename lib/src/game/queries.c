@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* queries.c - asks the queries of a tick, has foreign answers judged, and lists the nodes that the searches visited. */
+/* queries.c - asks the queries of a tick, judges foreign answers, and lists the nodes that the searches visited. */
 #include "queries.h"
 #include "game_state.h"
 #include "search.h"
@@ -8,8 +8,9 @@
 
 /* ---- The queries of a tick ---------------------------------------------------------------------------------- */
 
-/* Judge what a foreign index did for a query. Its exact answer is the tick's last; `points` and `neighbors` are the
- * lengths that the lists of results had before. */
+/* Judge the foreign answer and the foreign nodes of a query. The exact answer is the last one in game->answers.
+ * `points` and `neighbors` are the lengths that the lists of results had before this answer. False when there is no
+ * memory. */
 static bool judge_foreign_query(octree_game *game, const octree_query *query, const octree_search *how, size_t points,
                                 size_t neighbors)
 {
@@ -65,7 +66,7 @@ bool game_ask_by_key(octree_game *game)
     return game->tick.key != 'n' || ask_in_game(game, &nearest, true);
 }
 
-/* Point each answer to its part of the lists, which must not grow any more. */
+/* Set each answer's pointers to its part of the lists. The lists must not grow any more in this tick. */
 static void assign_results(octree_game *game)
 {
     const octree_point *points = game->found_points.items;
@@ -100,7 +101,7 @@ octree_search game_search_options(octree_game *game, octree_cost *cost)
     return (octree_search){.cost = cost, .trace = record_visit, .trace_context = game};
 }
 
-/* Compare by node; for one node the order is visited, taken whole, pruned. */
+/* Compare two visits by node. Visits of one node have the order visited, taken whole, pruned. */
 static int compare_visits(const void *a, const void *b)
 {
     static const int weakness[OCTREE_TRACE_KINDS] = {

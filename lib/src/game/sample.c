@@ -30,7 +30,7 @@ static double random_normal(uint64_t *state)
     return sum;
 }
 
-/* Fill the rows with coordinates in [-1, 1]. */
+/* A distribution fills an array of positions, one per row, with coordinates in [-1, 1]. */
 typedef void distribution(uint64_t seed, size_t count, double (*rows)[3]);
 
 static void sample_uniform(uint64_t seed, size_t count, double (*rows)[3])
@@ -40,8 +40,8 @@ static void sample_uniform(uint64_t seed, size_t count, double (*rows)[3])
             rows[n][i] = 2 * octree_random_unit(&seed) - 1;
 }
 
-/* A normal value around a center. Values outside [-1, 1] are drawn again, so that points do not pile up on the faces.
- */
+/* A random value with a normal distribution around a center. Values outside [-1, 1] are drawn again, so that points do
+ * not pile up on the faces of the box. */
 static double random_within(uint64_t *state, double center, double sigma)
 {
     double x;
@@ -75,7 +75,7 @@ static void sample_clustered(uint64_t seed, size_t count, double (*rows)[3])
     }
 }
 
-/* Draw points in a ball and project them onto its surface. */
+/* Draw random points in a ball and project them onto its surface. */
 static void sample_surface(uint64_t seed, size_t count, double (*rows)[3])
 {
     for (size_t n = 0; n < count; n++) {
@@ -132,7 +132,7 @@ bool octree_sample_parse(const char *name, octree_sample_kind *kind)
     return false;
 }
 
-/* Map [-1, 1] to [min, max] without overflow. */
+/* Map a value from [-1, 1] to [min, max], without overflow. */
 static double map_to_interval(double unit, double min, double max)
 {
     const double x = (min / 2 + max / 2) + unit * (max / 2 - min / 2);

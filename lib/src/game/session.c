@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* session.c - checks a session, finds the input of a tick in it, and loads its bodies; the default session. */
+/* session.c - checks a session, finds the input of a tick in it, and loads its bodies. Also defines the paper's
+ * session. */
 #include "session.h"
 #include "float_mode.h"
 #include "game_state.h"
@@ -87,7 +88,8 @@ octree_status octree_input_check(const octree_input *input)
     return status == OCTREE_OK && input->gap ? check_gap(input->gap) : status;
 }
 
-/* Check items that begin with their tick: the ticks ascend, and if `distinct` no two are equal. */
+/* Check an array of items, each of which begins with its tick. The ticks must ascend; if `distinct` is true, no two may
+ * be equal. */
 static octree_status check_order(const void *items, size_t size, size_t count, bool distinct)
 {
     if (!items && count)
@@ -135,7 +137,7 @@ octree_status game_check_session(const octree_session *s, const octree *tree)
 
 /* ---- The input of a tick ------------------------------------------------------------------------------------ */
 
-/* The items of a tick; *found is their number. Null if there are none. */
+/* Return the items that belong to a tick, and store their number in *found. Null if there are none. */
 static const void *find_items_of_tick(const void *items, size_t size, size_t count, uint64_t tick, size_t *found)
 {
     const size_t first = find_first_word(items, size, count, tick);
@@ -162,7 +164,8 @@ octree_input session_input(const octree_session *s, uint64_t tick)
 
 /* ---- Loading ------------------------------------------------------------------------------------------------ */
 
-/* Store the points of all bodies whose velocity is finite; the others are refused. Returns the number of points. */
+/* Store the points of all bodies whose velocity is finite. Bodies with other velocities become refusals. Returns the
+ * number of points. */
 static size_t collect_finite_bodies(octree_game *game, octree_point *points)
 {
     size_t count = 0;
@@ -178,8 +181,8 @@ static size_t collect_finite_bodies(octree_game *game, octree_point *points)
     return count;
 }
 
-/* Add the bodies. `statuses` are those of the collected points. A duplicate id makes octree_game_create() fail, so it
- * does no harm that its point is already in the tree. */
+/* Add the bodies to the game. `statuses` are those of the points that were collected and inserted. A duplicate id makes
+ * octree_game_create() fail, so it does no harm that its point is already in the tree. */
 static octree_status add_bodies(octree_game *game, const octree_status *statuses)
 {
     for (size_t i = 0; i < game->session->body_count; i++) {
@@ -215,8 +218,8 @@ octree_status game_load_bodies(octree_game *game)
 
 /* ---- The paper's session ------------------------------------------------------------------------------------ */
 
-/* The ids are the positions in the paper's list. The sixth point, (0, 0, 0), is the player. Three points share one cell
- * of depth 5, so tick 0 refuses one of them. */
+/* The bodies of the paper. An id is the position in the paper's list. The sixth point of that list, (0, 0, 0), is the
+ * player. Three points share one cell of depth 5, so tick 0 refuses one of them. */
 static const octree_body paper_bodies[] = {
     {.id = 1, .position = {-50, -50, 100}},    {.id = 2, .position = {900, -900, -900}},
     {.id = 3, .position = {900, 900, 900}},    {.id = 4, .position = {-100, -100, 100}},
@@ -228,21 +231,21 @@ static const octree_body paper_bodies[] = {
 
 static const char paper_keys[] =
     "n.eeasnassdn."                                          /* three collisions near the origin */
-    "asfasfasfasfasfasfasfasfasfasfasfasfasfasfasfasfasfasf" /* down to the lowest corner ... */
-    "sffffnasf."                                             /* ... and against its three faces */
-    "ddweddwedddddddddddddddddddddddddddddddddnddwddddn"     /* point 2, and the face x = 1000 */
+    "asfasfasfasfasfasfasfasfasfasfasfasfasfasfasfasfasfasf" /* the player moves down to the lowest corner ... */
+    "sffffnasf."                                             /* ... and against the three faces there */
+    "ddweddwedddddddddddddddddddddddddddddddddnddwddddn"     /* to point 2, then against the face x = 1000 */
     "ewaewaewaewaewaewaewaewaewaewa"                         /* up to point 9 */
     "ewewewewewewewewewewewewewewewwwneee.n"
-    "dwedwedwedweddewn.en"   /* into the full cell */
-    "dwendweenaweeeen"       /* the face z = 1000 */
-    "wddnwaawwdnwfaffssn.."; /* point 11, the face y = 1000 */
+    "dwedwedwedweddewn.en"   /* into the cell whose leaf is full */
+    "dwendweenaweeeen"       /* against the face z = 1000 */
+    "wddnwaawwdnwfaffssn.."; /* to point 11, then against the face y = 1000 */
 
 #define CORNER(at)                                                                                                     \
     {                                                                                                                  \
         .tick = at, .kind = OCTREE_QUERY_RANGE, .box = { {700, 700, 700}, {1000, 1000, 1000} }                         \
     }
 
-/* Ask for the crowded corner while the player is there. */
+/* Range queries in the corner with the full cell, while the player is there. */
 static const octree_query paper_queries[] = {
     CORNER(212), CORNER(213), CORNER(214), CORNER(215), CORNER(216), CORNER(217),
     CORNER(218), CORNER(219), CORNER(220), CORNER(221), CORNER(222), CORNER(223),

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-/* session.h - checking a session and loading its bodies. Private. */
+/* session.h - checks a session and loads its bodies. Private. */
 #ifndef OCTREE_SESSION_H
 #define OCTREE_SESSION_H
 
 #include "octree/game.h"
 
-/* The session's edits, queries, shapes, gap and foreign nodes of a tick, or of OCTREE_EVERY_TICK, without the key.
- * Cost: O(log n) for n of them. */
+/* The session's input for a tick, or for OCTREE_EVERY_TICK: its edits, queries, shapes, gap and foreign nodes, but not
+ * its key. Cost: O(log n) for n of them. */
 octree_input session_input(const octree_session *session, uint64_t tick);
 
-/* Whether a key plays a tick: any key of game.h except q. */
+/* Whether a key can be the key of a tick. All keys in game.h can, except q. */
 bool game_is_key(char key);
 
 /* Check a session whose tree could be created. Errors: those of octree_game_create. */

@@ -1,20 +1,21 @@
 /* SPDX-License-Identifier: MIT */
-/* tree_summary.c - updates digest, statistics and inner nodes by walking only the subtrees that changed. */
+/* tree_summary.c - updates the digest, the statistics and the list of inner nodes by walking only the changed subtrees.
+ */
 #include "tree_summary.h"
 #include "walk.h"
 
 #define SUBTREE_POINTS 512
 
-/* A subtree of SUBTREE_POINTS points or fewer whose parent has more, or a leaf. */
+/* A leaf, or a subtree of at most SUBTREE_POINTS points whose parent has more points. */
 typedef struct subtree {
     octree_address address;
-    size_t first_inner, inner_count; /* its part of the list of inner nodes */
+    size_t first_inner, inner_count; /* the part of the list of inner nodes that belongs to the subtree */
     octree_stats stats;
-    uint64_t sum; /* the sum of digest_node() of its nodes */
+    uint64_t sum; /* the sum of digest_node() of all nodes of the subtree */
 } subtree;
 
-/* An update in progress. It walks the tree in pre-order, which is the order of all lists, so each list needs one index.
- */
+/* An update in progress. It walks the tree in pre-order, which is the order of all lists, so each list needs one
+ * index. */
 typedef struct update {
     tree_summary *to;
     arena *memory;
@@ -26,7 +27,7 @@ void tree_summary_record(tree_summary *s, arena *memory, const octree *tree, con
 {
     if (!s->known)
         return;
-    /* With more positions than this, most subtrees have to be walked anyway. */
+    /* If more positions than this have changed, most subtrees must be walked anyway. */
     const bool few = s->touched.count < 4096 + tree->root.count / 64;
     const uint64_t code = morton_code(tree->axes, position);
     s->known = few && list_push(memory, &s->touched, &code, sizeof code);
@@ -48,7 +49,7 @@ static void add_inner_node(update *u, octree_address address)
     u->out_of_memory |= !list_push(u->memory, &u->to->inner, &address, sizeof address);
 }
 
-/* The subtree at this address at the last update, or null. */
+/* The subtree at this address in the last update, or null. */
 static const subtree *find_subtree_before(update *u, octree_address address)
 {
     const subtree *before = u->to->subtrees_before.items;
@@ -58,7 +59,7 @@ static const subtree *find_subtree_before(update *u, octree_address address)
     return u->next_before < count && before[u->next_before].address == address ? &before[u->next_before] : NULL;
 }
 
-/* Whether a point in the cell at an address changed. */
+/* Whether a point in the cell at an address has changed since the last update. */
 static bool has_changed(update *u, octree_address address)
 {
     const uint64_t *codes = u->to->touched.items;
@@ -102,7 +103,8 @@ static void add_subtree(update *u, const node *n, octree_address address)
 
 /* ---- The whole tree ----------------------------------------------------------------------------------------- */
 
-/* Add a node and all its descendants, in pre-order. Unless `whole`, subtrees go to the list of subtrees instead. */
+/* Add a node and all its descendants, in pre-order. If `whole` is false, subtrees are added to the list of subtrees
+ * instead of node by node. */
 static void add_nodes_below(update *u, octree_stats *stats, uint64_t *sum, const node *n, octree_address address,
                             bool whole)
 {
@@ -168,7 +170,7 @@ bool tree_summary_update(tree_summary *s, arena *memory, const octree *tree)
     return s->known;
 }
 
-/* Append the addresses of `a` that are not in `b`. */
+/* Append to `out` the addresses of `a` that are not in `b`. False when there is no memory. */
 static bool append_difference(arena *memory, const list *a, const list *b, list *out)
 {
     const octree_address *in_a = a->items, *in_b = b->items;

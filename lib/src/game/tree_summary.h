@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* tree_summary.h - digest, statistics and inner nodes of a game's tree after each tick. Private.
  *
- * A tick changes points at few positions, and only the nodes between these and the root change. So the tree is divided
- * into subtrees of a few hundred points and the nodes above them. The summary of a subtree is kept until a point in its
- * cell changes. The alternative, a walk over the whole tree, would cost more than the tick itself in a large tree.
+ * A tick changes points at few positions. Only the nodes on the paths from the root to these positions change. So the
+ * tree is divided into subtrees of a few hundred points and the nodes above them. The summary of a subtree is kept
+ * until a point in its cell changes. The alternative, a walk over the whole tree, would cost more than the tick itself
+ * in a large tree.
  */
 #ifndef OCTREE_TREE_SUMMARY_H
 #define OCTREE_TREE_SUMMARY_H
@@ -12,12 +13,14 @@
 #include "tree.h"
 
 typedef struct tree_summary {
-    bool known; /* the lists describe the tree at this version, with this capacity */
+    bool known; /* true: the lists describe the tree with this version and capacity */
     uint64_t version;
     size_t capacity;
-    list touched;                   /* uint64_t: Morton codes of the positions changed since then */
-    list subtrees, subtrees_before; /* private to tree_summary.c; in pre-order */
-    list inner, inner_before;       /* octree_address: the inner nodes, in pre-order */
+    list touched; /* a list of uint64_t: Morton codes of the positions that changed since this version */
+    /* lists of subtree (tree_summary.c), in pre-order: now and before the last update */
+    list subtrees, subtrees_before;
+    /* lists of octree_address, in pre-order: the inner nodes now and before the last update */
+    list inner, inner_before;
     octree_stats stats;
     uint64_t digest;
 } tree_summary;
@@ -30,8 +33,8 @@ void tree_summary_record(tree_summary *s, arena *memory, const octree *tree, con
  * nodes and points of the subtrees that changed). */
 bool tree_summary_update(tree_summary *s, arena *memory, const octree *tree);
 
-/* Append the nodes that became inner nodes with the last update to `splits`, and those that ceased to be to `merges`.
- * False when there is no memory. */
+/* Append the nodes that became inner nodes in the last update to `splits`. Append the nodes that ceased to be inner
+ * nodes to `merges`. False when there is no memory. */
 bool tree_summary_compare(const tree_summary *s, arena *memory, list *splits, list *merges);
 
 void tree_summary_release(tree_summary *s, arena *memory);
