@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* A table of 16 four-bit entries: the bit count of each value 0..15. */
+/* A table of 16 entries of four bits each. Entry i is the number of set bits of i, which is 0..15. */
 #define BITS_COUNTS UINT64_C(0x4332322132212110)
 
 static inline unsigned bits_count8(unsigned mask)
@@ -14,7 +14,8 @@ static inline unsigned bits_count8(unsigned mask)
     return (unsigned)((BITS_COUNTS >> 4 * (mask & 15) & 15) + (BITS_COUNTS >> 4 * (mask >> 4) & 15));
 }
 
-/* The number of set bits, by partial sums of 2, 4 and 8 bits; the product adds the bytes in the highest one. */
+/* The number of set bits. Partial sums are taken over 2, 4 and 8 bits; the product then adds all bytes into the highest
+ * byte. */
 static inline unsigned bits_count(uint64_t mask)
 {
     mask -= mask >> 1 & UINT64_C(0x5555555555555555);
@@ -23,7 +24,7 @@ static inline unsigned bits_count(uint64_t mask)
     return (unsigned)(mask * UINT64_C(0x0101010101010101) >> 56);
 }
 
-/* Index of the lowest set bit; mask must not be 0. */
+/* The index of the lowest set bit, 0..63. mask must not be 0. */
 static inline unsigned bits_lowest(uint64_t mask)
 {
 #if defined(__GNUC__)
@@ -36,7 +37,7 @@ static inline unsigned bits_lowest(uint64_t mask)
 #endif
 }
 
-/* Index of the highest set bit; mask must not be 0. */
+/* The index of the highest set bit, 0..63. mask must not be 0. */
 static inline unsigned bits_highest(uint64_t mask)
 {
 #if defined(__GNUC__)
@@ -49,7 +50,8 @@ static inline unsigned bits_highest(uint64_t mask)
 #endif
 }
 
-/* Insert two zero bits before each of the low 21 bits, so that three such words interleave to a Morton code. */
+/* Insert two zero bits before each of the low 21 bits. Three such words, shifted by 0, 1 and 2 bits, combine to a
+ * Morton code. */
 static inline uint64_t bits_spread(uint64_t x)
 {
     x = (x | x << 32) & UINT64_C(0x001f00000000ffff);
@@ -60,7 +62,7 @@ static inline uint64_t bits_spread(uint64_t x)
     return x;
 }
 
-/* `mask` if the condition holds, else 0; without a branch. */
+/* Return `mask` if the condition holds, else 0, without a branch. */
 static inline unsigned bits_if(bool condition, unsigned mask)
 {
     return (0u - condition) & mask;

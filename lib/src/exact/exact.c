@@ -15,7 +15,7 @@
  */
 #include "exact.h"
 
-/* A finite double as mantissa * 2^exponent, the mantissa an integer below 2^53, and a sign. */
+/* A finite double as mantissa * 2^exponent and a sign. The mantissa is an integer below 2^53. */
 typedef struct decomposed {
     uint64_t mantissa;
     int exponent; /* at least -1074 */
@@ -40,7 +40,7 @@ void exact_clear(exact_sum *sum)
     sum->first = sum->end = 0;
 }
 
-/* Return the three digits that start at `place`. The range in use grows to include them; new digits are 0. */
+/* Return the three digits from index `place` on. The range of digits in use grows to include them; new digits are 0. */
 static int64_t *digits_at(exact_sum *sum, int place)
 {
     if (sum->first == sum->end)
@@ -52,7 +52,7 @@ static int64_t *digits_at(exact_sum *sum, int place)
     return sum->digits + place;
 }
 
-/* Add sign * value * 2^offset; offset >= 0 counts from the lowest bit of the fixed-point number. */
+/* Add sign * value * 2^offset to the sum. An offset of 0 is the lowest bit of the fixed-point number; offset >= 0. */
 static void add_shifted(exact_sum *sum, int sign, uint64_t value, int offset)
 {
     const int shift = offset % 32;
@@ -86,7 +86,8 @@ int exact_sign(exact_sum *sum)
         carry = (digit - sum->digits[i]) / (INT64_C(1) << 32);
         any |= sum->digits[i] != 0;
     }
-    return carry < 0 ? -1 : any; /* a carry is never positive: products leave 23 bits free in their last digit */
+    /* the last carry is never positive: products leave 23 bits free in their highest digit */
+    return carry < 0 ? -1 : any;
 }
 
 int exact_sign_of_sum(const double terms[], int count)
@@ -98,7 +99,8 @@ int exact_sign_of_sum(const double terms[], int count)
     return exact_sign(&sum);
 }
 
-/* The exact rounding error of sum = fl(a + b), by Dekker's FastTwoSum. Knuth's TwoSum can overflow in between. */
+/* The exact rounding error of sum = fl(a + b), by Dekker's FastTwoSum. Knuth's TwoSum needs no ordered operands, but an
+ * intermediate result can overflow. */
 static double sum_error(double a, double b, double sum)
 {
     return fabs(a) >= fabs(b) ? b - (sum - a) : a - (sum - b);

@@ -13,8 +13,8 @@
 
 #define EXACT_DIGITS 140
 
-/* Digits of 32 bits in signed 64-bit cells; carries are propagated by exact_sign(). Only the digits [first, end) are in
- * use. The others count as 0 and are not initialized. */
+/* Digits of 32 bits in signed 64-bit cells. exact_sign() propagates the carries. Only the digits [first, end) are in
+ * use; all others count as 0 and are not initialized. */
 typedef struct exact_sum {
     int first, end;
     int64_t digits[EXACT_DIGITS];
@@ -25,14 +25,15 @@ void exact_clear(exact_sum *sum);
 /* Add factor * a * b exactly. The factor is -2, -1, 1 or 2; a and b are finite. */
 void exact_add_product(exact_sum *sum, int factor, double a, double b);
 
-/* The sign of the sum: -1, 0 or 1. Normalizes the digits: clear the sum before using it again. */
+/* The sign of the sum: -1, 0 or 1. The call normalizes the digits, so the sum must be cleared before it is used
+ * again. */
 int exact_sign(exact_sum *sum);
 
-/* The sign of a sum of terms: -1, 0 or 1. */
+/* The sign of the exact sum of `count` terms: -1, 0 or 1. */
 int exact_sign_of_sum(const double terms[], int count);
 
-/* The largest double <= a + b, and the smallest double >= a + b, for the real sum. A sum beyond the range of doubles
- * gives +-DBL_MAX, or an infinity if no finite double is a bound. */
+/* For the real sum a + b, exact_add_down() returns the largest double <= a + b, exact_add_up() the smallest double >= a
+ * + b. A sum beyond the range of doubles gives +-DBL_MAX, or an infinity if no finite double is a bound. */
 double exact_add_down(double a, double b);
 double exact_add_up(double a, double b);
 

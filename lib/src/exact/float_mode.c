@@ -66,8 +66,9 @@ static void write_default(void)
 
 /* ---- The caller's mode --------------------------------------------------------------------------------------- */
 
-/* Of the public function that changed the thread's mode. At most one per thread has: inner calls find the default
- * mode, and a function of the caller runs with `changed` false. */
+/* The state of the public function that changed the thread's mode; `changed` is true while there is one. A thread has
+ * at most one such function: inner calls find the default mode, and while a caller's function runs `changed` is false.
+ */
 static _Thread_local bool changed;
 static _Thread_local float_control caller_control;
 
@@ -99,8 +100,8 @@ void float_mode_resume(bool paused)
 }
 
 #if !defined(__SSE2__) && !(defined(__aarch64__) && defined(__GNUC__))
-/* The operands are volatile, so that the compiler does not fold them. A mode that fesetenv() could not change counts as
- * the default: nothing more can be done. */
+/* Test the mode by its effect on some operations. The operands are volatile, so that the compiler does not fold the
+ * operations. A mode that fesetenv() could not change counts as the default, because nothing more can be done. */
 bool float_mode_is_default(void)
 {
     static const volatile double one = 1, half_ulp = 0x1p-53, more = 0x1.8p-53, least = 0x1p-1074, normal = 0x1p-1022;

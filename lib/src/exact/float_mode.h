@@ -21,13 +21,15 @@
 
 #include "octree/octree.h"
 
-/* Whether the thread rounds to nearest, keeps subnormals and traps no floating-point exception. */
+/* Whether the thread's mode is the default: it rounds to nearest, keeps subnormal numbers, and traps no floating-point
+ * exception. */
 #if defined(__SSE2__)
 #include <xmmintrin.h>
 
 static inline bool float_mode_is_default(void)
 {
-    return (_mm_getcsr() & 0xffc0u) == 0x1f80u; /* flush to zero, rounding, masks of exceptions, denormals are zero */
+    /* The tested bits are flush to zero, rounding, the exception masks, and denormals are zero. */
+    return (_mm_getcsr() & 0xffc0u) == 0x1f80u;
 }
 #elif defined(__aarch64__) && defined(__GNUC__)
 static inline bool float_mode_is_default(void)
@@ -37,20 +39,22 @@ static inline bool float_mode_is_default(void)
     return control == 0;
 }
 #else
-bool float_mode_is_default(void); /* tries some operations */
+bool float_mode_is_default(void); /* Finds out the mode by trying some operations. */
 #endif
 
-/* Remember the thread's mode as the caller's and set the default mode; restore the caller's mode. */
+/* float_mode_enter() saves the thread's mode as the caller's mode and sets the default mode. float_mode_leave()
+ * restores the caller's mode. */
 void float_mode_enter(void);
 void float_mode_leave(void);
 
-/* Before and after a function of the caller: restore the caller's mode if the library has changed it, and set the
- * default mode again. The function may call the library. If it does not return (longjmp, a C++ exception), the thread
- * has the caller's mode. */
+/* Call these functions before and after a function of the caller. float_mode_pause() restores the caller's mode if the
+ * library has changed it. float_mode_resume() sets the default mode again. The caller's function may call the library.
+ * If it does not return (longjmp, a C++ exception), the thread keeps the caller's mode. */
 bool float_mode_pause(void);
 void float_mode_resume(bool paused);
 
-/* A pointer that the compiler does not look through. Without __typeof__ the call is a plain recursion. */
+/* Declare a pointer `again` to the function. It is volatile, so the compiler cannot know which function it calls.
+ * Without __typeof__ the call is a plain recursion. */
 #if defined(__GNUC__)
 #define POINTER_TO_ITSELF(function) __typeof__(&(function)) volatile again = (function)
 #define CALL_ITSELF(function) again
@@ -87,7 +91,7 @@ typedef struct caller_node_visitor {
 } caller_node_visitor;
 
 typedef struct caller_search {
-    octree_search search; /* the caller's options, with the tracer replaced */
+    octree_search search; /* a copy of the caller's options with another tracer, which calls the caller's tracer */
     octree_tracer trace;
     void *context;
 } caller_search;

@@ -19,9 +19,9 @@
 #if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
 #error "Octreel's answers are exact: it must not be compiled with -ffast-math or -ffinite-math-only"
 #endif
-/* FLT_EVAL_METHOD 0 evaluates each type in its own precision; 1 evaluates float as double (s390x under -std=c17), which
- * does no harm, because the library computes in double; 16 to 64 widen only types shorter than that many bits. 2 means
- * long double. */
+/* FLT_EVAL_METHOD 0 evaluates each type in its own precision. 1 evaluates float as double (s390x under -std=c17); this
+ * does no harm, because the library computes in double. 16 to 64 widen only types of fewer bits than this number. 2
+ * means long double and is not supported. */
 #if FLT_EVAL_METHOD < 0 || FLT_EVAL_METHOD == 2 || FLT_EVAL_METHOD > 64
 #if defined(__i386__)
 #error "Octreel needs doubles that are evaluated as doubles, which the x87 does not: compile with -msse2 -mfpmath=sse"
@@ -35,9 +35,10 @@
 #include <emmintrin.h>
 #endif
 
-/* Many processors multiply subnormal numbers in microcode, at some 150 cycles each (measured: a nearest-neighbour
- * search in a world at 1e-310 took 21 times as long as elsewhere). A subnormal number is an integer multiple of
- * 2^-1074, and that integer is a normal double. Differences of numbers below SUBNORMAL_HALF are subnormal or 0. */
+/* Subnormal numbers are converted to normal ones. Many processors multiply subnormal numbers in microcode, at some 150
+ * cycles each (measured: a nearest-neighbour search in a world at 1e-310 took 21 times as long as elsewhere). A
+ * subnormal number is an integer multiple of 2^-1074, and this integer is a normal double. The difference of two
+ * numbers below SUBNORMAL_HALF is subnormal or 0. */
 #define SUBNORMAL_HALF 0x1p-1023
 
 static inline bool is_subnormal(double x)
@@ -45,7 +46,7 @@ static inline bool is_subnormal(double x)
     return fabs(x) < 0x1p-1022;
 }
 
-/* x * 2^1074, exact, for a subnormal x: its bit pattern without the sign is that integer. */
+/* Return x * 2^1074, exactly, for a subnormal x. The result is an integer: the bits of x without the sign bit. */
 static inline double subnormal_count(double x)
 {
     uint64_t bits;
@@ -54,10 +55,10 @@ static inline double subnormal_count(double x)
     return bits >> 63 ? -count : count;
 }
 
-/* count * 2^-1074, rounded to nearest even like the product; |count| < 2^51. */
+/* Return count * 2^-1074, rounded to nearest even as a product would be; |count| < 2^51. */
 static inline double subnormal_of(double count)
 {
-    const double sum = fabs(count) + 0x1p52; /* rounds to an integer */
+    const double sum = fabs(count) + 0x1p52; /* this addition rounds to an integer */
     uint64_t bits;
     double x;
     memcpy(&bits, &sum, sizeof bits);

@@ -40,7 +40,8 @@ metric metric_make(double scale, bool subnormal, const double target[3])
 }
 
 #ifdef OCTREE_SSE2
-/* The squared distances of two points from the target, computed together. Not for worlds of subnormal numbers. */
+/* Compute the squared distances of two points from the target at once. Not valid for worlds of subnormal
+ * coordinates. */
 static inline __m128d square_pair(const double a[3], const double b[3], const __m128d target[3], __m128d scale)
 {
     const __m128d xy_a = _mm_loadu_pd(a), xy_b = _mm_loadu_pd(b), z = _mm_loadh_pd(_mm_load_sd(&a[2]), &b[2]);
@@ -63,7 +64,8 @@ static inline void scan_pair(pair_scan *s, const octree_point *points, unsigned 
     _mm_storeu_pd(&squares[i], pair);
 }
 
-/* For an odd count the last pair overlaps the pair before it, so that no branch depends on the parity. */
+/* Scan points in pairs. If the count is odd, the last pair overlaps the pair before it, so no branch depends on the
+ * parity. */
 static metric_scan scan_pairs(const metric *m, const octree_point *points, unsigned count, double reach,
                               double squares[])
 {
@@ -95,9 +97,9 @@ metric_scan metric_scan_points(const metric *m, const octree_point *points, unsi
 
 int metric_compare(const double target[3], const double a[3], const double b[3])
 {
-    /* |a - t|^2 - |b - t|^2 = sum of a^2 - 2at - b^2 + 2bt: twelve exact products, fewer where coordinates are equal.
-     */
-    /* Many points at one position are compared often. */
+    /* |a - t|^2 - |b - t|^2 is the sum of a^2 - 2at - b^2 + 2bt over the axes. These are twelve exact products, fewer
+     * if coordinates are equal. */
+    /* Many points may share one position, so equal positions are compared often. */
     if (same_position(a, b))
         return 0;
     exact_sum sum;

@@ -13,24 +13,26 @@
 #include "octree/types.h"
 
 typedef struct metric {
-    double target[3]; /* not scaled */
-    double scaled[3]; /* the target times `scale` */
+    double target[3]; /* the target in world units, not scaled */
+    double scaled[3]; /* the target multiplied by `scale` */
     double scale;
     double grain; /* scale * 2^-1074 in a world of subnormal coordinates, else 0 */
 } metric;
 
-/* The power of two by which a world is scaled: between 2^-1020 and 2^1000, so that it is a normal double. */
+/* The power of two by which the coordinates of a world are multiplied. It is between 2^-1020 and 2^1000, so that it is
+ * a normal double. */
 double metric_scale(const octree_box *world);
 
 metric metric_make(double scale, bool subnormal, const double target[3]);
 
-/* A coordinate of the world times the scale. */
+/* A coordinate of the world multiplied by the scale. */
 static inline double metric_scaled(const metric *m, double x)
 {
     return m->grain > 0 ? subnormal_count(x) * m->grain : x * m->scale;
 }
 
-/* The scaled squared distance of a point: (dx^2 + dy^2) + dz^2, in that order on every machine. */
+/* The scaled squared distance of a point from the target. It is (dx^2 + dy^2) + dz^2, added in this order on every
+ * machine. */
 static inline double metric_square(const metric *m, const double p[3])
 {
     const double x = metric_scaled(m, p[0]) - m->scaled[0];
@@ -39,8 +41,8 @@ static inline double metric_square(const metric *m, const double p[3])
     return (x * x + y * y) + z * z;
 }
 
-/* The squares of up to 64 points, bit for bit those of metric_square(): the least one, and a mask of the points whose
- * square is not above a limit. */
+/* The result of computing the squares of up to 64 points: the least square, and a mask of the points whose square is
+ * not above a limit. Each square equals that of metric_square() in every bit. */
 typedef struct metric_scan {
     uint64_t within;
     double least;
@@ -49,7 +51,7 @@ typedef struct metric_scan {
 metric_scan metric_scan_points(const metric *m, const octree_point *points, unsigned count, double reach,
                                double squares[]);
 
-/* A mask of the squares that are not above a limit. Without branches, because they would be unpredictable. */
+/* A mask of the squares that are not above `reach`. Computed without branches, because they would be unpredictable. */
 static inline uint64_t metric_mask_within(const double squares[], unsigned count, double reach)
 {
     uint64_t within = 0;
@@ -64,7 +66,7 @@ static inline uint64_t metric_mask_within(const double squares[], unsigned count
     return within;
 }
 
-/* The scaled distance from the target to an interval on one axis; 0 inside. */
+/* The scaled distance from the target to an interval on axis i; 0 if the target is inside the interval. */
 static inline double metric_gap(const metric *m, int i, double min, double max)
 {
     const double below = metric_scaled(m, min) - m->scaled[i];
@@ -72,13 +74,15 @@ static inline double metric_gap(const metric *m, int i, double min, double max)
     return below > 0 ? below : above > 0 ? above : 0;
 }
 
-/* A square below this limit did not overflow. A larger one may stand for any larger number. */
+/* A square below this limit has not overflowed. For a larger square the real number may be any larger number. */
 #define METRIC_FINITE 0x1p1020
 
-/* Bounds for certain comparisons: a square above metric_above(b) is certainly greater than b as a real number, a square
- * below metric_below(b) certainly less. The band is 64u wide: 12u for the errors of both squares, 3u for its own
- * roundings, and the rest covers the 16u by which nearest.c may visit siblings out of order. No square is above an
- * infinite b, and NaN is above nothing. */
+/* Bounds for certain comparisons. As real numbers, a square above metric_above(b) is certainly greater than b, and a
+ * square below metric_below(b) certainly less.
+ *
+ * The band is 64u wide: 12u for the errors of both squares, 3u for the roundings of the bound itself, and the rest
+ * covers the 16u by which nearest.c may visit siblings out of order. No square is above an infinite b, and NaN is above
+ * nothing. */
 static inline double metric_above(double b)
 {
     return b * (1 + 0x1p-47) + 0x1p-998;
@@ -95,7 +99,8 @@ int metric_compare(const double target[3], const double a[3], const double b[3])
 /* The sign of |p - target| - radius in real numbers. Exact for all finite doubles, radius >= 0. */
 int metric_compare_radius(const double target[3], const double p[3], double radius);
 
-/* The Euclidean distance, within 4 ulp, scaled by its largest component; infinite only beyond DBL_MAX. */
+/* The Euclidean distance, within 4 ulp. Differences are scaled by the largest one, so the result is infinite only if
+ * the distance is beyond DBL_MAX. */
 double metric_distance(const double a[3], const double b[3]);
 
 #endif

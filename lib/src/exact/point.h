@@ -6,7 +6,8 @@
 #include "float_rules.h"
 #include "octree/types.h"
 
-/* One branch for three coordinates: on a lattice, where points share some coordinates, three would be unpredictable. */
+/* Whether two positions are equal. One branch decides for all coordinates: on a lattice, where points share some
+ * coordinates, three branches would be unpredictable. */
 static inline bool same_position(const double a[3], const double b[3])
 {
 #ifdef OCTREE_SSE2
@@ -23,7 +24,7 @@ static inline bool is_finite_position(const double p[3])
     return isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]);
 }
 
-/* Whether a box is valid as the world of a tree. */
+/* Whether a box can be the world of a tree. */
 static inline bool is_world(const octree_box *box)
 {
     bool good = true;
@@ -49,8 +50,8 @@ static inline bool box_contains(const octree_box *box, const double p[3])
 #endif
 }
 
-/* Round to the nearest float; finite values beyond FLT_MAX become FLT_MAX, infinities stay. volatile works around GCC
- * 12 at -O3, which drops one of three adjacent roundings. */
+/* Round to the nearest float. Finite values beyond FLT_MAX become FLT_MAX with their sign; infinities stay. volatile
+ * works around a bug of GCC 12, which at -O3 drops one of three adjacent roundings. */
 static inline double round_to_float(double x)
 {
     const volatile float rounded = (float)(x > FLT_MAX ? FLT_MAX : x < -FLT_MAX ? -FLT_MAX : x);

@@ -5,8 +5,8 @@
 
 #include <stdbool.h>
 
-/* The box position +- size, which moves in a straight line from `from` to `to` during the time 0..1. All values are
- * finite, size >= 0. */
+/* A box that moves in a straight line during the time 0..1. Its centre moves from `from` to `to`; it extends by `size`
+ * from the centre on each axis. All values are finite, size >= 0. */
 typedef struct sweep {
     const double *from, *to;
     double size;
