@@ -57,7 +57,7 @@ static uint64_t hash_key(const void *item)
     return (mixed ^ mixed >> 32) * UINT64_C(0xd6e8feb86659fd93) >> 32;
 }
 
-/* Compares doubles rather than bytes, since -0 equals 0. */
+/* Compares the coordinates as doubles, not as bytes: -0 equals 0, but their bytes differ. */
 static bool are_keys_equal(const void *a, const void *b)
 {
     const line_key *p = a, *q = b;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* context.c - chooses and opens an off-screen GL context, and loads the library of each kind. */
+/* context.c - chooses and opens an off-screen GL context. Its helpers load the libraries for all kinds of contexts. */
 #include "context.h"
 
 #include "cores.h"
@@ -133,7 +133,8 @@ static bool can_start_threads(unsigned wanted)
     return count == wanted;
 }
 
-/* llvmpipe starts one thread per core, up to 32; Mesa starts two more for its disk cache. */
+/* Counts the threads that are needed: llvmpipe starts one thread per core, at most 32, and Mesa two more for its disk
+ * cache. */
 void context_limit_threads(void)
 {
     if (!can_start_threads(count_cores() + 2))

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* context.h - off-screen GL contexts: the names of their kinds, and the interface through which gl_surface.c uses them.
- * context_osmesa.c and context_egl.c implement one kind each; CMake chooses which are built. */
+/* context.h - off-screen GL contexts: the names of their kinds, and the interface that gl_surface.c uses.
+ * context_osmesa.c and context_egl.c implement one kind each; CMake chooses which of them are compiled. */
 #ifndef DRAW_CONTEXT_H
 #define DRAW_CONTEXT_H
 
@@ -8,7 +8,7 @@
 
 #include <stddef.h>
 
-/* DRAW_AUTO tries the kinds in this order. */
+/* The kinds of GL contexts. DRAW_AUTO tries the others in this order. */
 typedef enum draw_context { DRAW_AUTO, DRAW_OSMESA, DRAW_EGL, DRAW_CONTEXTS } draw_context;
 
 /* Returns "auto", "osmesa" or "egl"; null if `kind` is not below DRAW_CONTEXTS. */
@@ -45,7 +45,7 @@ typedef void (*context_function)(void);
 typedef struct context context;
 struct context {
     const char *name;
-    void *library; /* set by context_create() */
+    void *library; /* handle of the loaded library, set by context_create() */
 
     /* Make the context current, even if its library reports that it is current already: contexts of different kinds
      * share Mesa's current context, so a library may not notice that another library changed it. */

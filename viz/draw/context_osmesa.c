@@ -29,7 +29,7 @@ static context_function find_function(const context *face, const char *name)
     return (context_function)((const osmesa_context *)face)->find_function(name);
 }
 
-/* Keeps the library loaded: Mesa's threads and LLVM do not survive an unload followed by a second load. */
+/* Does not unload the library: Mesa's threads and LLVM do not survive an unload followed by a second load. */
 static void close_context(context *face)
 {
     osmesa_context *c = (osmesa_context *)face;

@@ -54,7 +54,7 @@ bool edge_boxes_find_all(edge_boxes *all, const scene *s)
         for (unsigned axis = 0; axis < 3; axis++)
             for (unsigned corner = 0; corner < 4 && box->box.min[axis] < box->box.max[axis]; corner++)
                 all->items[all->count++] = make_box_edge(box, i, axis, corner);
-        if (all->count == before) /* the box is a single point */
+        if (all->count == before) /* the box has no edges: it is a single point */
             all->items[all->count++] = make_box_edge(box, i, 0, 0);
     }
     qsort(all->items, all->count, sizeof *all->items, compare_edges);
@@ -107,7 +107,7 @@ static double find_coordinate(const scene *s, const stroke *k, double pixel)
 {
     const camera *c = &s->camera;
     const double slope = (pixel - c->middle[k->across]) / c->zoom * (k->across ? -1 : 1);
-    double off[2]; /* the distance of each end from the plane through the eye and this column or row */
+    double off[2]; /* the distance of each end from the plane through the eye and the column or row */
     for (int end = 0; end < 2; end++)
         off[end] = k->seen[end][k->across] - slope * (c->perspective ? k->seen[end][2] : 1);
     const double part = off[0] / (off[0] - off[1]);

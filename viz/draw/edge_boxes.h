@@ -13,7 +13,7 @@ typedef struct box_edge {
     uint8_t depth;
 } box_edge;
 
-/* The edges of all boxes of a scene, sorted by their lines. */
+/* The edges of all boxes of a scene, sorted by the line on which they lie. */
 typedef struct edge_boxes {
     const scene *scene; /* from project_scene_to_samples(); must outlive this struct */
     box_edge *items;

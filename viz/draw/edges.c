@@ -267,7 +267,7 @@ static bool sweep_line(const sweep *w, const interval *line, size_t count)
 
 /* ---- All lines ------------------------------------------------------------------------------------------------ */
 
-/* Copy the merged edges of an unchanged line from the last scene. */
+/* Copy the merged edges of an unchanged line from list->before. False when out of memory. */
 static bool copy_line_edges(edge_list *list, const line *of)
 {
     edge_array *now = &list->now;

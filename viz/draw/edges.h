@@ -98,7 +98,7 @@ bool box_lines_update(box_lines *kept, const scene *s, unsigned first, unsigned 
 
 /* ---- edges.c ------------------------------------------------------------------------------------------------- */
 
-/* A segment of a line in the world, parallel to an axis, with one style and depth. */
+/* A merged edge: a segment in the world, parallel to an axis, with one style and depth. */
 typedef struct edge {
     double ends[2][3];
     scene_style style;
@@ -109,9 +109,9 @@ typedef ARRAY(edge) edge_array;
 
 typedef struct edge_list {
     edge_array now;
-    edge_array before; /* the edges of the last scene, used during a merge */
+    edge_array before; /* the merged edges of the last scene, used during a merge */
     box_lines boxes;   /* the boxes of the last scene and their lines */
-    uint32_t *order;   /* indices of lines, in painting order */
+    uint32_t *order;   /* indices into boxes.lines, in painting order */
     size_t ordered;    /* the number of lines in `order`; newer lines are not in it yet */
 } edge_list;
 

@@ -120,7 +120,7 @@ typedef struct fill_axis {
 
 /* A strip, walked along its long axis. Each step sets `width` pixels on the axis `across`. */
 typedef struct strip_walk {
-    uint8_t *step;  /* pixel 0 of the current row (or column) */
+    uint8_t *step;  /* address of pixel 0 of the current row (or column) */
     ptrdiff_t next; /* the number of bytes from this row (or column) to the next */
     fill_axis across;
     int steps, width;

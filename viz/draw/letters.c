@@ -59,7 +59,7 @@ static void add_letter(quad_list *list, quad *q, const glyph_set *set, char lett
     }
 }
 
-/* The width in pixels of the dark rim around a label's letters. */
+/* Returns the width in pixels of the dark rim around a label's letters. */
 static int find_rim_width(const scene *s, const scene_label *label)
 {
     return label->style.stroke != STROKE_CUT ? 0 : s->unit > 2 ? s->unit / 2 : 1;

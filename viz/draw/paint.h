@@ -12,7 +12,7 @@
 typedef struct painter {
     quad_list quads;
     edge_list tree;   /* edges of the boxes of the world and of nodes, which often stay the same from tick to tick */
-    edge_list edges;  /* edges of boxes in other layers */
+    edge_list edges;  /* edges of the boxes in all other layers */
     uint8_t *nearest; /* 1 + the nearest band of the points at each sample; 0: no point */
     size_t nearest_room;
     point_place *places; /* for each marker, the sample at which it is drawn */

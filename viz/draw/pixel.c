@@ -215,12 +215,12 @@ bool renderer_find_layer_mask(renderer *r, const scene *s, unsigned layers, uint
 
 #define MOST_SAMPLES 16 /* the most samples of a pixel: 4 on each axis */
 
-/* The state of listing the elements of one pixel. */
+/* The state while the elements at one pixel are listed. */
 typedef struct probe {
     const scene *picture;
     painter painter;
     sources sources;
-    renderer_part part; /* the pixel's samples */
+    renderer_part part; /* the rectangle of the pixel's samples */
     unsigned taken;     /* for each sample of the pixel, a bit: its topmost element is known */
     const quad *quad;   /* the quad whose element is being listed */
     draw_covers *list;

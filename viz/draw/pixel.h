@@ -16,7 +16,7 @@ bool renderer_find_element_numbers(renderer *r, const scene *s, uint32_t *number
  * layers would change no pixel whose byte is 0. */
 bool renderer_find_layer_mask(renderer *r, const scene *s, unsigned layers, uint8_t *mask, octreel_error *error);
 
-/* How an element covers a pixel. */
+/* An element at a pixel, and the samples of the pixel that it covers. */
 typedef struct draw_cover {
     uint32_t number;
     int shown;   /* the number of the pixel's samples at which the element is on top */

@@ -197,7 +197,7 @@ typedef struct point_run {
     double from_eye[3][RUN];
     double across[RUN], along[RUN], depth[RUN]; /* the three camera coordinates of camera_transform() */
     double x[RUN], y[RUN], band[RUN];           /* pixels, and the result of find_band_position() */
-    double seen[RUN];                           /* 0: the point is not in the picture */
+    double seen[RUN];                           /* not 0: the point is in the picture */
 } point_run;
 
 static void measure_along_axis(const point_run *run, const double axis[3], double seen[RUN])

@@ -29,14 +29,14 @@ bool clip_picture_segment(const scene *s, const double from[3], const double to[
  * margin. */
 bool find_pixel_and_depth(const scene *s, const double position[3], double pixel[2], double *depth);
 
-/* The pixel at which a point is drawn. */
+/* The pixel at which a point is drawn, and the point's band of depth. */
 typedef struct point_place {
     uint32_t pixel; /* index of the pixel, counted row by row */
     uint8_t band;
     bool seen; /* find_pixel_and_band() would succeed, and the pixel is in the picture */
 } point_place;
 
-/* Project many markers at once. */
+/* Project the positions of `count` markers, and write one entry of `places` for each. */
 void project_points(const scene *s, const scene_marker *markers, size_t count, point_place *places);
 
 /* Returns the band of a view depth, 0 for the nearest. */

@@ -33,7 +33,7 @@ static bool check_size(int width, int height, octreel_error *error)
                      VIEW_MAX_SIDE);
 }
 
-/* True if GL draws every scene. */
+/* True if GL, instead of the integer rasterizer, draws every scene. */
 static bool fills_with_gl(const renderer *r)
 {
     return r->choice.fill == DRAW_FILL_GL;

@@ -26,7 +26,8 @@ bool splats_paint_points(splats *t, quad_list *quads, const scene *s);
 /* Set the colours of a panel whose quad has the index THEME_OWN, such as a swatch of the legend. */
 void splats_fill_panel(splats *t, const scene *s, const scene_panel *panel);
 
-/* Copy the colours of a close-up into its part of the picture. Both scenes are from project_scene_to_samples(). */
+/* Copy the colours of the close-up `closer` into its part of the picture of `s`. Both scenes are from
+ * project_scene_to_samples(). */
 void splats_copy_closeup(splats *t, const scene *s, const splats *closeup, const scene *closer);
 
 /* A list of points that cover samples of a square, including hidden points, nearest first. A zeroed list is empty. The

@@ -17,11 +17,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The length of a dash and of the gap after it, in half units. */
+/* The length of a dash, and of the gap after it, in half units of scene.unit. */
 #define DASH 6
 #define GAP 4
 
-/* The head of an arrow, in half units: its length, and its extent to either side. */
+/* The head of an arrow, in half units of scene.unit: its length, and its extent to each side of the arrow. */
 #define HEAD 8
 #define HEAD_SIDE 4
 
@@ -67,7 +67,8 @@ static int32_t round_to_subpixel(double pixel)
     return (int32_t)floor(pixel * QUAD_SUBPIXELS + 0.5);
 }
 
-/* Add a line as a parallelogram, widened by half its width on either side along the axis on which it is shorter. */
+/* Add a line as a parallelogram: each end is widened by half the line's width to both sides, along the axis on which
+ * the line is shorter. */
 static void add_line(quad_list *list, const pencil *with, unsigned band, const double from[2], const double to[2])
 {
     quad q = make_quad(with, band);
@@ -81,21 +82,21 @@ static void add_line(quad_list *list, const pencil *with, unsigned band, const d
     quads_add_quad(list, &q);
 }
 
-/* The left or top edge of a pixel, clamped to coordinates outside every picture. */
+/* Returns the coordinate of a pixel's left or top edge, clamped to a value outside every picture. */
 static int32_t find_pixel_edge(int64_t pixel)
 {
     const int64_t most = 2 * VIEW_MAX_SIDE;
     return (int32_t)(pixel < -most ? -most : pixel > most ? most : pixel) * QUAD_SUBPIXELS;
 }
 
-/* Add a filled rectangle of whole samples. */
+/* Add a filled rectangle. Its position and size are in samples. */
 static void add_rectangle(quad_list *list, quad q, int64_t x, int64_t y, int64_t width, int64_t height)
 {
     quads_add_rectangle(list, &q, find_pixel_edge(x), find_pixel_edge(y), find_pixel_edge(x + width),
                         find_pixel_edge(y + height));
 }
 
-/* True if a segment is shorter than a sample on both axes, so that a parallelogram might cover no sample's centre. */
+/* True if a segment is shorter than a sample on both axes: as a parallelogram it might cover no sample's centre. */
 static bool is_shorter_than_sample(const piece *pieces, unsigned count)
 {
     const piece *first = &pieces[0], *last = &pieces[count - 1];
@@ -217,7 +218,7 @@ static void add_ring(quad_list *list, quad q, const double center[2], int corner
     }
 }
 
-/* Add a ring, triangle or wedge that fits into a square of this side. */
+/* Add a ring, triangle or wedge that fits into a square whose side is `side` and whose top left corner is `corner`. */
 static void add_polygon(quad_list *list, const pencil *with, quad q, scene_shape shape, const double corner[2],
                         int side)
 {

@@ -16,7 +16,8 @@ typedef struct pencil {
 
 pencil stroke_make_pencil(const scene *s, scene_style style, unsigned depth);
 
-/* Draw the pieces of one segment with its stroke. A visible segment gets at least one pixel, however short it is. */
+/* Add the quads of one segment, given as pieces, with the stroke of its style. A visible segment gets at least one
+ * pixel, however short it is. */
 void stroke_add_line(quad_list *list, const pencil *with, const piece *pieces, unsigned count);
 
 /* Returns the side of a marker in pixels. It grows with `unit`, so that markers stay visible in large pictures. */
