@@ -74,7 +74,7 @@ static double find_half_span(const double axis[3], const double half[3])
 }
 
 static const struct {
-    double azimuth, elevation; /* in turns */
+    double azimuth, elevation; /* angles in turns */
     bool perspective;
 } cameras[CAMERA_COUNT] = {
     /* not the true isometric view, in which a cube's nearest corner hides its farthest corner */

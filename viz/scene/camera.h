@@ -19,14 +19,14 @@
 #include "octree/types.h"
 #include "view.h"
 
-/* The area of the frame in which the world is drawn, in pixels; y points down. */
+/* The area of the picture in which the world is drawn, in pixels; y points down. */
 typedef struct camera_window {
     double x, y, width, height;
 } camera_window;
 
 typedef struct camera {
     double origin[3]; /* the box's lowest corner, times scale */
-    double scale;     /* 1, or 1/2 where the box's extent overflows */
+    double scale;     /* 1; 1/2 if the box's extent overflows a double */
     double size;      /* the box's largest extent, times scale */
     double half[3];   /* half the box's extent on each axis, in unit coordinates: 1 on the longest axis */
     double right[3], up[3], forward[3]; /* an orthonormal basis; forward points away from the eye */

@@ -1,16 +1,18 @@
 /* SPDX-License-Identifier: MIT */
 /* filter.h - which nodes and points of a tree a view shows.
  *
- * A node is shown when it passes every part of the filter:
- *   slice    the plane runs through its cell, by the rule that places points: min <= at < max, where the world's
- *            greatest face belongs to the last cell. So a slice is one layer of cells, also where it lies on a plane
- *            of the tree.
- *   depth    its depth is in the range.
- *   leaves   it is a leaf.
- *   region   its box meets the region; both are closed.
- * A point is shown when it lies in the region, in a leaf that the slice's plane runs through, and in some node of the
- * range of depths, which means in a leaf at least as deep as the range begins. With `leaves` its leaf must be in the
- * range.
+ * A node is shown if it passes every part of the filter that is set:
+ *   slice    The slice's plane runs through the node's cell. The rule is that of points: min <= at < max, and the
+ *            world's greatest face belongs to the last cell. So a slice is one layer of cells, even if the plane is a
+ *            plane of the tree.
+ *   depth    The node's depth is in the range of depths.
+ *   leaves   The node is a leaf.
+ *   region   The node's box meets the region. Both are closed.
+ *
+ * A point is shown if it lies in the region, and its leaf passes these tests:
+ *   slice    The slice's plane runs through the leaf's cell.
+ *   depth    The leaf is at least as deep as the least depth of the range: then the leaf or an ancestor is in the
+ * range. leaves   The leaf itself is in the range of depths.
  */
 #ifndef SCENE_FILTER_H
 #define SCENE_FILTER_H
@@ -24,7 +26,7 @@ typedef struct view_filter {
     char slice;      /* 'x', 'y' or 'z': show only nodes that a plane across this axis cuts; 0: no plane */
     double slice_at; /* the plane's coordinate on the axis `slice` */
     bool by_depth;   /* show only nodes from min_depth to max_depth */
-    unsigned min_depth, max_depth; /* 0 to OCTREE_MAX_DEPTH */
+    unsigned min_depth, max_depth; /* each from 0 to OCTREE_MAX_DEPTH */
     bool leaves;                   /* show only leaves */
     bool by_region;                /* show only nodes and points that meet the region */
     octree_box region;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* heat.c - see heat.h. */
+/* heat.c - counts visits and points of nodes over the ticks; see heat.h. */
 #include "heat.h"
 #include "array.h"
 #include "octree/octree.h"

@@ -55,7 +55,7 @@ typedef ARRAY(kept_subtree) kept_list;
 /* The cache. A zeroed struct is empty. */
 typedef struct kept_tree {
     kept_look look;
-    uint64_t sieve;         /* the sieve that chose the kept points: node_boxes.h */
+    uint64_t sieve;         /* which points of the subtrees were kept: see the sieve in node_boxes.h */
     kept_list now, before;  /* the subtrees of this walk and of the walk before, each in the order of the walk */
     size_t passed;          /* the number of subtrees in `before` that the walk has passed */
     octree_cursor cursor;   /* the position in the tree's change log */
@@ -64,7 +64,7 @@ typedef struct kept_tree {
     uint64_t *changed;      /* the keys of changed positions, sorted */
     size_t changed_count, changed_room, next_changed;
     bool lost;         /* `changed` is incomplete: there were too many changes, or memory ran out */
-    kept_subtree open; /* the subtree that is being collected; address 0: none */
+    kept_subtree open; /* the subtree that is being collected; its address is 0 if there is none */
     kept_node *nodes;  /* the nodes of `open` so far */
     size_t node_room, first_marker;
     digest_names names;

@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 /* layer.h - the layers of a scene, one row each.
  *
- * To add a layer:
+ * To add a layer, add:
  *   1. a row in LAYER_MAP below, in painter's order
  *   2. a file in viz/layers that defines its layer_type (layer_type.h)
- *   3. a test of the file in tests/viz/layers
- *   4. a row in the tables of test_describe.c, test_legend.c and test_picture.c (tests/viz), and of
- *      tests/support/viz/golden_frames.c with its golden frame; if the layer is hidden by default, in test_view.c
- * If a tick lacks the data, add them to octree_tick first. A new colour is a row of theme.h. A curve in the page of a
- * recording is a line of CURVES in viz/page/viewer/facts.js.
+ *   3. a test of this file in tests/viz/layers
+ *   4. a row in the tables of test_describe.c, test_legend.c and test_picture.c (tests/viz)
+ *   5. a row in tests/support/viz/golden_frames.c, with the layer's golden frame
+ *   6. a row in test_view.c, if the layer is hidden by default
+ * If the layer shows data that octree_tick does not have, add the data to octree_tick first. If it needs a new colour,
+ * add a row to theme.h. If a recording's page is to plot a curve of it, add a line to CURVES in
+ * viz/page/viewer/facts.js.
  */
 #ifndef SCENE_LAYER_H
 #define SCENE_LAYER_H
@@ -59,7 +61,7 @@ typedef enum view_layer {
 typedef struct layer_row {
     /* such as "visit-heat", "pruned nodes" and "nodes that the tick's queries pruned" */
     const char *name, *words, *help;
-    uint8_t role; /* theme_role */
+    uint8_t role; /* the layer's colour, a theme_role */
     bool fades;
 } layer_row;
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* layout.c - the areas of a picture; see layout.h. */
+/* layout.c - computes the areas of a picture and places labels; see layout.h. */
 #include "layout.h"
 #include "layer.h"
 

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* lettering.h - the bitmap fonts ("faces"), and the choice of a face by the height of the picture. A letter is enlarged
- * only by whole multiples of its pixels.
- */
+/* lettering.h - the bitmap fonts ("faces"), and the choice of a face for the height of a picture. A face is enlarged
+ * only by whole multiples, so that its pixels stay sharp squares. */
 #ifndef SCENE_LETTERING_H
 #define SCENE_LETTERING_H
 

@@ -154,7 +154,7 @@ static octree_walk_order gather_leaf(const octree_node *node, void *context)
 
 /* ---- Quantiles ---------------------------------------------------------------------------------------------- */
 
-/* A value, and the number of points that have it. */
+/* A value, and its weight: the number of points that have it. */
 typedef struct weighted {
     double value;
     size_t weight;

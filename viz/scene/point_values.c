@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* point_values.c - a table of the values of points; see point_values.h. */
+/* point_values.c - builds and searches the table of values of points; see point_values.h. */
 #include "point_values.h"
 #include "array.h"
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* scene_digest.c - see scene_digest.h, which explains the digest. */
+/* scene_digest.c - hashes the elements of a scene; scene_digest.h explains the digest. */
 #include "scene_digest.h"
 #include "kept_tree.h"
 #include "layer.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* theme.c - the tables of colours; see theme.h. */
+/* theme.c - the names and colours of roles, and the ramps of colours; see theme.h. */
 #include "theme.h"
 
 #define ROLE_NAME(role, name, r, g, b) name,

@@ -29,7 +29,7 @@
     X(ROLE_WORLD, "world", 96, 108, 130)                                                                               \
     X(ROLE_POINT, "point", 245, 247, 250)                                                                              \
     X(ROLE_PLAYER, "player", 254, 246, 84)                                                                             \
-    X(ROLE_COLLISION, "collision", 255, 64, 64) /* the only red */                                                     \
+    X(ROLE_COLLISION, "collision", 255, 64, 64) /* no other role is red */                                             \
     X(ROLE_RANGE, "range", 240, 165, 30)                                                                               \
     X(ROLE_RADIUS, "radius", 140, 250, 185)                                                                            \
     X(ROLE_KNEAREST, "knearest", 180, 152, 255)                                                                        \
@@ -126,7 +126,7 @@ unsigned theme_doubling_step(uint64_t amount, unsigned shift);
  * whole into equal parts; more than the whole has the last step. `whole` must be below 2^60. */
 unsigned theme_fraction_step(uint64_t amount, uint64_t whole);
 
-/* The amount at which the last step of theme_doubling_step() begins, with a shift of 1. */
+/* The least amount with the last step of theme_doubling_step(), for a shift of 1. */
 #define THEME_MOST_POINTS (1u << (THEME_NODE_DEPTHS - 2))
 
 /* The role of nodes under COLORING_PLAIN. */

@@ -81,7 +81,7 @@ typedef struct point_scale {
 typedef enum view_fit {
     FIT_WORLD,
     FIT_POINTS, /* the box of the points shown at tick 0; camera_fit_points() replaces this value by FIT_BOX */
-    FIT_BOX,    /* view.focus, the result of FIT_POINTS */
+    FIT_BOX,    /* the box view.focus, which camera_fit_points() computes for FIT_POINTS */
 } view_fit;
 
 typedef struct view {
@@ -96,7 +96,7 @@ typedef struct view {
     } look; /* if given, replaces the direction of `camera` */
     struct {
         bool given;
-        double place[3]; /* in world coordinates */
+        double place[3]; /* the position in world coordinates */
     } center;        /* if given, the camera looks at `place` instead of the middle of the framed box or the player */
     double zoom;     /* the magnification */
     unsigned layers; /* the layers that are shown, as bits 1 << view_layer: layer.h */
@@ -118,7 +118,7 @@ typedef struct view {
                         the most velocity arrows; 0: no limits */
 } view;
 
-/* The longest side of a picture in samples: llvmpipe clamps longer ones. */
+/* The longest side of a picture in samples: llvmpipe clamps longer sides. */
 #define VIEW_MAX_SIDE 16384
 
 /* Returns the height of a picture, or the height of a 16:9 picture of the same width if that is less. The sizes of
