@@ -41,7 +41,7 @@ enum {
 
 struct deflater {
     size_t stride, rows, pixel;
-    size_t kept; /* bytes of history that slide_window() keeps in the window */
+    size_t kept; /* the most bytes that slide_window() keeps: the history that repeats may refer to */
     size_t room; /* size of the window in bytes */
     size_t end;  /* number of bytes in the window */
     size_t at;   /* index in the window of the first byte that is not encoded yet */
@@ -54,7 +54,7 @@ struct deflater {
     size_t rows_left;      /* number of rows of the picture from this row on, this row included */
     int64_t row_change;    /* sum of (byte - byte above) over the bytes of this row before `unsummed` */
     int64_t row_by_column; /* sum of (byte - byte above) * column over the same bytes */
-    int64_t sums[2];       /* the two sums of Adler-32, without their initial values */
+    int64_t sums[2];       /* the two sums of Adler-32, without the initial 1 of the first sum */
     deflate_blocks blocks;
     uint32_t heads[1 << HASH_BITS]; /* RGB only: for each hash, the last position of bytes with this hash; 0: none */
     uint8_t *window;                /* begins with a row of zeros, which stands for the row above the first row */
@@ -95,7 +95,7 @@ static void add_span_changes(deflater *d, size_t from, size_t end)
  * are skipped, because they have no change. */
 static void add_changes(deflater *d, size_t end)
 {
-    enum { MOST = 256 }; /* the sum of this many products fits 32 bits */
+    enum { MOST = 256 }; /* the most bytes whose products can be summed in 32 bits */
     for (size_t at = d->unsummed, next; at < end; at = next) {
         while (at - d->row >= d->stride)
             add_row_to_sums(d);

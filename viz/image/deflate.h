@@ -17,9 +17,9 @@ typedef void deflate_sink(void *context, const uint8_t *bytes, size_t size);
 typedef struct deflater deflater;
 
 /* Create an encoder for `rows` rows of `row_size` bytes each, with `pixel` bytes (1 or 3) per pixel. Memory: 170 KB and
- * three rows. Returns null if memory runs out. */
+ * three rows. Returns null when out of memory. */
 deflater *deflater_open(size_t row_size, size_t rows, size_t pixel, deflate_sink *sink, void *context);
-void deflater_close(deflater *d); /* null is allowed */
+void deflater_close(deflater *d); /* `d` may be null */
 
 /* Append the next row. The first byte of `pixels` is PNG's filter type 0 (no filter); row_size - 1 bytes of pixels
  * follow. */

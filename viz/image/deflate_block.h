@@ -55,7 +55,7 @@ typedef struct bit_writer {
 typedef struct deflate_blocks {
     deflate_sink *sink;
     void *context;
-    bit_writer writer; /* writes into `output` */
+    bit_writer writer; /* its `to` points into `output` */
     size_t count;      /* number of tokens in `tokens` */
     /* how often each symbol occurs in the tokens */
     uint32_t literal_counts[DEFLATE_LITERALS], distance_counts[DEFLATE_DISTANCES + 1];
@@ -91,7 +91,7 @@ void deflate_add_repeat(deflate_blocks *b, size_t length, size_t distance);
  * the block is not stored. */
 void deflate_write_block(deflate_blocks *b, const uint8_t *bytes, size_t size, bool last);
 
-/* Pad the stream to a whole byte, and write bytes outside of any block. */
+/* Pad the stream to a whole byte, and write `size` bytes outside any block. */
 void deflate_write_bytes(deflate_blocks *b, const uint8_t *bytes, size_t size);
 
 /* Pass the buffered output to the sink. */

@@ -19,7 +19,7 @@
 /* A sort key holds a count in its high bits and a symbol in its low bits: keys sort by count, then by symbol. */
 enum { SYMBOL_BITS = 9, SYMBOL_MASK = (1 << SYMBOL_BITS) - 1 };
 
-/* Shellsort: short, and faster than qsort() for 288 keys. */
+/* Sorts by Shellsort, which is short, and faster than qsort() for 288 keys. */
 static void sort_keys(uint32_t *keys, size_t count)
 {
     static const size_t gaps[] = {132, 57, 23, 10, 4, 1};

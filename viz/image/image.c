@@ -76,7 +76,7 @@ static image_color pixel_color(const image *of, const uint8_t *own, size_t at)
     return (image_color){own[3 * at], own[3 * at + 1], own[3 * at + 2]};
 }
 
-/* Returns the mean colour of a square of pixels whose top left pixel is at offset `corner`. */
+/* Returns the mean colour of a square of pixels. `corner` is the index of its top left pixel. */
 static image_color mean_color(const image *of, const uint8_t *own, size_t corner, int side)
 {
     const unsigned count = (unsigned)(side * side);

@@ -84,11 +84,14 @@ static double squared_color_distance(const pixel_samples *a, const pixel_samples
 
 /* ---- Anti-aliased edges --------------------------------------------------------------------------------------
  *
- * Source: V. Vysniauskas, "Anti-aliased Pixel and Intensity Slope Detector", 2009, as in pixelmatch and odiff. A pixel
- * lies on an anti-aliased edge if it has both a darker and a brighter neighbour, fewer than three neighbours as bright
- * as itself, and if its darkest or its brightest neighbour lies in a patch of one colour in both images. A pixel lies
- * in a patch if at least three of its neighbours have its colour. At the image's border, the missing neighbours count
- * as one equal neighbour.
+ * A pixel lies on an anti-aliased edge if all of these hold:
+ * - It has both a darker and a brighter neighbour.
+ * - Fewer than three of its neighbours are as bright as the pixel.
+ * - Its darkest or its brightest neighbour lies in a patch of one colour, in both images. A pixel lies in a patch if
+ *   at least three of its neighbours have its colour.
+ * At the image's border, all missing neighbours together count as one equal neighbour.
+ *
+ * Source: V. Vysniauskas, "Anti-aliased Pixel and Intensity Slope Detector", 2009; also in pixelmatch and odiff.
  */
 
 /* The number of neighbours of the same colour that make a patch. */

@@ -25,7 +25,7 @@ typedef struct image_tolerance {
     const uint8_t *ignored_mask; /* one byte per pixel, not 0 if the pixel is not compared. May be null */
 } image_tolerance;
 
-/* True if the pixel (x, y) of an image of this width is excluded from the comparison. */
+/* True if the tolerance excludes the pixel (x, y) from the comparison; `width` is the image's width. */
 static inline bool image_is_pixel_ignored(const image_tolerance *tolerance, int width, int x, int y)
 {
     if (tolerance->ignored_mask && tolerance->ignored_mask[(size_t)y * (size_t)width + (size_t)x])

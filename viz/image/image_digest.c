@@ -203,7 +203,8 @@ static size_t list_changed_groups(uint16_t *changed, const uint8_t *row, const u
     return count;
 }
 
-/* Update the numbers of the first `groups` groups. `above` is null for the first row. */
+/* Update the numbers of the first `groups` groups of a row of indices. `above` is the row above, null for the first
+ * row. */
 static void update_index_groups(const digest_state *d, row_groups *g, const uint8_t *row, const uint8_t *above,
                                 size_t groups)
 {

@@ -33,13 +33,13 @@ struct image_source {
     bool whole;                 /* all rows are read together, by request or because the format requires it */
     png_byte color_type, depth; /* the colour type and the bits per sample in the file */
     size_t samples;             /* samples per pixel as libpng delivers them: 1 (index or grey), 3, or 4 with alpha */
-    int passes;                 /* 7 if the file is interlaced, else 1 */
-    image about;                /* the image's description; it has pixels only if `whole` is set */
-    image *wanted;              /* the rows that the next decode_band() reads */
-    uint8_t *band;              /* the pixels of the last band */
-    size_t band_room;           /* capacity of `band` in bytes */
-    int next_y;                 /* number of the next band's first row */
-    bool beyond;                /* an index beyond the palette was found; it is reported after the last row */
+    int passes;       /* number of passes in which libpng delivers the rows: 7 if the file is interlaced, else 1 */
+    image about;      /* the image's description; it has pixels only if `whole` is set */
+    image *wanted;    /* the rows that the next decode_band() reads */
+    uint8_t *band;    /* the pixels of the last band */
+    size_t band_room; /* capacity of `band` in bytes */
+    int next_y;       /* number of the next band's first row */
+    bool beyond;      /* an index beyond the palette was found; it is reported after the last row */
     bool failed;
 };
 
@@ -286,7 +286,7 @@ static void convert_band(image_source *s, image *band)
 {
     const size_t count = (size_t)band->width * (size_t)band->height;
     if (s->samples == 1)
-        s->beyond = s->beyond || !image_has_valid_indices(band); /* libpng accepts indices beyond the palette */
+        s->beyond = s->beyond || !image_has_valid_indices(band); /* libpng does not reject indices beyond the palette */
     if (s->samples == 4)
         (band->wide ? blend_wide_pixels : blend_pixels)(band->pixels, count, s->background);
     narrow_to_8_bits_if_exact(band);

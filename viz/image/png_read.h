@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* png_read.h - reads PNG files of every kind into images, whole or band by band. */
+/* png_read.h - reads PNG files of every kind into images, whole or in bands of rows. */
 #ifndef IMAGE_PNG_READ_H
 #define IMAGE_PNG_READ_H
 
@@ -30,7 +30,7 @@ typedef struct image_source image_source;
 /* Open a file under the rules of image_read_png(). Returns null and sets *error on failure. `path` and `error` must
  * outlive the source. */
 image_source *image_source_open(const char *path, image_color background, bool whole, octreel_error *error);
-void image_source_close(image_source *source); /* null is allowed */
+void image_source_close(image_source *source); /* `source` may be null */
 
 /* Returns the description of the image. Its pixels are null unless all rows are in memory. */
 const image *image_source_description(const image_source *source);
