@@ -98,43 +98,51 @@ typedef struct octreel_recorder octreel_recorder;
 /* The options of a recording. Start from octreel_recorder_def_default() and change what you need. "octreel record
  * --help" lists the values of the options that are names. */
 typedef struct octreel_recorder_def {
-    const char *folder;   /* folder for the recording: a new folder, or one without a recording. Null with a ring */
-    bool replace;         /* the folder may hold a recording, which is removed once tick 0 of the new one is filmed. If
-                             that fails, the old recording stays. Other files always stay. BAD_FOLDER if the folder holds
-                             files that only look like a recording, or if a process is recording into it */
-    octree_def tree;      /* octree_definition() of the program's trees; its allocator is not used. For lists of points:
-                             the world, which should contain all of them, and the capacity and depth of the tree that
-                             Octreel builds to show them; full leaves of that tree grow */
-    octree_player player; /* OCTREE_PLAYER_NONE; or OCTREE_PLAYER_BODY: the point whose collisions are found, given by
-                             id, box_size and sweep */
+    const char *folder; /* folder for the recording: a new folder, or one without a recording. Null with a ring */
+    /* True: `folder` may hold a recording. The old recording is removed once tick 0 of the new one is filmed; if
+     * tick 0 fails, it stays. Files that do not belong to a recording always stay. BAD_FOLDER if the folder holds
+     * files that only look like a recording, or if a process is recording into it. */
+    bool replace;
+    /* The octree_definition() of the program's trees; its allocator is not used. For a program that passes lists or
+     * changes: a world that should contain all points, and the capacity and depth of the tree that Octreel builds
+     * to show them; full leaves of this tree grow. */
+    octree_def tree;
+    /* OCTREE_PLAYER_NONE, or OCTREE_PLAYER_BODY: the point with this id is the player, and its collisions are
+     * found; box_size and sweep are used too. */
+    octree_player player;
     int width, height;    /* size of a frame in pixels, 1 to 16384 */
-    const char *camera;   /* "iso", "orbit", "follow" ... */
-    const char *layers;   /* "default", "all", "-text", "nodes,points,shapes" ... */
+    const char *camera;   /* the camera: "iso", "orbit", "follow" ... */
+    const char *layers;   /* the layers to draw: "default", "all", "-text", "nodes,points,shapes" ... */
     const char *color_by; /* what the colours of nodes show: "depth", "occupancy", "plain" ... */
-    const char *show_tree; /* whose nodes are drawn: "own" (Octreel's), "foreign" (those of octreel_tick_info.foreign),
-                              "both", or "auto": Octreel's until a tick has foreign nodes, then the foreign ones */
+    /* The tree whose nodes are drawn: "own" is Octreel's, "foreign" is octreel_tick_info.foreign, "both" draws
+     * both. "auto" draws Octreel's nodes until a tick has foreign nodes, and then the foreign nodes. */
+    const char *show_tree;
     const char *color_points; /* what the colours of points show: "plain", "height", "leaf" ... */
     const char *shade;        /* shading of points: "bands", "edl", "none" */
     const char *diagram;      /* the tree drawn as a diagram: "none", "beside" the space, "only" the diagram */
     bool labels;              /* write the addresses of nodes, such as 0/3/7, on nodes where there is room */
     double lod;               /* leave out boxes smaller than this many pixels if an ancestor is drawn; 0: draw all */
     uint64_t budget;          /* maximum number of boxes, and of points, in a frame; 0: no limit */
-    int aa;                   /* anti-aliasing: 1 (off), 2 or 4 samples on each side of a pixel */
-    uint64_t every;           /* film each N-th tick; 0: no frames, since the page can draw every tick itself.
-                                 ticks.jsonl has all ticks in any case */
-    const char *fill;    /* the rasterizer: "integers", "checked" or "gl". All three draw the same pixels. "integers" is
-                            the cheapest: it never loads OpenGL, which takes 0.2 s of processor time and 85 MB; octreel
-                            verify can check the frames later. "checked" compares the first frame, every 100th and the
-                            last with OSMesa's, if OpenGL can be loaded */
+    int aa;                   /* anti-aliasing: 1 (off), 2 or 4; a pixel has aa * aa samples */
+    /* Film ticks 0, every, 2 * every ...; 0: no frames, because the page can draw every tick itself. ticks.jsonl
+     * has all ticks in any case. */
+    uint64_t every;
+    /* The rasterizer: "integers", "checked" or "gl". All three draw the same pixels. "integers" is the cheapest,
+     * because it never loads OpenGL, which takes 0.2 s of processor time and 85 MB. octreel verify can check its
+     * frames later. "checked" compares the first frame, every 100th frame and the last frame with the pixels of
+     * OSMesa, if OpenGL can be loaded. */
+    const char *fill;
     const char *context; /* the OpenGL library to load: "auto", "osmesa", "egl" */
-    bool any_renderer;   /* with "egl": OpenGL draws on any renderer, graphics cards included. Frames may then differ on
-                            other machines */
-    size_t queue_ticks;  /* maximum number of ticks that wait for the worker thread, at least 1 */
-    size_t queue_bytes;  /* maximum memory of these ticks together, in bytes; a single tick may need more */
-    bool never_wait; /* return OCTREEL_BUSY if the queue is full, instead of waiting for the worker; the tick is then a
-                        gap. Tick 0 always waits */
-    size_t ring;     /* keep the last N ticks in memory, and film them only in octreel_recorder_write(); 0: film every
-                        tick. Memory: the points of the oldest tick, and the changes of the others */
+    /* True, with "egl": OpenGL may draw with any renderer, also a graphics card. Frames may then differ between
+     * machines. */
+    bool any_renderer;
+    size_t queue_ticks; /* maximum number of ticks that wait for the worker thread, at least 1 */
+    size_t queue_bytes; /* maximum memory of these ticks together, in bytes; a single tick may need more */
+    /* True: if the queue is full, return OCTREEL_BUSY and do not wait; the tick is then a gap. Tick 0 always waits. */
+    bool never_wait;
+    /* Keep the last `ring` ticks in memory, and film them only in octreel_recorder_write(); 0: film every tick.
+     * Memory: the points of the oldest tick, and the changes of the other ticks. */
+    size_t ring;
 } octreel_recorder_def;
 
 /* Returns the default options: no player, 1280 x 720 pixels, camera "iso", the default layers, fill "integers", 16
@@ -157,7 +165,8 @@ octreel_recorder_def octreel_recorder_def_default(void);
  *
  * Shapes are everything in a frame that is not a point or a node, such as walls and goals. */
 typedef struct octreel_tick_info {
-    const octree_query *queries; /* in any order; all numbers finite; at_player only if the recorder has a player */
+    /* In any order. All numbers must be finite. at_player may be true only if the recorder has a player. */
+    const octree_query *queries;
     size_t query_count;
     const octree_shape *shapes;
     size_t shape_count;
@@ -166,8 +175,9 @@ typedef struct octreel_tick_info {
     const octree_edit *changes; /* point changes since the last call, in the order in which they were made. A point
                                    may change several times. Velocities are ignored */
     size_t change_count;
-    const octree_foreign_tree *foreign; /* the nodes of the program's own index, from this tick on; `visits` of the
-                                           queries name the nodes that were visited, left out or hit. Null: as before */
+    /* The nodes of the program's own index, valid from this tick on. The queries' `visits` name nodes that were
+     * visited, left out or hit. Null: the nodes have not changed. */
+    const octree_foreign_tree *foreign;
 } octreel_tick_info;
 
 /* Open a recorder: copy the definition and create the folder. On failure *recorder is null and *error, which may be
