@@ -88,7 +88,7 @@ void write_row(pen *p, const char *name, const char *detail, const char *format,
     const int room = p->letters - DETAIL - 1 - (int)strlen(value);
     cut_text(between, room > 0 ? (size_t)room : 0);
     const int taken = *between ? DETAIL + (int)strlen(between) : (int)strlen(name);
-    /* With 2 characters or fewer the value would say nothing, so it covers the name instead. */
+    /* A value cut to 2 characters or fewer would be useless, so it is not cut and covers the name. */
     if (p->letters - taken - 1 > 2)
         cut_text(value, (size_t)(p->letters - taken - 1));
     write_text(p, 0, p->name, "%s", name);

@@ -8,7 +8,7 @@ typedef struct streaming {
     live_recording *live;
     const film_options *options;
     octreel_error *error;
-    uint64_t end;  /* last tick of the session as far as the stream tells so far */
+    uint64_t end;  /* last tick of the session, as far as the stream has been read */
     uint64_t last; /* last recorded tick */
 } streaming;
 

@@ -207,7 +207,7 @@ static void stop_jobs(job_pool *pool)
     pool->stopped = true;
 }
 
-/* Read the next message of a job. If the caller's watcher asks to stop while this waits, stop all jobs. */
+/* Read the next message of a job. If the caller's watcher stops the recording during the wait, stop all jobs. */
 static bool read_message(job_pool *pool, const job *j, message *m)
 {
     enum { PATIENCE = 50 }; /* milliseconds between two calls of the watcher */

@@ -111,7 +111,8 @@ bool playback_check_last(playback *p, octreel_error *error)
     return same;
 }
 
-/* Check the last drawn frame if is_checked() says so. The first frame that a process draws is always checked. */
+/* Check the last drawn frame if is_checked() returns true for it. The first frame that a process draws is always
+ * checked. */
 static bool check_frame(playback *p, uint64_t tick, octreel_error *error)
 {
     const film_share *share = &p->share;

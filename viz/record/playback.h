@@ -23,7 +23,7 @@
 typedef enum playback_frames {
     FRAMES_SHOW,  /* draw frames into playback.picture; write no files */
     FRAMES_WRITE, /* draw frames and write them into the folder */
-    FRAMES_KEEP,  /* as FRAMES_WRITE, but keep files that exist and are complete and correct */
+    FRAMES_KEEP,  /* keep frame files that exist and are complete and correct; draw and write all others */
 } playback_frames;
 
 /* The ticks first to last - 1 of a session, all of them or the share of one job. If count is not 0, there are `count`

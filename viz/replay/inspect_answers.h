@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* inspect_answers.h - asks the tree of a point cloud and prints the answers with their cost. */
+/* inspect_answers.h - answers queries with the tree of a point cloud, and prints the answers with their cost. */
 #ifndef REPLAY_INSPECT_ANSWERS_H
 #define REPLAY_INSPECT_ANSWERS_H
 

@@ -26,7 +26,7 @@ static camera_window find_space_window(const inspection *made, const view *v)
 #define LEAF_PIXELS 32 /* minimum number of pixels per leaf; with fewer pixels, colours by leaf look like noise */
 
 /* Returns true if points should be coloured by leaf: the points hide the boxes of the nodes, and the leaves are large
- * enough on screen. *said becomes the reason for or against it. */
+ * enough on screen. *said becomes the reason for the choice. */
 static bool prefers_leaf_colors(const inspection *made, const view *v, const char **said)
 {
     const camera_window w = find_space_window(made, v);

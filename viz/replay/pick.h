@@ -18,7 +18,7 @@ typedef struct pick_options {
     renderer_choice renderer;
 } pick_options;
 
-/* An element at a pixel. `touch` says which samples of the pixel it covers. */
+/* An element at a pixel. `touch` describes which samples of the pixel it covers. */
 typedef struct pick_element {
     draw_cover touch;
     scene_kind kind;

@@ -40,7 +40,8 @@ typedef struct verify_finding {
     char text[768]; /* the finding as one sentence */
 } verify_finding;
 
-/* At most one finding about the session, one about the first tick that differs, and one about extra files. */
+/* The maximum number of findings: one about the session, one about the first tick that differs, and one about extra
+ * files. */
 #define VERIFY_MOST 3
 
 typedef struct verify_report {
