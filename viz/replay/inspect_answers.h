@@ -12,7 +12,7 @@
 typedef struct inspect_answers {
     const octree *tree;
     octree_answer *answers; /* the answers, in the same form as in a tick of a game */
-    /* Nearest[i], if answer i is that of a radius query: its points sorted by distance; else empty. */
+    /* nearest[i]: the points of answer i sorted by distance if it answers a radius query; else empty. */
     octree_answer *nearest;
     size_t count;
 } inspect_answers;
