@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* cloud.c - loads a cloud file, chooses its format, and has that format parse it. */
+/* cloud.c - loads a point-cloud file, chooses its format, and calls the reader of that format. */
 #include "cloud_format.h"
 #include "file.h"
 
@@ -29,7 +29,8 @@ static const cloud_format *recognise_format(cloud_file *file)
     return NULL;
 }
 
-/* Choose by the contents, else by the ending, else text. */
+/* Choose the format by the contents. If no format recognises the contents, choose by the ending of the file's name.
+ * If the ending is unknown, choose text. */
 static const cloud_format *choose_format(cloud_file *file)
 {
     const cloud_format *found = recognise_format(file);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* cloud_format.c - the tools that all cloud readers share; see cloud_format.h. */
+/* cloud_format.c - functions that all readers of cloud formats share; see cloud_format.h. */
 #include "cloud_format.h"
 #include "array.h"
 #include "number.h"
@@ -12,8 +12,8 @@
 
 /* ---- Result and errors -------------------------------------------------------------------------------------- */
 
-/* Record the row of the next point. Not called before the first skipped point: up to it, rows and points have the same
- * numbers. */
+/* Stores the row of the next point. Called only after the first skipped point: until then, row and index of a point
+ * are equal. */
 static bool add_row(cloud_file *file)
 {
     cloud *points = file->out;
@@ -32,7 +32,7 @@ void cloud_count_skipped(const cloud_file *file, const char *why)
     file->out->why_skipped = why;
 }
 
-/* Store the values of a row, and missing values for skipped rows before it. */
+/* Stores the values of a row. For skipped rows before it, stores missing values. */
 static bool add_values(cloud_file *file, size_t row, const double *numbers)
 {
     point_values *values = &file->out->values;
@@ -114,7 +114,8 @@ bool cloud_turn_error_into_note(const cloud_file *file)
 
 /* ---- Lines and words ---------------------------------------------------------------------------------------- */
 
-/* A line ends in \r without \n only if the first line does: binary data after a header's last \r may begin with \n. */
+/* Returns the character that ends lines. It is \r only if \r without \n ends the first line. Other files have lines
+ * that end with \n or \r\n: binary data after a header's last \r may begin with \n. */
 static char find_terminator(const char *at, const char *limit)
 {
     while (at < limit && *at != '\n' && *at != '\r')
@@ -258,7 +259,7 @@ void cloud_note_trailing_lines(cloud_file *file)
 uint64_t cloud_read_bits(unsigned size, bool big_endian, const unsigned char *bytes)
 {
     uint64_t bits = 0;
-    if (size == 4 && !big_endian) /* the common case: compilers turn it into one load */
+    if (size == 4 && !big_endian) /* the most frequent case: compilers turn it into one load */
         return bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 | (uint32_t)bytes[3] << 24;
     for (unsigned i = 0; i < size; i++)
         bits = bits << 8 | bytes[big_endian ? i : size - 1 - i];
@@ -276,7 +277,7 @@ double cloud_read_scalar(cloud_scalar type, bool big_endian, const unsigned char
         memcpy(&narrow, &low, sizeof narrow);
         memcpy(&wide, &bits, sizeof wide);
         return type.size == 8 ? wide : (double)narrow;
-    case CLOUD_SIGNED: /* two's complement: the sign bit counts as minus its value */
+    case CLOUD_SIGNED: /* two's complement: the sign bit counts as minus its unsigned value */
         return bits & sign ? -(double)(sign - (bits & (sign - 1))) : (double)bits;
     case CLOUD_UNSIGNED:
         break;

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* cloud_las.c - the points of a LAS file, version 1.0 to 1.5, the format of laser surveys by the ASPRS.
+/* cloud_las.c - reads the points of a LAS file, version 1.0 to 1.5. LAS is the format of laser surveys by the ASPRS.
  *
- * A binary header gives the place, number, format and length of the point records, and a scale and an offset for each
- * axis. A record begins with three integers; a coordinate is integer * scale + offset in doubles, a product and a sum
- * that are rounded once each, as the specification says and other readers compute. Intensity, class and colour have
- * fixed places that depend on the point format. Of LAZ files, which are LAS files with compressed records, the header
- * is read here and the records by cloud_laz.c.
+ * A binary header gives the position, number, format and length of the point records, and a scale and an offset for
+ * each axis. A record begins with three integers. A coordinate is integer * scale + offset in doubles. Its product and
+ * its sum are rounded once each, as the specification says and other readers compute. Intensity, class and colour have
+ * positions in the record that depend on the point format.
+ *
+ * A LAZ file is a LAS file with compressed records. This file reads its header; cloud_laz.c reads its records.
  */
 #include "cloud_format.h"
 #include "cloud_laz.h"
@@ -18,28 +19,29 @@ static const char signature[] = {'L', 'A', 'S', 'F'};
 
 /* Byte offsets in the header. */
 enum {
-    AT_VERSION = 24, /* major, minor */
+    AT_VERSION = 24, /* major version, then minor version */
     AT_HEADER_SIZE = 94,
     AT_POINTS = 96,
     AT_FORMAT = 104,
     AT_LENGTH = 105,
     AT_COUNT = 107,
     AT_FACTORS = 131,      /* the scales of x, y and z, then their offsets */
-    AT_WAVEFORMS = 227,    /* from version 1.3 on */
-    AT_RECORDS = 235,      /* from version 1.4 on: extended variable length records */
-    AT_RECORD_COUNT = 243, /* from version 1.4 on */
-    AT_WIDE_COUNT = 247,   /* from version 1.4 on: the number of points with 64 bits */
+    AT_WAVEFORMS = 227,    /* since version 1.3 */
+    AT_RECORDS = 235,      /* since version 1.4: extended variable length records */
+    AT_RECORD_COUNT = 243, /* since version 1.4 */
+    AT_WIDE_COUNT = 247,   /* since version 1.4: the number of points as 64 bits */
 };
 
-/* The size of the header, by minor version. */
+/* The size of the header in bytes, by minor version. */
 static const unsigned header_sizes[] = {227, 227, 227, 235, 375, 393};
 enum { VERSIONS = sizeof header_sizes / sizeof header_sizes[0] };
 
-/* The minimal size of a record, by point format; a file may use more. X, Y and Z have the same place in all formats. */
+/* The minimal size of a record in bytes, by point format. Records of a file may be larger. X, Y and Z have the same
+ * position in all point formats. */
 static const unsigned record_sizes[] = {20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
 enum {
     FORMATS = sizeof record_sizes / sizeof record_sizes[0],
-    COMPRESSED = 0xc0, /* bits that LAZ sets in the format */
+    COMPRESSED = 0xc0, /* the bits of the point format that LAZ sets */
     AT_INTENSITY = LAS_AT_INTENSITY,
     AT_FLAGS = LAS_AT_FLAGS,
     AT_CLASS = LAS_AT_CLASS,
@@ -51,7 +53,7 @@ typedef struct las_reader {
     cloud_file *file;
     unsigned minor, format, header_size;
     bool compressed;
-    unsigned withheld; /* the bit of a record's flags that marks it as withheld */
+    unsigned withheld; /* the bit in a record's flags that marks the record as withheld */
     uint64_t first, length, count;
     double factors[6]; /* the scales of x, y and z, then their offsets */
 } las_reader;
@@ -106,13 +108,13 @@ static bool read_format(las_reader *reader)
         return cloud_fail_byte(file, AT_LENGTH,
                                "points of %" PRIu64 " bytes are announced, but those of format %u have at least %u",
                                reader->length, reader->format, record_sizes[reader->format]);
-    if (reader->minor > 0) /* in LAS 1.0 the class takes the whole byte, without flags */
+    if (reader->minor > 0) /* in LAS 1.0 the class is the whole byte; later versions have flags in it */
         reader->withheld = reader->format < 6 ? 0x80 : 0x04;
     return true;
 }
 
-/* From LAS 1.4 on there are two counts, one of which may be 0. A file in which they contradict each other is refused:
- * the specification and common readers disagree on which one is right. */
+/* Read the number of points. Since LAS 1.4 the header has two such counts, and one of them may be 0. If the counts
+ * contradict each other, the file is refused: the specification and common readers disagree on which count is right. */
 static bool read_count(las_reader *reader)
 {
     const uint64_t narrow = read_unsigned(reader, AT_COUNT, 4);
@@ -141,7 +143,8 @@ static bool read_scales_and_offsets(las_reader *reader)
 
 /* ---- Place of the points ------------------------------------------------------------------------------------ */
 
-/* LAS 1.0 has two signature bytes before the points, and some writers store the position of these bytes instead. */
+/* LAS 1.0 has two signature bytes before the points. Some writers store the position of these bytes as the position
+ * of the points. Skip the bytes in such a file. */
 static void skip_signature(las_reader *reader, uint64_t left)
 {
     static const unsigned char start[] = {0xdd, 0xcc};
@@ -170,8 +173,8 @@ static bool find_points(las_reader *reader)
                            reader->count, reader->length, left);
 }
 
-/* Lower *next to the start of a part that follows the points; the header stores the start at `at`, or 0 if the part is
- * missing. */
+/* Lower *next to the start of a part of the file that follows the points. The header stores the start at offset
+ * `at`, as 0 if the part is missing. */
 static bool lower_to_part_start(const las_reader *reader, size_t at, const char *what, uint64_t *next)
 {
     const uint64_t end = reader->first + reader->count * reader->length, start = read_unsigned(reader, at, 8);
@@ -187,7 +190,7 @@ static bool lower_to_part_start(const las_reader *reader, size_t at, const char 
     return true;
 }
 
-/* Add a note if anything but waveforms and extended variable length records follows the points. */
+/* Add a note if the points are followed by data other than waveforms and extended variable length records. */
 static bool check_bytes_after_points(const las_reader *reader)
 {
     static const bool has_waveforms[FORMATS] = {[4] = true, [5] = true, [9] = true, [10] = true};
@@ -217,7 +220,7 @@ static void read_values(const las_reader *reader, const unsigned char *record, d
                                                 : record[AT_FLAGS] & 0x1f;
 }
 
-/* Add the point of a record; `at` is the record's place in the file, for errors. */
+/* Add the point of a record. `at` is the byte offset of the record in the file, for errors. */
 static bool add_record(const las_reader *reader, const unsigned char *record, size_t at)
 {
     static const cloud_scalar integer = {CLOUD_SIGNED, 4};
@@ -242,8 +245,9 @@ static bool add_decompressed_record(void *context, const unsigned char *record)
     return add_record(reader, record, (size_t)reader->first);
 }
 
-/* Read compressed points, which the decompressor finds by itself. Counts that no file of this size can hold are
- * refused: ten million equal points take 68 kB, which is 147 points a byte. */
+/* Read compressed points. The decompressor finds them itself. Refuse a count of points that no file of this size can
+ * hold. The limit leaves room for extreme files: ten million equal points take 68 kB, which is 147 points for each
+ * byte. */
 static bool read_compressed(las_reader *reader)
 {
     enum { MOST_A_BYTE = 256 };
@@ -279,7 +283,7 @@ static bool parse_las(cloud_file *file)
         return false;
     cloud_set_channels(file, 1U << CLOUD_INTENSITY | 1U << CLOUD_CLASS | (las_colors_at[reader.format] ? color : 0),
                        255);
-    file->zero_is_missing = true; /* every record has room for all values */
+    file->zero_is_missing = true; /* every record has room for all values, even if the file has none */
     return (reader.compressed ? read_compressed : read_uncompressed)(&reader);
 }
 

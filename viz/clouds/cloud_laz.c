@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* cloud_laz.c - decompresses LAS records with liblaszip in a child process (laz_child.h). The library crashes on some
- * damaged files (version 3.5 on truncated ones); with a child process, such a file is refused like any other.
+/* cloud_laz.c - decompresses LAS records with liblaszip in a child process (laz_child.h).
+ *
+ * The library crashes on some damaged files (version 3.5 on truncated files). With a child process, a file that crashes
+ * the library is refused like any other damaged file.
  */
 #include "cloud_laz.h"
 
@@ -23,7 +25,7 @@ static void write_little_endian(unsigned char *at, uint32_t number, unsigned siz
         at[i] = (unsigned char)(number >> 8 * i);
 }
 
-/* Write the beginning of an uncompressed LAS record. */
+/* Writes the first LAS_RECORD_READ bytes of an uncompressed LAS record. */
 static void write_record(const laszip_point_struct *p, unsigned format, unsigned char record[LAS_RECORD_READ])
 {
     const unsigned color = las_colors_at[format];
@@ -40,14 +42,14 @@ static void write_record(const laszip_point_struct *p, unsigned format, unsigned
         write_little_endian(record + color + 2 * i, p->rgb[i], 2);
 }
 
-/* The argument of decompress(), in the child process. */
+/* The argument of decompress(), which runs in the child process. */
 typedef struct decompression {
     char path[32]; /* the compressed file */
     unsigned format;
     uint64_t count;
 } decompression;
 
-/* Write why point i cannot be decompressed, with the first line of the library's message. */
+/* Writes why point i cannot be decompressed. The reason contains the first line of the library's message. */
 static bool write_failure_reason(const decompression *u, FILE *why, laszip_POINTER laszip, uint64_t i)
 {
     laszip_CHAR *message = NULL;
@@ -79,7 +81,8 @@ static bool decompress(void *context, FILE *records, FILE *why)
     return true;
 }
 
-/* Returns the limit of processor time, with a wide margin: liblaszip decompresses over a million points a second. */
+/* Returns the limit of the child's processor time in seconds. It has a wide margin: liblaszip decompresses over a
+ * million points a second. */
 static unsigned find_time_limit(uint64_t count)
 {
     enum { LEAST = 20, POINTS_A_SECOND = 50000, MOST = 1000000 };

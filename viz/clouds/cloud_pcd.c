@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* cloud_pcd.c - the points of a PCD file, version 0.5 to 0.7, the format of the Point Cloud Library (PCL).
+/* cloud_pcd.c - reads the points of a PCD file, version 0.5 to 0.7. PCD is the format of the Point Cloud Library (PCL).
  *
- * A text header lists the fields of a point, with a size, a type and a count for each. The data follow as text lines,
- * as packed points, or compressed by LZF with all values of one field together. Packed and compressed data are read by
- * the same loop, add_points(), with other offsets and strides.
+ * A text header lists the fields of a point, each with a size, a type and a count. The data that follow are text lines,
+ * packed points, or compressed points. Compressed data (LZF) are stored field by field: all values of the first field,
+ * then all of the second, and so on. The same loop, add_points(), reads packed and decompressed data, with different
+ * offsets and strides.
  */
 #include "cloud_format.h"
 #include "number.h"
@@ -14,26 +15,26 @@
 
 enum {
     MAX_FIELDS = 1024,
-    LZF_RATIO = 88, /* highest compression of LZF: its longest match expands 3 bytes to 264 */
+    LZF_RATIO = 88, /* the highest compression of LZF: its longest match expands 3 bytes to 264 */
 };
 
 typedef enum pcd_encoding { PCD_ASCII, PCD_BINARY, PCD_COMPRESSED } pcd_encoding;
 
 typedef struct pcd_field {
     cloud_scalar type;
-    uint64_t count;          /* values of the field in each point */
-    int channel;             /* the field's cloud_channel; -1: ignored */
-    uint64_t column, offset; /* values and bytes before the field in a point */
+    uint64_t count;          /* the number of values of the field in each point */
+    int channel;             /* the cloud_channel of the field; -1: the field is ignored */
+    uint64_t column, offset; /* the numbers of values and of bytes before the field in a point */
 } pcd_field;
 
 typedef struct pcd_reader {
     cloud_file *file;
-    unsigned seen; /* bit i: keyword i was read */
+    unsigned seen; /* bit i: the line of keyword i was read */
     size_t field_count;
-    pcd_field fields[MAX_FIELDS]; /* after the header: the fields to read, one for each channel at most */
+    pcd_field fields[MAX_FIELDS]; /* after the header was read: the fields to read, at most one for each channel */
     uint64_t width, height, points;
     pcd_encoding encoding;
-    uint64_t columns, stride; /* values and bytes per point */
+    uint64_t columns, stride; /* the numbers of values and of bytes in a point */
 } pcd_reader;
 
 /* ---- Header lines ------------------------------------------------------------------------------------------- */
@@ -86,13 +87,14 @@ static bool set_type(pcd_field *field, cloud_span word)
     return found >= 0;
 }
 
-/* The limit keeps the sum over MAX_FIELDS fields of 8 bytes from overflowing. */
+/* Set the count of a field. The upper limit keeps the size of a point, MAX_FIELDS fields of 8-byte values, from
+ * overflowing. */
 static bool set_count(pcd_field *field, cloud_span word)
 {
     return cloud_parse_count(word, &field->count) && field->count > 0 && field->count <= UINT32_MAX;
 }
 
-/* Read a line with one word for each field. */
+/* Read a header line that has one word for each field. */
 static bool read_word_per_field(pcd_reader *reader, cloud_span rest, bool (*set)(pcd_field *, cloud_span),
                                 const char *reason)
 {
@@ -138,14 +140,14 @@ typedef enum pcd_key {
     KEYS
 } pcd_key;
 
-/* A line of the header. At most one of `read`, `set` and `number` is given; a line with none of them is skipped. */
+/* A kind of header line. At most one of `read`, `set` and `number` is given. If none is given, the line is skipped. */
 typedef struct pcd_keyword {
     const char *name;
     bool required;
     bool (*read)(pcd_reader *reader, cloud_span rest);
-    bool (*set)(pcd_field *field, cloud_span word); /* the line has one word for each field */
-    const char *reason;                             /* the error if `set` refuses a word */
-    size_t number;                                  /* the line holds one integer; its offset in pcd_reader */
+    bool (*set)(pcd_field *field, cloud_span word); /* for a line with one word for each field */
+    const char *reason;                             /* the error if `set` returns false */
+    size_t number;                                  /* for a line with one integer: its offset in pcd_reader */
 } pcd_keyword;
 
 static const pcd_keyword keywords[KEYS] = {
@@ -186,7 +188,7 @@ static bool read_header_line(pcd_reader *reader, cloud_span word, cloud_span res
     return cloud_fail_at_word(reader->file, word, "does not belong in a PCD header");
 }
 
-/* Read the next line of the header that is not a comment: its first word, and the rest. */
+/* Read the next header line that is not a comment. Split it into its first word and the rest of the line. */
 static bool read_next_header_line(cloud_file *file, cloud_span *word, cloud_span *rest)
 {
     while (cloud_read_nonblank_line(file, rest))
@@ -204,8 +206,8 @@ static bool is_pcd(cloud_file *file)
 
 /* ---- Whole header ------------------------------------------------------------------------------------------- */
 
-/* Find the number of points: WIDTH times HEIGHT, or POINTS; both must agree if both are given. HEIGHT is 1 if missing.
- */
+/* Find the number of points: WIDTH times HEIGHT, or POINTS. If the header has both, they must agree. A missing
+ * HEIGHT is 1. */
 static bool find_point_count(pcd_reader *reader)
 {
     if (!has_read_keyword(reader, KEY_WIDTH) && !has_read_keyword(reader, KEY_POINTS))
@@ -223,9 +225,9 @@ static bool find_point_count(pcd_reader *reader)
     return true;
 }
 
-/* Compute the offset of each field in a point, and list the fields to read. A coordinate must be a single number; other
- * fields with several numbers are ignored. A packed colour has four bytes, which many files declare as a float. Other
- * colours that are floats are assumed to range from 0 to 1. */
+/* Compute the offset of each field in a point, and list the fields to read. A coordinate must be a single number;
+ * other fields with several numbers are ignored. A packed colour has four bytes, which many files declare as a
+ * float. Other colours that are declared as floats are assumed to range from 0 to 1. */
 static bool set_field_offsets(pcd_reader *reader)
 {
     size_t kept = 0;
@@ -315,8 +317,8 @@ static bool read_ascii_points(pcd_reader *reader, size_t offset)
 
 /* ---- Binary data -------------------------------------------------------------------------------------------- */
 
-/* Add the points of binary data. Binary data is stored point by point; decompressed data field by field: all values of
- * the first field, then all of the second, and so on. */
+/* Add the points of binary data. Packed data are stored point by point. Decompressed data are stored field by field:
+ * all values of the first field, then all of the second, and so on. */
 static bool add_points(const pcd_reader *reader, const unsigned char *bytes)
 {
     const bool packed = reader->encoding == PCD_BINARY;

@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: MIT */
-/* cloud_ply.c - the vertices of a PLY file (Greg Turk, "The PLY Polygon File Format", 1994), ascii or binary. */
+/* cloud_ply.c - reads the vertices of a PLY file, ascii or binary (Greg Turk, "The PLY Polygon File Format", 1994). */
 #include "cloud_format.h"
 
 #include <inttypes.h>
 
 enum {
     MAX_ELEMENTS = 64,
-    MAX_PROPERTIES = 1024, /* of all elements together */
+    MAX_PROPERTIES = 1024, /* the most properties of all elements together */
 };
 
 typedef enum ply_encoding { PLY_NO_ENCODING, PLY_ASCII, PLY_LITTLE_ENDIAN, PLY_BIG_ENDIAN } ply_encoding;
 
 typedef struct ply_property {
-    cloud_scalar type;   /* of the value, or of each item of a list */
-    cloud_scalar length; /* the type of a list's length; its size is 0 if the property is not a list */
-    int channel;         /* a vertex's cloud_channel; -1: none */
+    cloud_scalar type;   /* the type of the value or, in a list, of each item */
+    cloud_scalar length; /* the type of a list's length; if the property is not a list, its size is 0 */
+    int channel;         /* the cloud_channel of a vertex's property; -1: none */
 } ply_property;
 
 typedef struct ply_element {
@@ -25,16 +25,16 @@ typedef struct ply_element {
 
 typedef struct ply_reader {
     cloud_file *file;
-    size_t offset; /* the next byte of binary data */
+    size_t offset; /* the offset of the next byte of binary data */
     ply_encoding encoding;
     ply_element elements[MAX_ELEMENTS];
     size_t element_count;
     ply_property properties[MAX_PROPERTIES];
     size_t property_count;
-    const ply_element *vertex; /* the element of the points; null: none so far */
-    unsigned channels;         /* bits 1 << cloud_channel of its properties */
-    unsigned full_color;       /* full scale of colours: 1 for floats, else 255 */
-    bool has_all_points;       /* all points were read; an error in the data after them is only a note */
+    const ply_element *vertex; /* the element that holds the points; null: not declared yet */
+    unsigned channels;         /* bits 1 << cloud_channel of the vertex's properties */
+    unsigned full_color;       /* the full scale of colours: 1 for floats, 255 for integers */
+    bool has_all_points;       /* all points were read, so an error in the data after them is only a note */
     bool is_truncated;         /* the file ends too early */
 } ply_reader;
 
@@ -56,7 +56,7 @@ static bool find_type(cloud_span word, cloud_scalar *scalar)
                                          {CLOUD_SIGNED, 4}, {CLOUD_UNSIGNED, 4}, {CLOUD_FLOAT, 4},  {CLOUD_FLOAT, 8}};
     const int found = cloud_find_word_in_list(word, names);
     if (found >= 0)
-        *scalar = types[found / 2]; /* each type has two names */
+        *scalar = types[found / 2]; /* each type has two names in the list */
     return found >= 0;
 }
 
@@ -95,7 +95,7 @@ static bool read_element(ply_reader *reader, cloud_span rest)
     return true;
 }
 
-/* Read the type of a property: of a single value or of a list. */
+/* Read the type of a property, which is a single value or a list. */
 static bool read_type(ply_reader *reader, cloud_span *rest, ply_property *property)
 {
     cloud_span word;
@@ -109,8 +109,8 @@ static bool read_type(ply_reader *reader, cloud_span *rest, ply_property *proper
     return find_type(word, &property->type) || cloud_fail_at_word(reader->file, word, "is not a PLY type");
 }
 
-/* Assign a channel to a property. A coordinate must be a single number and occur once; other properties that are lists
- * or repeated are ignored. */
+/* Assign a channel to a property. A coordinate must be a single number and must occur once. If another property is a
+ * list or is repeated, it is ignored. */
 static bool set_channel(ply_reader *reader, ply_property *property, cloud_span name)
 {
     const unsigned bit = 1U << property->channel;
@@ -168,7 +168,7 @@ static bool read_header_line(ply_reader *reader, cloud_span keyword, cloud_span 
     }
 }
 
-/* Check what the header as a whole must contain. */
+/* Check that the header as a whole has all required parts. */
 static bool check_header(const ply_reader *reader)
 {
     if (reader->encoding == PLY_NO_ENCODING)
@@ -182,7 +182,7 @@ static bool check_header(const ply_reader *reader)
     return true;
 }
 
-/* Read the header after its first line. */
+/* Read the header from its second line on. */
 static bool read_header(ply_reader *reader)
 {
     cloud_span line, keyword;
@@ -235,7 +235,8 @@ static bool read_ascii_row(ply_reader *reader, const ply_element *element, uint6
 
 /* ---- Binary data -------------------------------------------------------------------------------------------- */
 
-/* Skip `count` values of a type. Returns their address; null if the file ends before. */
+/* Skip `count` values of a type. Return the address of the first value, or null if the file ends before the last
+ * value. */
 static const unsigned char *skip_values(ply_reader *reader, cloud_scalar type, uint64_t count)
 {
     const unsigned char *at = reader->file->bytes + reader->offset;
@@ -280,7 +281,7 @@ static bool read_binary_row(ply_reader *reader, const ply_element *element, uint
 
 /* ---- Elements ----------------------------------------------------------------------------------------------- */
 
-/* Turn an error after the last point into a note. A truncated file stays an error even if no point is missing. */
+/* If all points were read, turn an error into a note. A truncated file stays an error, even if no point is missing. */
 static bool turn_damage_into_note(const ply_reader *reader)
 {
     return reader->has_all_points && !reader->is_truncated && cloud_turn_error_into_note(reader->file);
@@ -323,7 +324,7 @@ static bool parse_ply(cloud_file *file)
     reader.offset = (size_t)(file->lines.at - (const char *)file->bytes);
     for (size_t i = 0; i < reader.element_count; i++)
         if (!read_rows(&reader, &reader.elements[i]))
-            return turn_damage_into_note(&reader); /* a binary file cannot be read further after an error */
+            return turn_damage_into_note(&reader); /* after an error, a binary file cannot be read further */
     if (ascii)
         cloud_note_trailing_lines(file);
     else

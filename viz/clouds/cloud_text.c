@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* cloud_text.c - points as text: one per line, with the coordinates in the first three columns.
+/* cloud_text.c - reads points from text: one point on each line, with the coordinates in the first three columns.
  *
- * Text files come without a specification, so the rules here refuse what could silently become another picture: column
- * names that place x, y, z elsewhere than first, decimal commas, mixed separators, and a first line that announces more
- * points than follow. Columns from the fourth on have the meaning of their names. Without names, three or four more
- * columns are guessed to be colours, perhaps after an intensity; every line must confirm the guess (decide_guess()
- * gives the rules), else the columns are ignored. Either way cloud.column_note says so.
+ * Text files have no specification. The rules here refuse files that could silently be read as other points: column
+ * names that do not begin with x, y, z; decimal commas; mixed separators; and a first line that announces more points
+ * than follow.
+ *
+ * The columns from the fourth on have the meaning of their names. Without names, three or four further columns are
+ * guessed to be colours, in the case of four after an intensity. Every line must confirm the guess (decide_guess()
+ * gives the rules); otherwise the columns are ignored. In both cases cloud.column_note says what was done.
  */
 #include "cloud_format.h"
 #include "number.h"
@@ -13,19 +15,19 @@
 #include <math.h>
 #include <string.h>
 
-/* The columns of a file from the fourth on. */
+/* The columns of a file from the fourth on, and the state of a guess of their meaning. */
 typedef struct text_columns {
     struct {
-        size_t column; /* from 0 on, ascending */
+        size_t column; /* the index of the column, counted from 0 at the fourth column; ascending */
         cloud_channel channel;
-    } places[CLOUD_CHANNELS]; /* the columns with a channel */
+    } places[CLOUD_CHANNELS]; /* the columns that have a channel */
     size_t place_count;
-    size_t count;     /* columns to read */
-    bool unnamed;     /* the file has columns after the third and no names */
-    bool guessed;     /* the channels are a guess; the members below say if the lines so far agree: */
-    bool ranges[2];   /* by range: all colour channels were within the range */
-    bool shifted[2];  /* by range: the column before the colour was within the range, too */
-    bool no_normals;  /* some colour is not a vector of length 1 */
+    size_t count;     /* the number of columns to read */
+    bool unnamed;     /* the file has more than three columns and no column names */
+    bool guessed;     /* the channels are guessed; the members below describe the lines that were read so far */
+    bool ranges[2];   /* for BYTES and FRACTIONS: all colour channels were within this range */
+    bool shifted[2];  /* for BYTES and FRACTIONS: the column before the colour was within this range, too */
+    bool no_normals;  /* at least one colour is not a vector of length 1 */
     double brightest; /* the largest channel of all colours */
 } text_columns;
 
@@ -36,7 +38,7 @@ static const char *skip_blanks(cloud_span line)
     return line.begin;
 }
 
-/* True if the rest of a line is empty or a comment. */
+/* Returns whether the rest of a line is empty or a comment. */
 static bool has_only_comment(cloud_span line)
 {
     size_t left = (size_t)(line.limit - line.begin);
@@ -48,7 +50,8 @@ static bool is_separator(char c)
     return c == ',' || c == ';';
 }
 
-/* Remove the first column from a line, for names and quotes: blanks, commas or semicolons end it. */
+/* Removes the first column from a line of column names, or from a line that an error quotes. A column ends at a
+ * blank, a comma or a semicolon. */
 static bool read_next_column(cloud_span *line, cloud_span *column)
 {
     while (line->begin < line->limit && (cloud_is_blank(*line->begin) || is_separator(*line->begin)))
@@ -69,7 +72,7 @@ static cloud_span strip_quotes(cloud_span column)
     return column;
 }
 
-/* True if a column is a name: it does not begin like a number. */
+/* Returns whether a column is a name: it does not begin like a number. */
 static bool is_column_name(cloud_span column)
 {
     const char *end;
@@ -77,7 +80,7 @@ static bool is_column_name(cloud_span column)
     return !number_like && !number_parse_nonfinite(column.begin, column.limit, &end);
 }
 
-/* True if a line consists of three or more names. */
+/* Returns whether a line consists of three or more names. */
 static bool is_column_header(cloud_span line)
 {
     cloud_span column;
@@ -101,8 +104,8 @@ static void add_column(text_columns *columns, size_t column, cloud_channel chann
     columns->count = column + 1;
 }
 
-/* Read the names of the columns. A file with the columns "id,x,y,z" is refused, because its first three columns are not
- * the coordinates. A unit, as in "x [m], y [m]", belongs to the name before it. */
+/* Reads the column names. Names such as "id,x,y,z" are refused, because the first three columns must be the
+ * coordinates. A unit, as in "x [m], y [m]", belongs to the name before it. */
 static bool read_column_names(cloud_file *file, cloud_span line, text_columns *columns)
 {
     cloud_span column;
@@ -125,7 +128,7 @@ static bool read_column_names(cloud_file *file, cloud_span line, text_columns *c
     return true;
 }
 
-/* Report why a line does not begin with a coordinate. */
+/* Reports why a line does not begin with a coordinate. */
 static bool fail_coordinate(const cloud_file *file, cloud_span line, int axis)
 {
     const char *end;
@@ -141,7 +144,8 @@ static bool fail_coordinate(const cloud_file *file, cloud_span line, int axis)
     return cloud_fail_at_word(file, column, "is not a number");
 }
 
-/* Read the number at the start of a line; "nan" and "inf" give NaN. *end becomes the first character after it. */
+/* Parses the number at the start of a line. "nan" and "inf" give NaN. Sets *end to the first character after the
+ * number. */
 static bool parse_coordinate(cloud_span line, const char **end, double *coordinate)
 {
     if (number_parse(line.begin, line.limit, end, coordinate))
@@ -150,8 +154,8 @@ static bool parse_coordinate(cloud_span line, const char **end, double *coordina
     return *end == line.begin && number_parse_nonfinite(line.begin, line.limit, end);
 }
 
-/* Read the coordinates of a point and remove them from the line. The separators must be the same throughout: with mixed
- * ones, decimal commas as in "1,5;2,5;3,5" or "1,5 2,5 3,5" would be read as other points. */
+/* Parses the coordinates of a point and removes them from the line. All separators of a line must be the same.
+ * Otherwise decimal commas, as in "1,5;2,5;3,5" or "1,5 2,5 3,5", would be read as other points. */
 static bool parse_position(const cloud_file *file, cloud_span *rest, char *separator, double position[3])
 {
     char first = 0;
@@ -180,7 +184,8 @@ static bool parse_position(const cloud_file *file, cloud_span *rest, char *separ
     return true;
 }
 
-/* Remove the first column from a line. It ends at `separator`; ' ' stands for any blank. False: no column is left. */
+/* Removes the first column from a line. A column ends at `separator`; a separator of ' ' stands for any blank.
+ * Returns false if no column is left. */
 static bool read_next_field(cloud_span *line, char separator, cloud_span *field)
 {
     line->begin = skip_blanks(*line);
@@ -197,7 +202,7 @@ static bool read_next_field(cloud_span *line, char separator, cloud_span *field)
     return true;
 }
 
-/* Returns the number in a field; NaN if it is not a number. */
+/* Returns the number in a field, or NaN if the field is not a number. */
 static double parse_field(cloud_span field)
 {
     double number = NAN;
@@ -206,8 +211,8 @@ static double parse_field(cloud_span field)
     return number_parse(field.begin, field.limit, &end, &number) && end == field.limit ? number : NAN;
 }
 
-/* Read the columns after the coordinates; missing ones become NaN. Returns the number of columns, at most one more than
- * columns->count. */
+/* Parses the columns after the coordinates. Missing columns become NaN. Returns the number of columns, or
+ * columns->count + 1 if there are more. */
 static size_t parse_values(cloud_span line, char separator, const text_columns *columns, double numbers[CLOUD_CHANNELS])
 {
     cloud_span field;
@@ -222,7 +227,8 @@ static size_t parse_values(cloud_span line, char separator, const text_columns *
 
 /* ---- Columns without names ---------------------------------------------------------------------------------- */
 
-/* Guess from the first line of numbers: three more columns may be r g b, four may be intensity r g b. */
+/* Guesses the meaning of further columns from the first line of numbers: three columns may be r g b, four columns
+ * may be intensity r g b. */
 static void guess_columns(cloud_file *file, cloud_span rest, char separator, text_columns *columns)
 {
     static const cloud_channel channels[] = {CLOUD_INTENSITY, CLOUD_RED, CLOUD_GREEN, CLOUD_BLUE};
@@ -244,7 +250,7 @@ static void guess_columns(cloud_file *file, cloud_span rest, char separator, tex
     cloud_set_channels(file, color | (count == 4 ? 1U << CLOUD_INTENSITY : 0), 1);
 }
 
-/* The two ranges of colour channels: integers from 0 to 255, and numbers from 0 to 1. */
+/* The two possible ranges of colour channels: integers from 0 to 255, and fractions from 0 to 1. */
 enum { BYTES, FRACTIONS };
 
 static bool is_in_range(double number, int range)
@@ -260,7 +266,7 @@ static void discard_guess(cloud_file *file, text_columns *columns)
     columns->guessed = false;
 }
 
-/* Compare the guess with the numbers of a line, and discard it if they contradict it. */
+/* Compares the guess with the numbers of a line. If the numbers contradict the guess, discards it. */
 static void check_guess(cloud_file *file, text_columns *columns, size_t count, const double *numbers)
 {
     bool fits = false;
@@ -280,8 +286,9 @@ static void check_guess(cloud_file *file, text_columns *columns, size_t count, c
         discard_guess(file, columns);
 }
 
-/* Decide after the last line. The columns are colours if some channel is bright, if fractions are not all normals, and
- * if with four columns the first cannot be a colour channel as well. */
+/* Decides after the last line whether the columns are colours. Some channel must be bright. If the channels are
+ * fractions, not all colours may have length 1, as normals do. If there are four columns, the first must have a
+ * number outside the range of colour channels; otherwise the first three could be the colour. */
 static void decide_guess(cloud_file *file, text_columns *columns)
 {
     const int range = columns->ranges[BYTES] ? BYTES : FRACTIONS;
@@ -306,7 +313,7 @@ static void decide_guess(cloud_file *file, text_columns *columns)
 
 /* ---- Whole file --------------------------------------------------------------------------------------------- */
 
-/* Begin reading lines, after the byte order mark that some editors write before UTF-8. */
+/* Begins reading lines. Skips the byte order mark that some editors write before UTF-8 text. */
 static void begin_reading_lines(cloud_file *file)
 {
     static const char byte_order_mark[] = "\xef\xbb\xbf";
@@ -315,7 +322,7 @@ static void begin_reading_lines(cloud_file *file)
         file->lines.at += 3;
 }
 
-/* True if a line is a single integer: .pts files begin with the number of their points. */
+/* Returns whether a line is a single integer. A .pts file begins with such a line: the number of its points. */
 static bool is_point_count(cloud_span line, double *count)
 {
     const char *end;
@@ -344,7 +351,7 @@ bool cloud_text_is_recognised(cloud_file *file)
     return false;
 }
 
-/* Read a line with a point. The values of a skipped point are not read, and do not count for the guess. */
+/* Reads a line that contains a point. The values of a skipped point are not read and do not affect the guess. */
 static bool parse_point(cloud_file *file, cloud_span line, bool named, text_columns *columns)
 {
     double numbers[CLOUD_CHANNELS];
@@ -363,7 +370,8 @@ static bool parse_point(cloud_file *file, cloud_span line, bool named, text_colu
     return cloud_add_point(file, numbers);
 }
 
-/* True if a comment holds the names of the columns, as CloudCompare writes them; *line then becomes the names. */
+/* Returns whether a comment contains the column names, as CloudCompare writes them. If it does, sets *line to the
+ * names. */
 static bool is_comment_with_column_names(cloud_span *line)
 {
     cloud_span rest = *line, column;
@@ -377,14 +385,14 @@ static bool is_comment_with_column_names(cloud_span *line)
     return is_column_header(names);
 }
 
-/* Read all lines. Before the first point there may be a comment with names, then a line of names or the number of
- * points. More points than that number are read; fewer are an error. */
+/* Reads all lines. The first point may follow a comment with column names, and then a line that has either column
+ * names or the number of points. More points than this number are read; fewer points are an error. */
 static bool parse_lines(cloud_file *file, text_columns *columns)
 {
     cloud_span line;
     bool first = true, named = false, has_header = false;
     double count = 0, points = 0;
-    size_t count_line = 0; /* the number of the line with the count; 0: none */
+    size_t count_line = 0; /* the number of the line that announces the count of points; 0: no such line */
     begin_reading_lines(file);
     while (cloud_read_next_line(file, &line)) {
         cloud_report_progress(file, file->lines.number, (uint64_t)(file->lines.at - (const char *)file->bytes),

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* cloud_values.c - colours, intensities and classes of a cloud: finding them by name, and converting them. */
+/* cloud_values.c - finds the colours, intensities and classes of a cloud by their names, and converts them. */
 #include "cloud_format.h"
 #include "number.h"
 
@@ -65,7 +65,7 @@ enum { UNIT = 1, BYTE = 255, WORD = 65535 };
 
 #define THREE (1U << CLOUD_RED | 1U << CLOUD_GREEN | 1U << CLOUD_BLUE)
 
-/* A colour needs all three channels. */
+/* A colour needs all three channels; otherwise its channels are ignored. */
 void cloud_set_channels(cloud_file *file, unsigned channels, unsigned full)
 {
     if ((channels & THREE) != THREE)
@@ -80,8 +80,9 @@ void cloud_discard_values(cloud_file *file)
     point_values_release(&file->out->values);
 }
 
-/* Raise the full scale of colours after a channel exceeded it. All earlier channels were within the old scale, so their
- * 8-bit values can be rescaled: 1, the old maximum, becomes 1 of 255; a value of 255 becomes less than 1 of 256. */
+/* Raises the full scale of colours after a channel exceeded it. All earlier channels were within the old scale, so
+ * their 8-bit values can be rescaled. From 1 to 255: the old maximum, 1, becomes 1 of 255. From 255 to 65535: every
+ * old value, at most 255, is less than one 8-bit step and becomes 0. */
 static void raise_full_scale(cloud *points)
 {
     const bool unit = points->color_full == UNIT;
@@ -128,8 +129,8 @@ static bool has_channel(const cloud_file *file, cloud_channel channel)
     return file->channels >> channel & 1;
 }
 
-/* Count a value that is out of range. NaN and infinity are not counted: many files mark missing values by them. Returns
- * `valid`. */
+/* Counts a value that is out of range, unless `valid`. NaN and infinity are not counted, because many files mark
+ * missing values by them. Returns `valid`. */
 static bool count_if_out_of_range(const cloud_file *file, point_value_kind kind, bool valid, const double *numbers,
                                   size_t count)
 {
@@ -187,7 +188,7 @@ point_value cloud_convert_values(cloud_file *file, const double *numbers)
     return value;
 }
 
-/* Remove the values of each kind that is zero in every row. */
+/* Removes each kind of value that is zero in every row. */
 static void discard_zero_kinds(point_values *v)
 {
     bool keeps[POINT_VALUE_KINDS] = {false};

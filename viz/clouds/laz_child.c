@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* laz_child.c - a child process that writes records to a pipe, and the parent's side of it. */
+/* laz_child.c - starts a child process that writes records to a pipe, and reads the pipe in the parent. */
 #include "laz_child.h"
 
 #include <errno.h>
@@ -10,15 +10,17 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* Two pipes, each with its reading and its writing end. */
+/* Two pipes: one for records, one for the reason of a failure. Element 0 is the reading end, element 1 the writing
+ * end. */
 typedef struct pipe_pair {
     int records[2], why[2];
 } pipe_pair;
 
 /* ---- The child ---------------------------------------------------------------------------------------------- */
 
-/* Run the child and exit. A crash must not print anything or dump core, so signals, core size and standard error are
- * reset first. The reason is written without blocking, because the parent reads it only after the records. */
+/* Runs in the child process and exits. A crash must not print anything and must not dump core, so signals, core size
+ * and standard error are reset first. The reason of a failure is written without blocking, because the parent reads
+ * it only after the records. */
 static _Noreturn void run_child(const laz_child *child, const pipe_pair *c)
 {
     static const int ends[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGPIPE, SIGXCPU};
@@ -40,7 +42,8 @@ static _Noreturn void run_child(const laz_child *child, const pipe_pair *c)
 
 /* ---- The parent --------------------------------------------------------------------------------------------- */
 
-/* Pass records to `add`. Returns false if `add` does, or if too few records come; *too_few says which. */
+/* Passes records to `add`. Returns false if `add` returns false or if too few records arrive; in the second case
+ * *too_few is true. */
 static bool pass_records(const cloud_file *file, FILE *records, uint64_t count, laz_record_reader *add, void *context,
                          bool *too_few)
 {
@@ -54,7 +57,7 @@ static bool pass_records(const cloud_file *file, FILE *records, uint64_t count, 
     return true;
 }
 
-/* Set the error for a child that wrote too few records, by its exit status and its own reason. */
+/* Sets the error for a child that wrote too few records, from its exit status and the reason that it wrote. */
 static bool fail_with_too_few_records(const laz_child *child, const cloud_file *file, int why, int status)
 {
     char text[256];
@@ -70,7 +73,7 @@ static bool fail_with_too_few_records(const laz_child *child, const cloud_file *
     return cloud_fail(file, "cannot be decompressed: liblaszip stopped early; the data is probably damaged");
 }
 
-/* Read all records, close the pipe, and wait for the child. */
+/* Reads all records, closes the pipe, and waits for the child process. */
 static bool read_records_and_wait(const laz_child *child, const cloud_file *file, pid_t process, const pipe_pair *c,
                                   uint64_t count, laz_record_reader *add, void *context)
 {

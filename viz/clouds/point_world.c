@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* point_world.c - the smallest cube around points, as the world of a tree. */
+/* point_world.c - finds the smallest cube around points, which becomes the world of a tree. */
 #include "point_world.h"
 
 #include <float.h>
@@ -29,7 +29,7 @@ static octree_box find_bounds(const void *positions, size_t stride, size_t count
     return box;
 }
 
-/* Returns half of the extent along an axis, even if the extent overflows. */
+/* Returns half of the extent along an axis. The result is right even if the extent itself overflows. */
 static double find_half_extent(const octree_box *bounds, int axis)
 {
     const double extent = bounds->max[axis] - bounds->min[axis];
@@ -53,7 +53,8 @@ octree_box find_point_world(const void *positions, size_t stride, size_t count)
     octree_box box = find_bounds(positions, stride, count);
     const double half = find_half_side(&box);
     for (int i = 0; i < 3; i++) {
-        /* The slack is not negative and rounding is monotone: rounding cannot move a face inside a point. */
+        /* The slack is not negative, and rounding is monotone. Rounding can therefore not move a face of the cube
+         * inward past a point. */
         const double slack = fmax(half - find_half_extent(&box, i), 0);
         box.min[i] = fmax(box.min[i] - slack, -DBL_MAX);
         box.max[i] = fmin(box.max[i] + slack, DBL_MAX);
