@@ -8,7 +8,7 @@
 
 #include <stddef.h>
 
-/* The kinds of GL contexts. DRAW_AUTO tries the others in this order. */
+/* The kinds of GL contexts. DRAW_AUTO tries DRAW_OSMESA first, then DRAW_EGL. */
 typedef enum draw_context { DRAW_AUTO, DRAW_OSMESA, DRAW_EGL, DRAW_CONTEXTS } draw_context;
 
 /* Returns "auto", "osmesa" or "egl"; null if `kind` is not below DRAW_CONTEXTS. */
@@ -25,15 +25,15 @@ typedef enum draw_fill {
     DRAW_FILLS
 } draw_fill;
 
-/* How to draw. All zero: with the integer rasterizer, without GL. */
+/* The choice of a rasterizer and a GL context. All zero: the integer rasterizer, without GL. */
 typedef struct renderer_choice {
     draw_context context; /* the kind of GL context, if GL is loaded */
     draw_fill fill;
     bool any_renderer; /* draw with GL, whatever `fill` is, and accept any driver, such as a graphics card's */
 } renderer_choice;
 
-/* Called when DRAW_AUTO opens context `name` although context `instead_of`, which is installed, comes first; `why` says
- * why `instead_of` cannot be opened. The function is global to the process. Null, the default: no report. */
+/* Called when DRAW_AUTO falls back to the context `name`: the preferred context `instead_of` is installed but cannot be
+ * opened, for the reason `why`. The function is global to the process. Null, the default: no report. */
 typedef void draw_context_report(const char *name, const char *instead_of, const char *why);
 void draw_context_set_report(draw_context_report *report);
 

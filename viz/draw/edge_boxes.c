@@ -54,7 +54,7 @@ bool edge_boxes_find_all(edge_boxes *all, const scene *s)
         for (unsigned axis = 0; axis < 3; axis++)
             for (unsigned corner = 0; corner < 4 && box->box.min[axis] < box->box.max[axis]; corner++)
                 all->items[all->count++] = make_box_edge(box, i, axis, corner);
-        if (all->count == before) /* the box has no edges: it is a single point */
+        if (all->count == before) /* a box that is a single point has one edge of length 0 */
             all->items[all->count++] = make_box_edge(box, i, 0, 0);
     }
     qsort(all->items, all->count, sizeof *all->items, compare_edges);
@@ -73,7 +73,7 @@ typedef struct stroke {
     double from, to;
     double seen[2][3]; /* the two ends in camera coordinates */
     int across;        /* the axis of the picture (0: x, 1: y) along which the stroke is longer */
-    bool speck;        /* shorter than a sample: each sample of the stroke shows the whole edge */
+    bool speck;        /* the edge is shorter than a sample: each sample of the stroke shows the whole edge */
 } stroke;
 
 static stroke project_edge_line(const scene *s, const edge *e)

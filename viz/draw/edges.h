@@ -85,7 +85,7 @@ typedef struct box_lines {
     uint8_t *changed; /* for each line: 1 if its merged edges are out of date */
     size_t changed_room;
     size_t idle;  /* the number of lines without box edges */
-    hash_map map; /* from line keys to indices of lines */
+    hash_map map; /* maps line keys to indices of lines */
 } box_lines;
 
 void box_lines_clear(box_lines *kept);

@@ -17,7 +17,7 @@ typedef struct glyph_part {
 /* The glyph of character GLYPH_FIRST + i consists of the rectangles first[i] to first[i + 1] - 1, which do not
  * overlap. */
 typedef struct glyph_set {
-    uint8_t width, height; /* of a glyph's cell, in pixels */
+    uint8_t width, height; /* the size of a glyph's cell, in pixels of the face */
     const glyph_part *parts;
     uint16_t first[GLYPH_COUNT + 1];
 } glyph_set;

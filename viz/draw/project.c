@@ -196,7 +196,7 @@ bool find_pixel_and_depth(const scene *s, const double position[3], double pixel
 typedef struct point_run {
     double from_eye[3][RUN];
     double across[RUN], along[RUN], depth[RUN]; /* the three camera coordinates of camera_transform() */
-    double x[RUN], y[RUN], band[RUN];           /* pixels, and the result of find_band_position() */
+    double x[RUN], y[RUN], band[RUN];           /* the pixel (x, y), and the result of find_band_position() */
     double seen[RUN];                           /* not 0: the point is in the picture */
 } point_run;
 

@@ -31,7 +31,7 @@ bool find_pixel_and_depth(const scene *s, const double position[3], double pixel
 
 /* The pixel at which a point is drawn, and the point's band of depth. */
 typedef struct point_place {
-    uint32_t pixel; /* index of the pixel, counted row by row */
+    uint32_t pixel; /* index of the sample in the picture: y * width + x */
     uint8_t band;
     bool seen; /* find_pixel_and_band() would succeed, and the pixel is in the picture */
 } point_place;
