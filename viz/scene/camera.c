@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* camera.c - see camera.h. The only functions of libm in use are sqrt, fabs, floor, fmod and fmax. Their results are
- * exact or correctly rounded, so that every machine computes the same camera. */
+/* camera.c - computes cameras and projects positions; see camera.h. The only functions of libm in use are sqrt, fabs,
+ * floor, fmod and fmax. Their results are exact or correctly rounded, so that every machine computes the same
+ * camera. */
 #include "camera.h"
 #include "filter.h"
 #include "octree/octree.h"

@@ -25,18 +25,18 @@ typedef struct camera_window {
 } camera_window;
 
 typedef struct camera {
-    double origin[3]; /* the box's lowest corner, times scale */
-    double scale;     /* 1; 1/2 if the box's extent overflows a double */
-    double size;      /* the box's largest extent, times scale */
+    double origin[3]; /* the framed box's lowest corner, multiplied by `scale` */
+    double scale;     /* 1; 1/2 if the framed box's extent overflows a double */
+    double size;      /* the framed box's largest extent, multiplied by `scale` */
     double half[3];   /* half the box's extent on each axis, in unit coordinates: 1 on the longest axis */
     double right[3], up[3], forward[3]; /* an orthonormal basis; forward points away from the eye */
     double eye[3];                      /* the position of the eye in unit coordinates */
     bool perspective;
-    double zoom;                  /* pixels per unit of length; under perspective, at distance 1 */
+    double zoom;                  /* pixels per unit of length in unit coordinates; under perspective, at distance 1 */
     double middle[2];             /* the pixel at which the axis of view meets the picture */
     double center[3];             /* the world position that the camera looks at; `middle` shows it */
     double distance;              /* the distance from the eye to the center, in unit coordinates */
-    double near;                  /* geometry at a smaller depth is clipped */
+    double near;                  /* geometry at a depth less than this is clipped */
     double near_depth, far_depth; /* the range of depths of the framed box; the depth bands divide it */
     bool clips_depth;             /* geometry outside near_depth to far_depth is clipped */
 } camera;

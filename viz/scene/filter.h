@@ -48,7 +48,7 @@ bool filter_shows_box(const view_filter *f, const octree_box *box, unsigned dept
 bool filter_shows_points_of(const view_filter *f, const octree_box *world, const octree_node *leaf);
 bool filter_shows_point(const view_filter *f, const double position[3]);
 
-/* True if any part of the filter is set. */
+/* True if the filter has a slice, a range of depths, `leaves` or a region. */
 bool filter_is_set(const view_filter *f);
 
 /* Returns null if the filter can show some node of a tree with this world and depth. Otherwise returns `text`, with a

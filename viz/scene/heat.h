@@ -20,7 +20,7 @@ typedef struct heat_cell {
 typedef struct heat {
     heat_cell *cells;
     size_t room;
-    hash_map places; /* from a node's address to the index of its cell */
+    hash_map places; /* maps a node's address to the index of its cell */
     bool incomplete; /* a cell is missing, because memory ran out */
 } heat;
 

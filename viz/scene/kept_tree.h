@@ -29,7 +29,7 @@
 /* The options that determine how a subtree is drawn. A change of any of them empties the cache. */
 typedef struct kept_look {
     view_coloring coloring;
-    bool boxes, points; /* the view shows boxes of nodes, points */
+    bool boxes, points; /* whether the view shows boxes of nodes, and points */
     size_t capacity;
     uint8_t point_width;
 } kept_look;
@@ -55,7 +55,7 @@ typedef ARRAY(kept_subtree) kept_list;
 /* The cache. A zeroed struct is empty. */
 typedef struct kept_tree {
     kept_look look;
-    uint64_t sieve;         /* which points of the subtrees were kept: see the sieve in node_boxes.h */
+    uint64_t sieve;         /* the sieve with which the points of the subtrees were thinned: node_boxes.h */
     kept_list now, before;  /* the subtrees of this walk and of the walk before, each in the order of the walk */
     size_t passed;          /* the number of subtrees in `before` that the walk has passed */
     octree_cursor cursor;   /* the position in the tree's change log */

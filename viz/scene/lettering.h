@@ -18,7 +18,7 @@ typedef enum text_face {
 
 typedef struct lettering {
     text_face face;
-    int multiple;      /* the side of the square of picture pixels that shows one pixel of the face */
+    int multiple;      /* the width and height, in pixels of the picture, of one pixel of the face */
     int width, height; /* the width and height of a letter's cell, in pixels of the picture */
     int line;          /* the distance from one line of text to the next, in pixels of the picture */
 } lettering;

@@ -44,7 +44,7 @@ typedef struct sample {
 typedef struct samples {
     sample *items;
     size_t count, room;
-    uint64_t mask; /* as few low bits as keep the sample within MOST_SAMPLES */
+    uint64_t mask; /* the low bits that are 0 in the hashes of the sample; grows when the sample is full */
 } samples;
 
 typedef struct gathering {

@@ -94,7 +94,7 @@ typedef struct scene_panel {
 typedef struct scene_arrows {
     size_t thinned;  /* the number of arrows left out because of the view's budget */
     uint64_t one_in; /* about one arrow in `one_in` is kept */
-    size_t small;    /* the number of arrows within the budget left out because they are shorter than the view's lod */
+    size_t small;    /* arrows within the budget that are left out because they are shorter than the view's lod */
 } scene_arrows;
 
 /* Counts of the nodes and points that a scene shows and leaves out. */

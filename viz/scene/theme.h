@@ -107,8 +107,8 @@ theme_color theme_ramp_color(double part);
 /* With this number of points or more on a pixel, the colour of density does not change further. A power of two. */
 #define THEME_MOST_DENSITY 64
 
-/* Colours that differ for every kind of vision: those of Okabe and Ito without their red, and two greys. Used for
- * classes of points. */
+/* Returns the colour of a class of points. The colours differ for every kind of vision: those of Okabe and Ito without
+ * their red, and two greys. */
 #define THEME_KINDS 8
 theme_color theme_kind_color(unsigned kind);
 
