@@ -47,7 +47,7 @@ typedef uint32_t deflate_token;
 enum { DEFLATE_REPEAT = 256, TOKEN_KINDS = 512, DISTANCE_AT = 9, DISTANCE_EXTRA_AT = 14 };
 
 typedef struct bit_writer {
-    uint64_t bits; /* bits that are not in the output yet; the first is the lowest */
+    uint64_t bits; /* bits that are not in the output yet; the lowest bit goes first */
     int count;     /* number of bits in `bits`; below 8 between tokens */
     uint8_t *to;   /* address of the next output byte */
 } bit_writer;

@@ -67,7 +67,7 @@ static void find_code_lengths(uint32_t *a, size_t n)
     a[n - 2] = 0;
     for (size_t i = n - 2; i-- > 0;)
         a[i] = a[a[i]] + 1;
-    size_t available = 1, used = 0, next = n, root = n - 1; /* inner nodes from `root` on are counted */
+    size_t available = 1, used = 0, next = n, root = n - 1; /* inner nodes at indices from `root` on are counted */
     for (uint32_t depth = 0; available > 0; depth++, available = 2 * used, used = 0) {
         for (; root > 0 && a[root - 1] == depth; root--)
             used++;

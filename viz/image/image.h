@@ -34,7 +34,7 @@ typedef struct image {
     uint64_t color_space;  /* digest of the file's chunks for gamma, colour profile and the like, which are not applied;
                               0: none */
     image_palette palette; /* used only if channels is 1 */
-    uint8_t *pixels;       /* owned; width * height * image_pixel_size() bytes */
+    uint8_t *pixels;       /* owned; size in bytes: width * height * image_pixel_size() */
 } image;
 
 /* Returns the number of bytes per pixel: 1, 3 or 6. */

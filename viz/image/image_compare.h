@@ -12,7 +12,7 @@
 #define IMAGE_DELTA_UNIT "YIQ"
 
 typedef struct image_rectangle {
-    int x, y, width, height; /* may extend beyond the image */
+    int x, y, width, height; /* a rectangle that may extend beyond the image */
 } image_rectangle;
 
 /* The differing pixels that are forgiven or ignored. All zero: none are. */
@@ -22,7 +22,7 @@ typedef struct image_tolerance {
     bool antialias;      /* forgive pixels on anti-aliased edges */
     const image_rectangle *ignored; /* rectangles whose pixels are not compared */
     size_t ignored_count;
-    const uint8_t *ignored_mask; /* one byte per pixel, not 0 if the pixel is not compared. May be null */
+    const uint8_t *ignored_mask; /* one byte per pixel; a pixel whose byte is not 0 is not compared. May be null */
 } image_tolerance;
 
 /* True if the tolerance excludes the pixel (x, y) from the comparison; `width` is the image's width. */
@@ -51,7 +51,7 @@ typedef struct image_tally {
 typedef struct image_difference {
     bool same_size;       /* false: the images differ in size, and nothing was counted */
     int channel_range;    /* the largest possible value of largest_channel: 255, or 65535 for 16-bit samples */
-    image_tally unlike;   /* all differing pixels, except ignored pixels */
+    image_tally unlike;   /* all differing pixels, except those that are ignored */
     image_tally counted;  /* differing pixels that are neither ignored nor forgiven by max_delta or `antialias` */
     uint64_t close;       /* number of pixels forgiven because they are within max_delta */
     uint64_t antialiased; /* number of pixels beyond max_delta forgiven because of `antialias` */
