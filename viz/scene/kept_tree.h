@@ -4,11 +4,12 @@
  * The problem: drawing a tick walks the whole tree, although most ticks change few points.
  *
  * The idea: keep the boxes and markers that the walk produced, and their digests, for small subtrees. A subtree is kept
- * if it is a leaf, or if it has at most KEPT_POINTS points and its parent has more. Before the next walk, the tree's
- * change log lists the changed positions. They become keys, sorted in the order of the walk (depth first, by octant).
- * During the walk, one cursor moves through these keys and another through the kept subtrees. Both only move forward,
- * and together they show whether a subtree is unchanged. An unchanged subtree is copied; a changed subtree is walked
- * and kept again. The scene is the same with and without the cache.
+ * if it is a leaf, or if it has at most KEPT_POINTS points and its parent has more.
+ *
+ * Before the next walk, the tree's change log lists the changed positions. They become keys, sorted in the order of the
+ * walk (depth first, by octant). During the walk, one cursor moves through these keys and another through the kept
+ * subtrees. Both only move forward, and together they show whether a subtree is unchanged. An unchanged subtree is
+ * copied; a changed subtree is walked and kept again. The scene is the same with and without the cache.
  *
  * The cost: O(c log c) to sort c changes, and the walk of the nodes above the kept subtrees. The change log also costs
  * the tree time and memory. If there are too many changes, the cache is emptied, and the log is not used for a number

@@ -2,10 +2,12 @@
 /* point_scale.c - measures the ranges for colours and the spacing for sizes, in one walk over the points of tick 0.
  *
  * Ranges: with the full range of values, a single outlier would take most colours from all other points. So a range
- * reaches from the 1st to the 99th percentile. Sorting all points would need memory for all of them; a sample of at
- * most MOST_SAMPLES points is enough. A point is in the sample if the lowest bits of a hash of its id and position are
- * zero. When the sample is full, one more bit must be zero. The sample thus depends only on the set of points, not on
- * their order or on the tree, and frames with other leaf capacities have the same colours.
+ * reaches from the 1st to the 99th percentile.
+ *
+ * The sample: sorting all points would need memory for all of them, and a sample of at most MOST_SAMPLES points is
+ * enough. A point is in the sample if the lowest bits of a hash of its id and position are zero. When the sample is
+ * full, one more bit must be zero. The sample thus depends only on the set of points, not on their order or on the
+ * tree, and frames with other leaf capacities have the same colours.
  *
  * Spacing: points of a scan lie on surfaces. The points of a leaf are treated as a square grid that covers the two
  * longer sides of their box. The result is the median over the leaves, weighted by their number of points.
