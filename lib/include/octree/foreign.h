@@ -37,7 +37,8 @@ typedef struct octree_ids {
 
 #define OCTREE_NODE_KIND 16
 
-/* A node of a foreign index. A node that is zero except for its id and box is a root without further data. */
+/* A node of a foreign index. If all members except the id and the box are zero, it is a root without points and
+ * depth. */
 typedef struct octree_foreign_node {
     uint64_t id; /* unique among the nodes, below OCTREE_NODE_ID_LIMIT */
     /* false: the node is a root. An index may have any number of roots; a grid has one for each cell */
@@ -54,7 +55,7 @@ typedef struct octree_foreign_node {
     octree_precision precision;
 } octree_foreign_node;
 
-/* All nodes of a foreign index. They are current from this tick until other nodes replace them. */
+/* All nodes of a foreign index. They are current from tick `tick` until the session gives other nodes. */
 typedef struct octree_foreign_tree {
     uint64_t tick;
     /* the nodes in any order; null if node_count is 0, which means that the foreign index is empty */
@@ -90,15 +91,15 @@ typedef enum octree_wrong_node_kind {
     OCTREE_NODE_OUTSIDE_POINT,  /* the node lists a point that is outside the node's box */
     OCTREE_NODE_REPEATED_POINT, /* the node lists a point more than once */
     OCTREE_NODE_LOST_POINT,     /* no node holds the point. The player's point is exempt if keys move it */
-    OCTREE_NODE_UNKNOWN_NODE,   /* a query names a node id that does not exist */
+    OCTREE_NODE_UNKNOWN_NODE,   /* a query names the id of a node that does not exist */
     OCTREE_NODE_PRUNED_POINT, /* a query pruned the node and so lost a point: every right answer contains the point, and
                                  no node outside the pruned ones holds it. A node counts as pruned if its nearest
                                  ancestor, or itself, that the query names was pruned and not visited */
     OCTREE_WRONG_NODE_KINDS
 } octree_wrong_node_kind;
 
-/* "outside_parent", "unknown_point", "outside_point", "repeated_point", "lost_point", "unknown_node", "pruned_point".
- * Null for kind >= OCTREE_WRONG_NODE_KINDS. */
+/* The name of a kind: "outside_parent", "unknown_point", "outside_point", "repeated_point", "lost_point",
+ * "unknown_node" or "pruned_point". Null for kind >= OCTREE_WRONG_NODE_KINDS. */
 const char *octree_wrong_node_name(octree_wrong_node_kind kind);
 
 /* A description of a few words, such as "its box leaves its parent's". Null for kind >= OCTREE_WRONG_NODE_KINDS. */
@@ -137,7 +138,8 @@ typedef struct octree_foreign_state {
     size_t node_count, leaf_count;
     unsigned depth;                        /* the largest depth of a node */
     uint64_t digest;                       /* the digest of the nodes as they were given */
-    size_t visits[OCTREE_NODE_VISITS];     /* the number of nodes that the tick's queries visited, pruned and hit */
+    size_t visits[OCTREE_NODE_VISITS];     /* visits[v] is the number of nodes with which the tick's queries did v:
+                                              OCTREE_NODE_VISITED, PRUNED or HIT */
     size_t wrong[OCTREE_WRONG_NODE_KINDS]; /* the number of wrong nodes of each kind */
     /* the first wrong nodes, at most OCTREE_LISTED_WRONG_NODES. Faults of the nodes themselves come first, sorted by
      * node and point; faults of queries follow, in the order of the queries */

@@ -37,14 +37,14 @@ typedef enum octree_player_kind {
     OCTREE_PLAYER_BODY, /* the player is the body that has the player's id, while this body exists. Edits and its
                            velocity move it; keys do not. The game never takes its moves back. Position and step of
                            octree_player are not read */
-    OCTREE_PLAYER_NONE, /* no player: nothing collides, keys do nothing, and the other members are not read */
+    OCTREE_PLAYER_NONE, /* there is no player: nothing collides, keys do nothing, and the other members are not read */
 } octree_player_kind;
 
 typedef struct octree_player {
     octree_player_kind kind;
     uint64_t id;
     double position[3];
-    double step;     /* the distance that one key moves, >= 0 */
+    double step;     /* the distance that the player moves for one key, >= 0 */
     double box_size; /* the collision box is position +- box_size on each axis; >= 0 */
     bool sweep; /* true: the collision test covers the whole way of the tick. false: only the end of the step is tested,
                    as in the paper. The short test misses nothing only if player and point move along one axis, at most
@@ -53,7 +53,7 @@ typedef struct octree_player {
 
 typedef enum octree_edit_kind { OCTREE_EDIT_INSERT, OCTREE_EDIT_REMOVE, OCTREE_EDIT_MOVE } octree_edit_kind;
 
-/* A change to the points at the start of a tick >= 1. Ids identify bodies: within a game they are unique. */
+/* A change of the bodies at the start of a tick >= 1. The id identifies the body; within a game ids are unique. */
 typedef struct octree_edit {
     uint64_t tick;
     octree_edit_kind kind;
@@ -69,13 +69,13 @@ typedef enum octree_shape_kind {
     OCTREE_SHAPE_KINDS
 } octree_shape_kind;
 
-/* "box", "segment", "point", "label". Null for kind >= OCTREE_SHAPE_KINDS. */
+/* The name of a shape: "box", "segment", "point" or "label". Null for kind >= OCTREE_SHAPE_KINDS. */
 const char *octree_shape_name(octree_shape_kind kind);
 
 #define OCTREE_SHAPE_TEXT 47
 
-/* A shape that is drawn at a tick, such as a wall or a goal. It is not in the tree, no query finds it, and it may lie
- * outside the world. */
+/* A shape that is drawn at a tick, such as a wall or a goal. A shape is not in the tree, and queries do not find it. It
+ * may lie outside the world. */
 typedef struct octree_shape {
     uint64_t tick; /* a tick number, or OCTREE_EVERY_TICK */
     octree_shape_kind kind;
@@ -115,7 +115,7 @@ typedef struct octree_session {
     const octree_body *bodies;
     size_t body_count;
     const char *keys;         /* a string with one key per tick, or null */
-    uint64_t ticks;           /* the minimum number of ticks after tick 0; a tick without a key waits */
+    uint64_t ticks;           /* the minimum number of ticks after tick 0; a tick for which there is no key waits */
     uint64_t unplayed;        /* the number of ticks at the end that are not played because the session ended early */
     const octree_edit *edits; /* ascending by tick */
     size_t edit_count;
@@ -123,9 +123,10 @@ typedef struct octree_session {
     size_t query_count;
     const octree_shape *shapes; /* ascending by tick, OCTREE_EVERY_TICK last */
     size_t shape_count;
-    const octree_gap *gaps; /* ascending by tick, at most one per tick */
+    const octree_gap *gaps; /* in ascending order of their ticks, at most one for each tick */
     size_t gap_count;
-    const octree_foreign_tree *foreign; /* the foreign nodes; ascending by tick, at most one per tick */
+    /* the foreign nodes, in ascending order of their ticks, at most one element for each tick */
+    const octree_foreign_tree *foreign;
     size_t foreign_count;
     octree_sampled sampled; /* the seeds of the bodies, for writing session files; the game does not read this member */
 } octree_session;
@@ -148,8 +149,8 @@ typedef enum octree_event {
     /* points are in the player's box. If the player's step led there, the step was taken back */
     OCTREE_EVENT_COLLIDED = 4,
     OCTREE_EVENT_FULL = 8,    /* a leaf was full: the player's step was taken back, or a body was refused */
-    OCTREE_EVENT_SPLIT = 16,  /* leaves became inner nodes */
-    OCTREE_EVENT_MERGED = 32, /* inner nodes became leaves or disappeared */
+    OCTREE_EVENT_SPLIT = 16,  /* at least one leaf became an inner node */
+    OCTREE_EVENT_MERGED = 32, /* at least one inner node became a leaf or disappeared */
     OCTREE_EVENT_WRONG = 64,  /* the answer or a node of a foreign index is wrong */
 } octree_event;
 
@@ -175,7 +176,8 @@ typedef struct octree_visit {
     bool taken;              /* true: at least one search took the node whole */
 } octree_visit;
 
-/* One tick. The game owns the arrays; they are valid until its next step. */
+/* The state after one tick, and the events in it. The game owns the arrays; they are valid until the game's next
+ * step. */
 typedef struct octree_tick {
     uint64_t number;
     char key;        /* the key of the tick; 0 at tick 0 */
@@ -184,7 +186,7 @@ typedef struct octree_tick {
                         world */
     double player[3];  /* the player's position after the tick */
     double attempt[3]; /* the position of the collision test: the end of the step, even if the step was taken back */
-    bool swept;        /* the test covered the whole way from `from` to `attempt` */
+    bool swept;        /* true: the collision test covered the whole way from `from` to `attempt` */
     double from[3];    /* the player's position before the tick; an inserted body starts where it is inserted */
     const octree_point *hits; /* the points that collide with the player, sorted by id */
     size_t hit_count;
@@ -194,7 +196,7 @@ typedef struct octree_tick {
     octree_cost hit_cost;
     const octree_refusal *refusals; /* the refusals in the order in which they happened */
     size_t refusal_count;
-    size_t edit_count; /* the number of edits of the tick, refused ones included */
+    size_t edit_count; /* the number of edits of the tick, including refused edits */
     octree_box edited; /* the bounding box of all inserted and moved positions of the edits; min > max if all edits are
                           removals. Not valid if edit_count is 0 */
     /* addresses of the nodes that became inner nodes in this tick, in pre-order; empty at tick 0 */
@@ -274,16 +276,17 @@ octree_status octree_input_check(const octree_input *input);
 /* Play the session's next tick. Errors: those of octree_game_step; NOT_FOUND when the session is over. */
 octree_status octree_game_advance(octree_game *game);
 
-/* Ask more queries at the end of the last played tick. Their answers follow the existing ones, and their visits and
- * leaves are added. Later ticks do not change. Errors: NULL_ARGUMENT and those of octree_query_check
- * (nothing is asked); NO_MEMORY (the tick must not be read nor the game stepped). Cost: that of the queries, and of
- * sorting all visits and leaves of the tick. */
+/* Ask more queries at the end of the last played tick. Their answers follow the tick's existing answers. The nodes that
+ * they visit and the leaves that they hit are added to the tick. Later ticks do not change.
+ *
+ * Errors: NULL_ARGUMENT and those of octree_query_check (no query is asked); NO_MEMORY (do not read the tick or step
+ * the game after it). Cost: that of the queries, and of sorting all visits and leaves of the tick. */
 octree_status octree_game_ask(octree_game *game, const octree_query *queries, size_t count);
 
 /* True when the session has no further tick. */
 bool octree_game_over(const octree_game *game);
 
-/* The last played tick. */
+/* Return the last played tick. It is valid until the game's next step. */
 const octree_tick *octree_game_tick(const octree_game *game);
 
 /* The tree after the last played tick. The game owns it. */

@@ -40,8 +40,8 @@ const char *octree_status_text(octree_status status);
 /* The status as one word, such as "not_found", for files that programs read. Never null; static storage. */
 const char *octree_status_name(octree_status status);
 
-/* The default definition: world [-1000, 1000]^3, capacity 64, depth 21, OCTREE_GROW, malloc and free, no other threads.
- */
+/* The default definition: world [-1000, 1000]^3, capacity 64, depth 21, OCTREE_GROW, malloc and free, no other
+ * threads. */
 octree_def octree_def_default(void);
 
 /* Create an empty tree in *tree. The definition is copied.
@@ -152,7 +152,7 @@ octree_status octree_compact(octree *tree);
 
 typedef enum octree_change_kind { OCTREE_INSERTED, OCTREE_REMOVED, OCTREE_MOVED } octree_change_kind;
 
-/* One change of the contents. */
+/* A change of a tree's contents. */
 typedef struct octree_change {
     octree_change_kind kind;
     uint64_t id;
@@ -164,20 +164,21 @@ typedef struct octree_change {
  * return OCTREE_BUSY. */
 typedef void (*octree_change_visitor)(const octree_change *change, void *context);
 
-/* Visit the changes since the cursor, in the order in which they were made (those of a batch in the given order), and
- * advance the cursor to the present. Returns true when the changes were known and visited.
+/* Visit the changes since the cursor, in the order in which they were made, and advance the cursor to the present. The
+ * changes of a batch have the order of the batch. Returns true if the changes were known and visited.
  *
- * Returns false when they are not known; nothing is visited, the cursor still advances, and from then on the tree logs
- * its changes. The caller then reads the whole tree. Changes are not known for a zero cursor or one of another tree;
- * after octree_clear, octree_tune, octree_reworld and octree_compact; after a shortage of memory; and when more changes
- * happened since the last call than a quarter of the points (at least 1024), which ends logging until the next call.
+ * Returns false if the changes are not known. Nothing is visited, the cursor still advances, and from now on the tree
+ * logs its changes. The caller then reads the whole tree. Changes are not known: for a zero cursor or a cursor of
+ * another tree; after octree_clear, octree_tune, octree_reworld and octree_compact; after a shortage of memory; and if
+ * more changes happened since the last call than a quarter of the points (at least 1024). Too many changes also end
+ * logging until the next call.
  *
  * `log_name` names the log if this call starts one. It must not be 0 and must never have been given before: use the
- * next number of a sequence with a random start. The name tells this tree's log from logs of other trees, also of one
- * that is created later at the same address.
+ * next number of a sequence with a random start. The name tells this tree's log from logs of other trees, even of a
+ * tree that is created later at the same address.
  *
  * A tree logs nothing until the first call. Calls may run beside queries and on many threads, each with its own cursor.
- * Returns false for null. Cost: O(changes visited); a logged change costs some nanoseconds and 64 bytes, up to four
+ * Returns false for null. Cost: O(changes visited). A logged change costs some nanoseconds and 64 bytes, up to four
  * times that while the log grows. */
 bool octree_changes_since(const octree *tree, size_t log_name, octree_cursor *cursor, octree_change_visitor visit,
                           void *context);
@@ -189,8 +190,8 @@ bool octree_changes_since(const octree *tree, size_t log_name, octree_cursor *cu
  * with octree_range_collect for example. */
 typedef bool (*octree_point_visitor)(const octree_point *point, void *context);
 
-/* Algorithm 3. Find by coordinates: *id (may be null) receives the lowest id stored at exactly this position.
- * Errors: NULL_ARGUMENT, NOT_FINITE, OUTSIDE, NOT_FOUND. Cost: O(D + M). */
+/* Algorithm 3. Find a point by its coordinates. *id (`id` may be null) receives the lowest id stored at exactly this
+ * position. Errors: NULL_ARGUMENT, NOT_FINITE, OUTSIDE, NOT_FOUND. Cost: O(D + M). */
 octree_status octree_find(const octree *tree, const double position[3], uint64_t *id);
 
 /* True when the pair (position, id) is stored. Cost: O(D + M). */
@@ -229,14 +230,15 @@ octree_status octree_radius(const octree *tree, const double center[3], double r
 octree_status octree_range_collect(const octree *tree, const octree_box *box, const octree_search *how,
                                    octree_point *points, size_t room, size_t *count);
 
-/* octree_range_collect, sorted by id and then by position. If there are more than `room` points, the first `room` in
- * that order are stored. */
+/* octree_range_collect with sorted points: by id and then by position. If the box contains more than `room` points, the
+ * first `room` points in this order are stored. */
 octree_status octree_range_collect_sorted(const octree *tree, const octree_box *box, const octree_search *how,
                                           octree_point *points, size_t room, size_t *count);
 
-/* Algorithm 5. Visit every point p with |p - center| <= box_size on each axis, compared as real numbers, not as rounded
- * sums. `self` (may be null) is the one pair (position, id) to leave out. The tree is not changed: the paper inserts
- * the moving point and removes it again, which fails in a full leaf.
+/* Algorithm 5. Visit every point p with |p - center| <= box_size on each axis. The comparison is that of real numbers,
+ * without rounding. `self` (may be null) is a pair (position, id) that is not visited.
+ *
+ * The tree is not changed. (The paper inserts the moving point and removes it again, which fails in a full leaf.)
  * Errors: NULL_ARGUMENT, NOT_FINITE, BAD_SIZE (box_size < 0). Cost: as octree_range. */
 octree_status octree_collide(const octree *tree, const double center[3], double box_size, const octree_point *self,
                              octree_point_visitor visit, void *context);
@@ -258,8 +260,9 @@ octree_status octree_collide_swept(const octree *tree, const double from[3], con
                                    const octree_point *self, const octree_search *how, octree_point_visitor visit,
                                    void *context);
 
-/* The box that octree_collide searches: the smallest and largest doubles within box_size of the centre. Errors:
- * NULL_ARGUMENT, NOT_FINITE, BAD_SIZE (box_size < 0); *box is then unchanged. Cost: O(1). */
+/* Store the box that octree_collide searches in *box. On each axis it extends from the smallest to the largest double
+ * within box_size of the centre. Errors: NULL_ARGUMENT, NOT_FINITE, BAD_SIZE (box_size < 0); *box is then unchanged.
+ * Cost: O(1). */
 octree_status octree_collision_box(const double center[3], double box_size, octree_box *box);
 
 /* Algorithms 6 and 7. Find the point nearest to a finite target, inside the world or not. Distances are compared as
@@ -312,15 +315,15 @@ typedef enum octree_walk_order {
     OCTREE_WALK_STOP, /* end the walk */
 } octree_walk_order;
 
-/* Called with each node. The node is valid during the call. Changes of the tree inside the visitor return OCTREE_BUSY.
- */
+/* Called with each node. The node is valid during the call. Changes of the tree inside the visitor return
+ * OCTREE_BUSY. */
 typedef octree_walk_order (*octree_node_visitor)(const octree_node *node, void *context);
 
 /* Visit the nodes in pre-order: parents first, children in the order of their octants. Only occupied octants have
  * nodes; an empty tree has a root. Errors: NULL_ARGUMENT. Cost: O(nodes). */
 octree_status octree_walk(const octree *tree, octree_node_visitor visit, void *context);
 
-/* Describe the node at an address in *node. Errors: NULL_ARGUMENT, NOT_FOUND. Cost: O(D). */
+/* Store a description of the node at an address in *node. Errors: NULL_ARGUMENT, NOT_FOUND. Cost: O(D). */
 octree_status octree_node_at(const octree *tree, octree_address address, octree_node *node);
 
 /* Describe the leaf whose cell contains a position. No point needs to be stored there. If no node exists for the
@@ -328,13 +331,14 @@ octree_status octree_node_at(const octree *tree, octree_address address, octree_
  * O(D). */
 octree_status octree_locate(const octree *tree, const double position[3], octree_node *node);
 
-/* Count the tree's nodes, by kind, and its memory. Errors: NULL_ARGUMENT. Cost: O(nodes). */
+/* Count the tree's points, nodes, leaves and bytes. Errors: NULL_ARGUMENT. Cost: O(nodes). */
 octree_status octree_statistics(const octree *tree, octree_stats *stats);
 
 /* The number of points, in O(1); 0 for null. */
 size_t octree_count(const octree *tree);
 
-/* A number that changes with every change of the contents. Equal numbers mean that nothing changed. 0 for null. */
+/* A version number: it changes with every change of the contents. Two equal numbers mean that nothing changed between
+ * the calls. 0 for null. */
 uint64_t octree_version(const octree *tree);
 
 /* A digest of the world, the options, the nodes and the points. Equal contents and options give equal digests on every
@@ -363,7 +367,8 @@ unsigned octree_address_octant(octree_address address, unsigned level);
 /* Write "root" for the root; for another node write its octants from the root down, as in "0/3/7". Returns `text`. */
 char *octree_address_format(octree_address address, char text[OCTREE_ADDRESS_TEXT]);
 
-/* Parse "root", "/" or octants separated by slashes. False when the text has none of these forms. */
+/* Parse a text into an address: "root", "/", or octants separated by slashes. False if the text has none of these
+ * forms. */
 bool octree_address_parse(const char *text, octree_address *address);
 
 /* The box of the cell at an address, whether or not a node exists there. Plane k of 2^d on an axis is computed by a

@@ -130,9 +130,9 @@ typedef struct octree_query {
     octree_ids visits[OCTREE_NODE_VISITS];
 } octree_query;
 
-/* Check whether a query can be asked; its tick is not read. Errors: NULL_ARGUMENT (also for an id array that is
- * missing); BAD_OPTION (kind, precision or skip is invalid, or COINCIDENT without a target); NOT_FINITE, BAD_RANGE,
- * BAD_SIZE (epsilon, or a member that the kind reads); BAD_SIZE (the id of a foreign node is not below
+/* Check whether a query can be asked; its tick is not read. Errors: NULL_ARGUMENT (an array of ids may be null only if
+ * its count is 0); BAD_OPTION (kind, precision or skip is invalid, or COINCIDENT without a target); NOT_FINITE,
+ * BAD_RANGE, BAD_SIZE (epsilon, or a member that the kind reads); BAD_SIZE (the id of a foreign node is not below
  * OCTREE_NODE_ID_LIMIT). */
 octree_status octree_query_check(const octree_query *query);
 
@@ -152,8 +152,8 @@ typedef enum octree_wrong_kind {
     OCTREE_WRONG_KINDS
 } octree_wrong_kind;
 
-/* "none", "unknown", "duplicate", "skipped", "count", "farther", "missing", "extra". Null for wrong >=
- * OCTREE_WRONG_KINDS. */
+/* The name of a kind: "none", "unknown", "duplicate", "skipped", "count", "farther", "missing" or "extra". Null for
+ * wrong >= OCTREE_WRONG_KINDS. */
 const char *octree_wrong_name(octree_wrong_kind wrong);
 
 /* The answer of a foreign index, judged by the exact answer.

@@ -23,10 +23,10 @@ typedef enum octree_sample_kind {
     OCTREE_SAMPLE_KINDS
 } octree_sample_kind;
 
-/* The name of a kind: "uniform", "gaussian", ...; null for an unknown value. */
+/* The name of a kind of distribution, such as "uniform" or "gaussian". Null for an unknown kind. */
 const char *octree_sample_name(octree_sample_kind kind);
 
-/* Find the kind with a name. False if there is none. */
+/* Find the kind of distribution that has a name. False if there is none. */
 bool octree_sample_parse(const char *name, octree_sample_kind *kind);
 
 /* Write `count` positions within `box` to `positions`, one row of three doubles each.

@@ -145,9 +145,9 @@ typedef struct octree_def {
     octree_executor executor;   /* a null function means that all work runs on the calling thread */
 } octree_def;
 
-/* A cursor into a tree's change log. All zero means that nothing has been read yet. */
+/* A reader's position in a tree's change log. All members zero means that the reader has read nothing yet. */
 typedef struct octree_cursor {
-    size_t log;        /* the name of the log */
+    size_t log;        /* the name of the log that the reader has read */
     uint64_t position; /* the number of the first change that the reader has not read */
 } octree_cursor;
 

@@ -26,7 +26,7 @@ typedef struct unlisted_point {
     bool held; /* true: the point is in the box of a leaf that lists no points */
 } unlisted_point;
 
-/* What the current query did with a node. */
+/* What the current query did with a foreign node. */
 typedef struct foreign_mark {
     /* foreign.query of the query that last named the node; if it differs, the other members are not valid */
     uint64_t query;

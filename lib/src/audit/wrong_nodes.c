@@ -324,8 +324,8 @@ static bool record_node_visit(const node_query *q, octree_node_visit visit, uint
     node->visits |= 1u << visit;
     foreign_mark *mark = &marks_of(f)[place];
     const bool first = mark->query != f->query;
-    if (first ||
-        mark->visit == OCTREE_NODE_PRUNED) /* a node that the query both pruned and visited does not count as pruned */
+    /* a node that the query both pruned and visited does not count as pruned */
+    if (first || mark->visit == OCTREE_NODE_PRUNED)
         *mark = (foreign_mark){.query = f->query, .visit = visit};
     return list_push(f->memory, &f->visits, &place, sizeof place);
 }

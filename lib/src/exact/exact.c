@@ -18,7 +18,7 @@
 /* A finite double as mantissa * 2^exponent and a sign. The mantissa is an integer below 2^53. */
 typedef struct decomposed {
     uint64_t mantissa;
-    int exponent; /* at least -1074 */
+    int exponent; /* the exponent of the lowest bit of the mantissa, at least -1074 */
     int sign;
 } decomposed;
 

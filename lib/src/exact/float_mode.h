@@ -100,7 +100,8 @@ bool visit_in_caller_mode(const octree_point *point, void *context);
 octree_walk_order visit_node_in_caller_mode(const octree_node *node, void *context);
 const octree_search *trace_in_caller_mode(const octree_search *how, caller_search *copy);
 
-/* A visitor and its context; null stays null. */
+/* The two arguments that replace a visitor and its context in the inner call. They are a function that calls the
+ * visitor in the caller's mode, and its context. A null visitor stays null. */
 #define CALLER_VISITOR(visit, context)                                                                                 \
     (visit) ? visit_in_caller_mode : NULL, &(caller_visitor)                                                           \
     {                                                                                                                  \
@@ -112,7 +113,8 @@ const octree_search *trace_in_caller_mode(const octree_search *how, caller_searc
         visit, context                                                                                                 \
     }
 
-/* Search options. */
+/* The argument that replaces search options in the inner call: a copy with a tracer that calls the caller's tracer in
+ * the caller's mode. */
 #define CALLER_SEARCH(how) trace_in_caller_mode(how, &(caller_search){.context = NULL})
 
 #endif

@@ -44,7 +44,7 @@ static inline bool box_contains(const octree_box *box, const double p[3])
     return _mm_movemask_pd(_mm_and_pd(above_min, below_max)) == 3;
 #else
     bool inside = true;
-    for (int i = 0; i < 3; i++) /* no branches, because they would be unpredictable */
+    for (int i = 0; i < 3; i++) /* one result without branches, because branches would be unpredictable */
         inside &= (box->min[i] <= p[i]) & (p[i] <= box->max[i]);
     return inside;
 #endif

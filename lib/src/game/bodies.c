@@ -96,7 +96,7 @@ static void clear_slot(bodies *b, size_t gap)
     b->slots[gap] = 0;
 }
 
-/* Remove a body. The last body moves to its index. */
+/* Remove a body from the array. The last body of the array moves to its index. */
 static void bodies_remove(bodies *b, moving_body *body)
 {
     b->movers -= is_moving(body->velocity);
@@ -315,7 +315,7 @@ static bool apply_edit(octree_game *game, const octree_edit *edit)
 
 /* A list of moves of different bodies, as arrays for octree_move_many(). */
 typedef struct motion {
-    octree_point *points; /* the bodies as the tree stores them */
+    octree_point *points; /* the moving points, with the positions that the tree stores */
     double (*to)[3];
     octree_status *statuses;
     uint32_t *bodies; /* the index of the body of each move */

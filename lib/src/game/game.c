@@ -158,7 +158,8 @@ static void update_player(octree_game *game)
     tick->hit_cost = (octree_cost){0};
 }
 
-/* Make the step of the tick's key, unless the collision test or the tree prevents it. */
+/* Make the player's step for the tick's key, unless the collision test or the tree prevents it. False when there is no
+ * memory. */
 static bool step_player(octree_game *game)
 {
     update_player(game);
@@ -363,7 +364,7 @@ static void begin_tick(octree_game *game, char key)
     foreign_begin_tick(&game->foreign);
 }
 
-/* Record the number of edits and the bounds of their positions. */
+/* Record the number of a tick's edits and the bounding box of their positions. */
 static void record_edits(octree_tick *tick, const octree_input *input)
 {
     octree_box *box = &tick->edited;

@@ -47,7 +47,7 @@ struct octree_game {
 #undef LIST
 };
 
-/* The points of the game after the changes of the tick. */
+/* The points of the game after the changes of the tick, for checking foreign answers and nodes. */
 audited_points game_audited_points(const octree_game *game);
 
 #endif

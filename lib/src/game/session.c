@@ -230,15 +230,16 @@ static const octree_body paper_bodies[] = {
 };
 
 static const char paper_keys[] =
-    "n.eeasnassdn."                                          /* three collisions near the origin */
+    "n.eeasnassdn."                                          /* the player has three collisions near the origin */
     "asfasfasfasfasfasfasfasfasfasfasfasfasfasfasfasfasfasf" /* the player moves down to the lowest corner ... */
-    "sffffnasf."                                             /* ... and against the three faces there */
-    "ddweddwedddddddddddddddddddddddddddddddddnddwddddn"     /* to point 2, then against the face x = 1000 */
-    "ewaewaewaewaewaewaewaewaewaewa"                         /* up to point 9 */
+    "sffffnasf."                                             /* ... and then against the three faces there */
+    "ddweddwedddddddddddddddddddddddddddddddddnddwddddn" /* the player moves to point 2, then against the face x = 1000
+                                                          */
+    "ewaewaewaewaewaewaewaewaewaewa"                     /* the player moves up to point 9 */
     "ewewewewewewewewewewewewewewewwwneee.n"
-    "dwedwedwedweddewn.en"   /* into the cell whose leaf is full */
-    "dwendweenaweeeen"       /* against the face z = 1000 */
-    "wddnwaawwdnwfaffssn.."; /* to point 11, then against the face y = 1000 */
+    "dwedwedwedweddewn.en"   /* the player moves into the cell whose leaf is full */
+    "dwendweenaweeeen"       /* the player moves against the face z = 1000 */
+    "wddnwaawwdnwfaffssn.."; /* the player moves to point 11, then against the face y = 1000 */
 
 #define CORNER(at)                                                                                                     \
     {                                                                                                                  \
@@ -264,6 +265,7 @@ octree_session octree_session_default(void)
     };
     session.tree.leaf_capacity = 2;
     session.tree.max_depth = 5;
-    session.tree.full_leaf = OCTREE_REFUSE; /* the paper's rule; octree_def_default() keeps every point */
+    /* The paper refuses a point that meets a full leaf; octree_def_default() keeps every point. */
+    session.tree.full_leaf = OCTREE_REFUSE;
     return session;
 }

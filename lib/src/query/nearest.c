@@ -209,7 +209,7 @@ static unsigned find_adjacent_codes(const uint32_t keys[3], unsigned depth, size
             beside[i] -= size;
         else if (within >= size - close)
             beside[i] += size;
-        if (beside[i] != keys[i] && beside[i] < PLANE_GRID) /* a key below 0 has wrapped around */
+        if (beside[i] != keys[i] && beside[i] < PLANE_GRID) /* a key below 0 has wrapped around to a large number */
             codes[count++] = morton_interleave(beside);
     }
     return count;

@@ -16,8 +16,8 @@
 #include "search.h"
 
 #if defined(__GNUC__)
-#define RARE                                                                                                           \
-    __attribute__((noinline)) /* keeps rare code out of line, so that the frequent path saves fewer registers */
+/* Keeps rare code out of line, so that the frequent path saves fewer registers. */
+#define RARE __attribute__((noinline))
 #else
 #define RARE
 #endif

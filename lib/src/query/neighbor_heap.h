@@ -32,8 +32,8 @@ typedef struct neighbor_heap {
     double radius_square;
     double shrink; /* 1 / (1 + epsilon)^2, rounded up: a node is pruned if its square exceeds the farthest square times
                       this factor */
-    double point_reach;     /* a point with a greater square is not among the k nearest */
-    double node_reach;      /* a node with a greater square contains none of the k nearest */
+    double point_reach;     /* a point with a greater scaled squared distance is not among the k nearest */
+    double node_reach;      /* a node with a greater scaled squared distance contains none of the k nearest */
     octree_neighbor *items; /* the caller's array. Until the end of the search `distance` holds scaled squares */
     size_t count, k;
     few_neighbors few; /* used in place of `items` until the end of the search, if k <= FEW_NEIGHBORS */

@@ -18,8 +18,9 @@ typedef struct ball {
     octree_mode mode;
     double radius; /* the radius in world units, not scaled */
     double square; /* the square of the scaled radius */
-    double reach;  /* a point or cell with a greater square is outside the ball */
-    double whole;  /* a cell with a smaller square is inside the ball of radius + epsilon */
+    double reach;  /* a point or cell with a greater scaled squared distance is outside the ball */
+    double whole;  /* a cell is inside the ball of radius + epsilon if the squared distance of its farthest corner is
+                      smaller */
     ball_cell cells[OCTREE_MAX_DEPTH];
 } ball;
 

@@ -3,7 +3,7 @@
 #include "region.h"
 #include "leaf.h"
 
-/* An inner node on the path of the descent. */
+/* An inner node on the path of the current descent. */
 typedef struct frame {
     const node *node;
     octree_address address;

@@ -10,7 +10,7 @@
 
 #include "search.h"
 
-/* The relation of a cell's octants to a region, one bit per octant. */
+/* How a cell's octants lie to a region. Each mask has one bit per octant. */
 typedef struct octant_masks {
     uint8_t meets;  /* the octant may intersect the region */
     uint8_t inside; /* the octant lies within the region */
@@ -25,9 +25,9 @@ typedef struct region {
     /* Returns the masks of a cell at a depth. The cell is the given octant of the cell that was last entered one level
      * above. */
     octant_masks (*enter)(void *shape, const octree *tree, unsigned depth, unsigned octant);
-    /* Returns a mask of the points that are in the region; 1 <= count <= SCAN_POINTS. */
+    /* Returns a bit mask of the points that are in the region: bit i is for points[i]. 1 <= count <= SCAN_POINTS. */
     uint64_t (*scan)(const void *shape, const octree_point *points, unsigned count);
-    octree_point_visitor visit; /* null: count the points */
+    octree_point_visitor visit; /* null: count the points and visit none */
     void *context;
     size_t count;
     meter meter;

@@ -36,13 +36,13 @@ typedef struct batch {
     morton_item *spare; /* scratch memory for sorting */
     list repetitions;
 
-    bool inserts;               /* the batch only inserts: an empty tree may be built by a grid */
+    bool inserts;               /* the batch only inserts points, so a grid may be used to build an empty tree */
     bool remakes;               /* so many points move that the tree is rebuilt; `valid` is then empty at first */
     bool settled;               /* the statuses of the moves are final, and no move meets a full leaf */
     bool may_be_stored;         /* an arriving point may already be stored, so this must be checked */
     bool duplicate;             /* an arriving point is already stored */
     bool overflow;              /* a moved point may meet a full leaf under OCTREE_REFUSE */
-    const octree_point *stored; /* the stored points that items refer to by index */
+    const octree_point *stored; /* the array of stored points into which the items' indices point */
     /* the number of stored points in `cells`, where their cells follow those of the batch's points */
     size_t stored_count;
     uint32_t *cells;     /* the grid cells of the points, used in place of items (grid_fill.h) */
@@ -74,13 +74,13 @@ static inline void prefetch_item(const batch *b, const morton_item *item)
         prefetch_memory(&b->to[item->place]);
 }
 
-/* The point of an item: an arriving point of the caller, or a stored point. */
+/* Return the point that an item refers to: an arriving point of the caller, or a stored point. */
 static inline octree_point point_of_item(const batch *b, const morton_item *item)
 {
     return item->index == MORTON_NEW ? arriving_point(b, item) : b->stored[item->index];
 }
 
-/* The number of sorted items in the same octant of a cell of this depth as the first one. */
+/* The number of sorted items in the octant, of a cell of this depth, that contains the first item. */
 size_t count_in_first_octant(const morton_item *items, size_t count, unsigned depth);
 
 /* A cell with at most this many items becomes a leaf. The items of a leaf need no order. */

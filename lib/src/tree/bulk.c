@@ -183,7 +183,7 @@ static bool lies_in_tree_memory(const octree *tree, const octree_point *points, 
     return false;
 }
 
-/* Sort the points of a batch and change the tree. */
+/* Sort the points of a batch, and let `change` change the tree. */
 static octree_status change_in_morton_order(batch *b, octree_status (*change)(batch *b))
 {
     octree_status status = prepare_batch(b);

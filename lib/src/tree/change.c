@@ -180,7 +180,7 @@ octree_status insert_point(octree *tree, const octree_point *point, uint64_t cod
                                          : add_child_leaf(tree, end, morton_octant(code, p.depth), point);
     if (status != OCTREE_OK)
         return status;
-    /* leaf_append() has already counted the point in the leaf. */
+    /* The path's last node is not counted again if it is a leaf: leaf_append() has counted the point. */
     const unsigned inner = is_leaf ? p.depth : p.depth + 1;
     for (unsigned i = 0; i < inner; i++)
         p.nodes[i]->count++;
@@ -299,13 +299,13 @@ static octree_status move_to_other_leaf(octree *tree, found_point *found, const 
         leaf_release(&tree->store, &spare);
         return status;
     }
-    find_point(tree, old->position, old->id,
-               found); /* find the point again: the insertion may have moved nodes in memory */
+    /* find the point again: the insertion may have moved nodes in memory */
+    find_point(tree, old->position, old->id, found);
     remove_found_point(tree, found, &spare);
     return OCTREE_OK;
 }
 
-/* Move a point. `old` receives its stored position. */
+/* Move a point. old->position receives the position as it was stored. */
 static octree_status move_point(octree *tree, octree_point *old, const octree_point *moved)
 {
     found_point found;

@@ -39,7 +39,8 @@ void change_log_stop(change_log *log, arena *memory)
 static bool grow_ring(change_log *log, arena *memory)
 {
     const size_t room = log->room ? 2 * log->room : 16;
-    octree_change *items = arena_allocate(memory, room * sizeof *items); /* cannot overflow: see list_append() */
+    /* The product cannot overflow, for the reason given in list_append(). */
+    octree_change *items = arena_allocate(memory, room * sizeof *items);
     if (!items)
         return false;
     for (uint64_t i = log->first; i < log->next; i++)

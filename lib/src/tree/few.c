@@ -81,7 +81,7 @@ static void descend_together(descents *w, octree *tree, const octree_point *poin
 
 typedef struct insertions {
     batch *batch;
-    octree_point *full;      /* points that met a full leaf */
+    octree_point *full;      /* the points that met a full leaf */
     octree_status *statuses; /* the statuses of all points, followed by the statuses of the points in `full` */
     size_t full_count;
 } insertions;
@@ -167,7 +167,7 @@ octree_status insert_few(batch *b)
 
 /* A point to remove, and its leaf. Nodes do not move in memory until the last point is removed. */
 typedef struct removal {
-    node *leaf, *parent; /* null as `parent`: the leaf is the root */
+    node *leaf, *parent; /* the leaf and its parent; the parent is null if the leaf is the root */
     uint32_t place, index;
 } removal;
 

@@ -19,7 +19,7 @@
 
 enum { SAMPLE_STEP = 16 }; /* one of 16 points is sampled */
 
-/* A node whose points must be divided further than the grid. */
+/* A node with so many points in one grid cell that it must be divided further than the grid. */
 typedef struct crowd {
     node *at;
     cell cell;
@@ -321,8 +321,8 @@ bool build_from_grid(batch *b, node *made)
     arena *memory = &b->store->memory;
     filling f = {.whole = b, .count = b->count + b->stored_count, .depth = b->grid};
     const size_t cells = cell_count_at(f.depth);
-    const size_t most =
-        f.count / cells + 1; /* with more tasks the tables of counts would take more memory than the points */
+    /* with more tasks the tables of counts would take more memory than the points */
+    const size_t most = f.count / cells + 1;
     f.tasks = count_tasks(b->tree, f.count);
     f.tasks = f.tasks < most ? f.tasks : (unsigned)most;
     const size_t size = (cell_count_at(f.depth + 1) / 7 + f.tasks * cells) * sizeof *f.shares;

@@ -107,7 +107,7 @@ static void remove_from_hashed(octree_point *points, uint32_t count, uint32_t in
 
 /* ---- Leaves ------------------------------------------------------------------------------------------------- */
 
-/* The size of the block for `count` points. Sizes grow by about a quarter: 1, 2, 3, 4, 6, 8, 12, 16, 20, 24, 28, 32, 40
+/* The size of the block for `count` points, in points. Sizes grow by about a quarter: 1 to 4, 6, 8, 12, 16 ... 32, 40
  * ... 64. */
 unsigned leaf_block_room(uint32_t count)
 {
@@ -274,7 +274,7 @@ void store_init(store *s)
 
 void store_release(store *s, const node *root)
 {
-    node_release(s, root); /* hashed leaves are not in the pools */
+    node_release(s, root); /* a hashed leaf is not in the pools, so it is freed separately */
     pool_release(&s->nodes);
     pool_release(&s->points);
 }

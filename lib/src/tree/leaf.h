@@ -22,7 +22,7 @@ typedef struct node {
 #define LEAF_HASHED 255
 #define LEAF_NONE UINT32_MAX
 
-/* The memory of a tree. */
+/* The allocators of a tree's memory. */
 typedef struct store {
     arena memory;
     pool nodes; /* allocates the groups of sibling nodes */
@@ -50,7 +50,7 @@ static inline unsigned child_index(const node *n, unsigned octant)
     return bits_count8(n->octants & ((1u << octant) - 1));
 }
 
-/* The child in an octant, or null if there is none. */
+/* Return the child in an octant, or null if no child exists there. */
 static inline node *child_at(const node *n, unsigned octant)
 {
     return n->octants >> octant & 1 ? children_of(n) + child_index(n, octant) : NULL;
@@ -136,7 +136,8 @@ void leaf_replace(node *leaf, uint32_t index, const octree_point *point);
  * may be null. */
 void leaf_append_all(node *leaf, const node *from, const octree_point *except);
 
-/* Copy the points in and below a node, in the order of their leaves. Returns the end of the copies. */
+/* Copy the points in and below a node to an array, in the order of their leaves. Returns the address after the last
+ * copy. */
 octree_point *node_copy_points(const node *n, octree_point *to);
 
 /* Free everything below a node: its children or its points. The node itself belongs to the caller. */

@@ -17,7 +17,7 @@
 
 #include <string.h>
 
-#define FEW 16   /* cells of at most this many items are sorted by insertion */
+#define FEW 16   /* a cell of at most this many items is sorted by insertion sort */
 #define LEVELS 3 /* the greatest number of tree levels per pass: 8^3 buckets */
 
 typedef struct sorter {
@@ -142,11 +142,11 @@ bool morton_sort(morton_item *items, morton_item *spare, size_t count, unsigned 
 
 enum { DIGITS = 1 << 3 * LEVELS };
 
-/* One parallel pass and the cells that it produces. */
+/* The state of one parallel pass, and the cells into which it divides the items. */
 typedef struct pass {
     sorter sorter;
-    uint32_t (
-        *counts)[DIGITS]; /* for each task and digit: the number of items, and later the index for the next item */
+    /* for each task and digit: the number of items, and later the index for the next item */
+    uint32_t (*counts)[DIGITS];
     morton_item *from, *to;
     size_t count;
     unsigned tasks;

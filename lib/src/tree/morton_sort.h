@@ -16,7 +16,7 @@ typedef struct morton_item {
 
 #define MORTON_NEW UINT32_MAX
 
-/* The greatest `unsorted` that callers may pass. */
+/* The greatest value of `unsorted` that callers may pass. */
 #define MORTON_UNSORTED 64
 
 /* Sort the items of a cell of this depth by code; items of equal code keep their order. Cells of at most `unsorted`

@@ -136,8 +136,8 @@ static void apply_leaf_edit(batch *b, const edit *e)
 {
     uint32_t count = e->count;
     size_t taken = 0;
-    for (size_t i = e->leaving.count;
-         i-- > 0;) { /* fill the last gap first: then the leaf's last point is never a leaving one */
+    /* fill the last gap first: then the leaf's last point is never a leaving one */
+    for (size_t i = e->leaving.count; i-- > 0;) {
         octree_point *gap = &e->points[e->leaving.items[i].index];
         *gap = taken < e->arriving.count ? arriving_point(b, &e->arriving.items[taken++]) : e->points[--count];
     }

@@ -97,7 +97,8 @@ static uint32_t search_key(const axis *a, double x)
 uint32_t plane_key_near(const axis *a, double x)
 {
     const double guess = plane_guess_key(a, x);
-    if (!(a->keys_per_unit > 0 && a->guess_error < 1 && guess < (double)PLANE_GRID)) /* the guess is never negative */
+    /* The guess needs no test for negative values: it never is negative. */
+    if (!(a->keys_per_unit > 0 && a->guess_error < 1 && guess < (double)PLANE_GRID))
         return search_key(a, x);
     uint32_t key = (uint32_t)guess;
     const double fraction = guess - (double)key;
@@ -149,7 +150,8 @@ static inline void duplicate_axes(const axis axes[3], axis_pair pairs[3])
                                _mm_set1_epi64x((long long)(axes[i].sure_span - 1))};
 }
 
-/* Compute plane_fixed() and plane_unsure() of two coordinates at once. */
+/* Compute plane_fixed() of two coordinates at once. The highest bit of each half of *unsure is set as plane_unsure()
+ * does. */
 static inline __m128i fixed_of_two(const axis_pair *a, double p, double q, __m128i *unsure)
 {
     const __m128i fraction = _mm_set1_epi64x((long long)PLANE_FRACTION_MASK);

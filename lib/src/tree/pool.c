@@ -398,8 +398,8 @@ void *list_append(arena *memory, list *l, size_t item_size)
 {
     if (l->count == l->room) {
         const size_t room = l->room ? 2 * l->room : 16;
-        void *items =
-            arena_allocate(memory, room * item_size); /* cannot overflow: no allocation is larger than PTRDIFF_MAX */
+        /* cannot overflow: no allocation is larger than PTRDIFF_MAX */
+        void *items = arena_allocate(memory, room * item_size);
         if (!items)
             return NULL;
         if (l->count)

@@ -184,8 +184,8 @@ static void find_staying_cells(const remake *r, size_t first, size_t count)
 
 static void separate_moving_in_leaf(const remake *r, const node *leaf, findings *f)
 {
-    const id_table ids =
-        r->ids; /* a local copy, because the compiler then knows that the stores below do not change it */
+    /* a local copy, because the compiler then knows that the stores below do not change it */
+    const id_table ids = r->ids;
     const octree_point *moves = r->whole->points;
     for (uint32_t i = 0; i < leaf->count; i++) {
         const octree_point *point = &leaf_points(leaf)[i];

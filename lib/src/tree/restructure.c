@@ -303,8 +303,8 @@ static bool merge_into_leaf(batch *b, const node *old, cell c, span leaving, spa
 
 bool plan_replacement(batch *b, node *at, const node *made)
 {
-    if (at->below == made->below &&
-        at->count == made->count) /* the child is unchanged: if the blocks are equal, so are octants and room */
+    /* the child is unchanged: if the blocks are equal, so are octants and room */
+    if (at->below == made->below && at->count == made->count)
         return true;
     const patch p = {at, *made};
     if (list_push(&b->store->memory, &b->patches, &p, sizeof p))

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #ifndef OCTREE_LEAST_SHARE
-#define OCTREE_LEAST_SHARE 1024 /* the least number of points per task */
+#define OCTREE_LEAST_SHARE 1024 /* the least number of points for each task */
 #endif
 
 unsigned count_tasks(const octree *tree, size_t points)

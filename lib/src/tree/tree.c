@@ -159,8 +159,8 @@ octree_status rebuild_tree(octree *tree, const octree_def *def)
     octree_point *points = arena_allocate(&other->store.memory, size);
     status = OCTREE_NO_MEMORY;
     if (points) {
-        const unsigned begun =
-            begin_visit(tree); /* a visit of `tree`, because its executor runs tasks of the other tree */
+        /* a visit of `tree`, because its executor runs tasks of the other tree */
+        const unsigned begun = begin_visit(tree);
         node_copy_points(&tree->root, points);
         status = insert_all_points(other, points, count);
         end_visit(begun);

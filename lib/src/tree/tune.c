@@ -242,8 +242,8 @@ static octree_status choose_by_sample(octree *tree, const octree_mix *mix, size_
     sample s = {.mix = clamp_mix(*mix, LEAST_CELL)};
     arena *memory = &tree->store.memory;
     const size_t size = ((s.mix.k > s.mix.hits ? s.mix.k : s.mix.hits) + 1) * sizeof *s.neighbors;
-    const unsigned begun =
-        begin_visit(tree); /* a visit of `tree`, because its executor runs tasks of the trial trees */
+    /* a visit of `tree`, because its executor runs tasks of the trial trees */
+    const unsigned begun = begin_visit(tree);
     s.neighbors = arena_allocate(memory, size);
     const bool ok = make_sample(&s, tree) && s.neighbors;
     const octree_status status = ok ? choose_capacity(&s, tree->def, capacity) : OCTREE_NO_MEMORY;
