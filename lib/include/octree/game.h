@@ -5,11 +5,11 @@
  * state before any key. Order within a tick: edits, points that move by velocity, the player's step, the collision
  * test, the queries.
  *
- * A point may jump over the player, and the player over a point, in one tick. octree_player.sweep extends the collision
- * test to the whole way: a straight line at constant speed from the position stored at the end of one tick to the
- * position stored at the end of the next, for the player and for every body that its velocity or an edit moves. A body
- * that bounces also counts as moving straight. An inserted body starts where it is inserted. A step is tested on its
- * way even if it is then taken back.
+ * Without sweep, the collision test looks only at the positions at the end of a tick. So a point and the player may
+ * jump over each other in one tick. With octree_player.sweep the test covers the whole way of the player and of every
+ * body that its velocity or an edit moves. The way is a straight line at constant speed, from the position stored at
+ * the end of one tick to the position stored at the end of the next, even for a body that bounces. An inserted body
+ * starts at the position of its insertion. The way of a step is tested even if the step is then taken back.
  *
  * Keys: w/s = +y/-y, d/a = +x/-x, e/f = +z/-z, n asks for the nearest neighbour, . waits, q ends the session (it plays
  * no tick).

@@ -5,14 +5,15 @@
  * within epsilon; and where several neighbours are equally far, any of them is right. So a comparison of two lists of
  * ids would report right answers as wrong.
  *
- * The idea: make two lists of points, the foreign answer and the exact one, both with the positions that the promise is
- * about. Regions compare them as sets, sorted by id: a missing point is wrong, and an extra one is wrong unless it lies
- * within epsilon of the region. Neighbours compare the distances rank by rank, so that ties need no rule. Squared
- * distances in doubles decide where they are surely apart, and exact arithmetic decides the rest (metric.h).
+ * The idea: make two lists of points, the foreign answer and the exact one. Both have exact or rounded positions, as
+ * the index promises. For regions the lists are compared as sets, sorted by id: a missing point is wrong, and an extra
+ * point is wrong unless it lies within epsilon of the region. For neighbours the distances are compared rank by rank,
+ * so that ties need no rule. Squared distances in doubles decide if they differ by more than their error; otherwise
+ * exact arithmetic decides (metric.h).
  *
- * With floats, the exact answer is made again: rounding moves a point by at most a share of the world's largest
- * coordinate, so all points in a region enlarged by that share are collected, and their rounded positions decide. The
- * cost is that of sorting both lists; with floats also one or more searches.
+ * If the index promises floats, the exact answer is made again for rounded positions. Rounding moves a point by at most
+ * a share of the world's largest coordinate. So all points in a region enlarged by this share are collected, and their
+ * rounded positions decide. The cost is that of sorting both lists; for floats also that of one or more searches.
  */
 #include "judge.h"
 #include "exact.h"

@@ -1,20 +1,21 @@
 /* SPDX-License-Identifier: MIT */
 /* float_mode.h - makes public functions compute in the default floating-point mode, whatever mode the caller has.
  *
- * Problem: games and audio code flush subnormal numbers to zero, a program linked with -ffast-math does so from its
- * start, interval arithmetic rounds up and down. In these modes exact answers would be wrong. C has no portable way to
- * keep a compiler from moving arithmetic across a change of the mode: gcc ignores #pragma STDC FENV_ACCESS, and a
- * volatile asm statement orders only memory accesses and other volatile statements, not operations on doubles.
+ * Problem: the caller's floating-point mode may make exact answers wrong. Games and audio code flush subnormal numbers
+ * to zero, a program linked with -ffast-math does so from its start, and interval arithmetic rounds up and down. C has
+ * no portable way to keep a compiler from moving arithmetic across a change of the mode: gcc ignores #pragma STDC
+ * FENV_ACCESS, and a volatile asm statement orders only memory accesses and other volatile statements, not operations
+ * on doubles.
  *
  * Idea: a public function only reads the mode (about 1 ns). In the default mode, which is the rule, it simply runs. In
  * any other mode it sets the default mode, calls itself through a volatile pointer, and restores the caller's mode
- * (some 10 ns). The compiler cannot look through such a pointer, so the inner call's arithmetic stays within it; and
- * the arithmetic of the outer call's own body, wherever the compiler moves it, matters in the default mode only.
- * Results are in memory, integers, or finished doubles before the mode is restored.
+ * (some 10 ns). The compiler cannot look through such a pointer, so the arithmetic of the inner call stays within this
+ * call. The outer call's own body is used in the default mode only, so the compiler may move its arithmetic. All
+ * results of the inner call are complete before the mode is restored.
  *
- * The caller's functions - visitors, tracers, allocators, executors - run in the caller's mode. An internal call of a
- * public function finds the default mode, so its visitors, which are the library's, run in that. float_mode_pause() and
- * float_mode_resume() enclose nothing but the call of a caller's function.
+ * The caller's functions - visitors, tracers, allocators, executors - run in the caller's mode. If the library itself
+ * calls a public function, it does so in the default mode, and the library's own visitors run in this mode.
+ * float_mode_pause() and float_mode_resume() enclose nothing but the call of a caller's function.
  */
 #ifndef OCTREE_FLOAT_MODE_H
 #define OCTREE_FLOAT_MODE_H

@@ -2,16 +2,17 @@
 /* nearest.c - Algorithms 6 and 7: the nearest points to a target, by exact distance.
  *
  * Problem: find the k nearest of n points while visiting as few nodes as possible. Every node whose box is nearer than
- * the k-th best point must be visited; no other node should be, and the visiting order decides how soon that is known.
+ * the k-th nearest point must be visited; no other node should be. The order of visits decides how soon the distance of
+ * the k-th point is known.
  *
- * Idea: depth first, nearest octant first. The textbook descent measures every node on the way down. Here the search
- * goes straight to the target's leaf by the bits of its Morton code, without measuring anything, and measures the nodes
- * of that path on the way back up, when the best distance is small and most siblings are out of reach. From the best
+ * Idea: depth first, nearest octant first. The textbook descent measures every node on the way down. Here the bits of
+ * the target's Morton code lead straight to the target's leaf, without any measuring. The search measures the nodes of
+ * this path on the way back up. By then the best distance is small, and most siblings are out of reach. From the best
  * distance and the keys, count_nodes_out_of_reach() finds how many nodes of the path need no measuring at all.
  *
- * Order of siblings: a child's squared distance is a sum of one term per axis, either that of the parent (near half) or
- * that of the splitting plane (far half). The eight sums are ordered like the subset sums of three increments, so three
- * comparisons sort them, and the first child out of reach ends the node.
+ * Order of siblings: a child's squared distance is a sum of one term per axis. The term is the parent's (near half) or
+ * the squared distance to the splitting plane (far half). The eight sums are ordered like the subset sums of three
+ * increments, so three comparisons sort them, and the first child out of reach ends the node.
  *
  * Cost: O(D + M) on average for points of bounded density, O(n) at worst. Source: the paper, Algorithms
  * 6 and 7; Samet (2006) on best-first and depth-first search. neighbor_heap.c keeps the results and decides near ties.

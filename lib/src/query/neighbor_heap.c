@@ -6,11 +6,12 @@
  *
  * Idea: for k <= 32 a sorted array of keys. A key is the square as a double with its lowest five bits replaced by the
  * index of the neighbour's slot, so that moving one double moves the neighbour. Insertion shifts keys by minimum and
- * maximum, without branches and two at a time. A key is off by 2^-47 of itself; neighbours closer than that are
- * compared exactly. Only the last key must be exact, since it sets the reach; the rest is sorted exactly at the end.
+ * maximum, without branches and two at a time. A key is off by at most 2^-47 of itself. Neighbours whose keys differ by
+ * less are compared exactly. During the search only the last key must belong to the right neighbour, because it limits
+ * the search. The other neighbours are sorted exactly at the end.
  *
  * Why not a heap for all k: for small k its unpredictable branches cost more than the shifts. Larger k use a binary
- * heap in the caller's array, farthest on top. Cost: O(k) respectively O(log k) for each point kept.
+ * heap in the caller's array, farthest on top. Cost for each point kept: O(k) with the array, O(log k) with the heap.
  */
 #include "neighbor_heap.h"
 #include "search.h"

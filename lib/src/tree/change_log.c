@@ -2,12 +2,12 @@
 /* change_log.c - the recent changes of a tree's contents, for programs that follow a tree.
  *
  * Problem: a program that mirrors a tree (a picture, a cache) must learn which points changed without comparing all of
- * them. Readers run on many threads, have no registration, and may stop reading at any time.
+ * them. Readers run on many threads, are not registered, and may stop reading at any time.
  *
  * Idea: a ring of the last changes, numbered from 0 on. A reader keeps a cursor (log name, number) and reads from
- * there. The log starts with the first read and stops by itself when nobody has read for so long that reading the whole
- * tree would cost less. So the tree holds no list of readers, and a tree that nobody follows pays one test of an
- * atomic.
+ * there. The log starts with the first read. It stops by itself when so many changes are unread that reading the whole
+ * tree would cost less. So the tree holds no list of readers. A tree that is not followed pays one test of an atomic
+ * variable per change.
  *
  * Cost: one write to the ring per change. The ring doubles when the unread changes fill half of it.
  */

@@ -4,10 +4,13 @@
  * Problem: building a tree of n points by sorting reads and writes each point's item several times.
  *
  * Idea: if points are spread evenly, the nodes follow from counts. Choose a grid so fine that few of its cells hold
- * more points than a leaf. Count the points of each cell; add the counts of eight cells to get those one level above;
- * make the nodes from the root down, with leaves where the count fits; then write each point straight into its leaf.
- * Each point is read twice and written once, and the order within a leaf is the caller's. Tasks count and write
- * disjoint shares of the points; per-task counts fix the position of each share in a leaf, so that threads do not meet.
+ * more points than a leaf. Count the points of each cell. Add the counts of eight cells to get the count of the cell
+ * one level above. Make the nodes from the root down; a cell whose points fit one leaf becomes a leaf. Then write each
+ * point straight into its leaf. Each point is read twice and written once, and the points of a leaf keep the caller's
+ * order.
+ *
+ * Each task counts and writes its own share of the points. The counts of each task fix where its share begins in each
+ * leaf, so that no two tasks write to the same place.
  *
  * Cells that hold more points than a leaf ("crowds") are sorted and built by restructure.c. A sample decides beforehand
  * whether there are few of them; clustered points use the sort instead. Cost: O(n + cells), half the time of sorting.

@@ -6,10 +6,11 @@
  * occur twice for a moment, or if a full leaf refuses a point depending on which points have left it before.
  *
  * Idea: simulate without the tree. A table holds each pair (position, id) that a move leaves or reaches, with its
- * current owner. Under OCTREE_REFUSE a second table holds the point count of each smallest cell involved: a leaf
- * refuses exactly if its smallest cell is full, since any larger leaf would split. Two leaves outside the tree serve as
- * the hash tables: leaf_find() gives the index of a pair or cell. Each move is then O(1). At the end
- * the table shows which stored points leave and which points arrive, and restructure.c makes the change.
+ * current owner. Under OCTREE_REFUSE a second table holds the number of points in each indivisible cell that a move
+ * leaves or reaches. A point is refused exactly if its indivisible cell is full, because any larger leaf would split.
+ * Two leaves outside the tree serve as hash tables: leaf_find() returns the index of a pair or of a cell. Each move is
+ * then O(1). At the end the table shows which stored points leave and which points arrive, and restructure.c makes the
+ * change.
  *
  * Cost: about 250 bytes a move, so can_overflow() and can_overflow_when_rebuilt() first rule out full leaves where they
  * can.
