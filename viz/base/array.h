@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* array.h - growing and sorted arrays. The caller keeps the items, their count and the capacity `room`, which doubles.
- */
+/* array.h - growing and sorted arrays. The caller stores the pointer to the items, their count and the capacity
+ * `room`. If an array is full, its capacity doubles. */
 #ifndef BASE_ARRAY_H
 #define BASE_ARRAY_H
 
@@ -10,8 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Returns the array with room for at least `count` items; the caller frees it with free(). Returns null when out of
- * memory: the old array is then unchanged and still the caller's. Cost: O(1) per item, amortized. */
+/* Returns the array with capacity for at least `count` items; the caller frees it with free(). If memory runs out,
+ * returns null; the old array is then unchanged and still belongs to the caller. Cost: O(1) per item, amortized. */
 static inline void *array_reserve(void *items, size_t count, size_t *room, size_t item_size)
 {
     enum { SMALLEST_ROOM = 16 };
@@ -26,12 +26,12 @@ static inline void *array_reserve(void *items, size_t count, size_t *room, size_
     return grown;
 }
 
-/* Make room for at least `count` items in an array; `array` is the address of the pointer to its items. Returns false
- * when out of memory: the array is then unchanged. */
+/* Makes capacity for at least `count` items in an array. `array` is the address of the pointer to the items. If
+ * memory runs out, returns false; the array is then unchanged. */
 static inline bool array_grow(void *array, size_t count, size_t *room, size_t item_size)
 {
     void *items;
-    memcpy(&items, array, sizeof items); /* a copy: the pointer's type may differ from void * */
+    memcpy(&items, array, sizeof items); /* copy the pointer, because its type may differ from void * */
     items = array_reserve(items, count, room, item_size);
     if (items || count == 0)
         memcpy(array, &items, sizeof items);
@@ -51,7 +51,7 @@ static inline bool array_grow(void *array, size_t count, size_t *room, size_t it
 #define ARRAY_GROW(array, more)                                                                                        \
     array_grow(&(array)->items, (array)->count + (more), &(array)->room, sizeof *(array)->items)
 
-/* Compare two items by the uint64_t with which they begin; for qsort() and bsearch(). */
+/* Compares two items by their first member, which is a uint64_t. For qsort() and bsearch(). */
 static inline int compare_uint64(const void *a, const void *b)
 {
     const uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;

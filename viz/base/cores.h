@@ -3,7 +3,7 @@
 #ifndef BASE_CORES_H
 #define BASE_CORES_H
 
-/* Returns the number of online processors; at least 1. */
+/* Returns the number of processors that are online, at least 1. */
 unsigned count_cores(void);
 
 #endif

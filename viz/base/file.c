@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* file.c - writes files whole or not at all, locks, copies and compares them. */
+/* file.c - writes files so that they are complete or unchanged; locks, copies and compares files. */
 #include "file.h"
 
 #include <dirent.h>
@@ -16,7 +16,8 @@
 
 /* ---- Paths -------------------------------------------------------------------------------------------------- */
 
-/* The separator between a folder and a name: none if the folder is "", because "/name" would lie in the root folder. */
+/* Returns the separator between a folder and a name. If the folder is "", there is none, because "/name" would lie
+ * in the root folder. */
 static const char *separator_after(const char *folder)
 {
     return *folder ? "/" : "";
@@ -57,8 +58,8 @@ bool file_has_ending(const char *name, const char *endings)
     return false;
 }
 
-/* Uses a buffer on the stack, because with malloc() it would report "missing" when memory runs out. The system refuses
- * paths of PATH_MAX bytes and more, so a longer path exists nowhere. */
+/* The path is built in a buffer on the stack. With malloc(), lack of memory would look like a missing file. The
+ * system refuses paths of PATH_MAX or more bytes, so no file has a longer path. */
 bool folder_contains(const char *folder, const char *name)
 {
     char path[PATH_MAX];
@@ -77,7 +78,7 @@ static int by_name(const struct dirent **a, const struct dirent **b)
     return strcmp((*a)->d_name, (*b)->d_name);
 }
 
-/* The array and the bytes of all names are one block. */
+/* The array of pointers and the bytes of all names are in one block of memory. */
 char **folder_names(const char *folder, octreel_error *error)
 {
     struct dirent **entries = NULL;
@@ -159,11 +160,11 @@ static bool is_special_file(const char *path)
     return stat(path, &status) == 0 && !S_ISREG(status.st_mode);
 }
 
-/* How a file is written. */
+/* The file to which a file_writer writes. */
 typedef enum write_mode {
-    WRITE_OUTPUT,    /* into an existing pipe or device directly, else like WRITE_REPLACING */
-    WRITE_REPLACING, /* into a new ".part" file; an existing one is removed first, since it could be a pipe or a link */
-    WRITE_UNIQUE     /* into a ".part" file that must not exist yet */
+    WRITE_OUTPUT,    /* an existing pipe or device; for other paths like WRITE_REPLACING */
+    WRITE_REPLACING, /* a new ".part" file; first removes an existing one, which could be a pipe or a link */
+    WRITE_UNIQUE     /* a new ".part" file; fails if the .part file already exists */
 } write_mode;
 
 static FILE *open_stream(const char *name, bool is_part, write_mode how)
@@ -175,7 +176,7 @@ static FILE *open_stream(const char *name, bool is_part, write_mode how)
     return fopen(name, "wbx");
 }
 
-/* Opens "<path><ending>". On failure, errno holds the reason. */
+/* Opens the file "<path><ending>" for writing. On failure, errno holds the reason. */
 static bool open_writer(file_writer *file, const char *path, const char *ending, write_mode how, octreel_error *error)
 {
     *file = (file_writer){.path = path};
@@ -209,7 +210,8 @@ bool file_writer_open_replacing(file_writer *file, const char *path, octreel_err
     return open_writer(file, path, PART, WRITE_REPLACING, error);
 }
 
-/* The name ends in the current nanoseconds. If such a file exists, another process writes it: try another name. */
+/* The name of the temporary file contains the current nanoseconds. If a file with this name exists, another process
+ * is writing it; then another name is tried. */
 bool file_writer_open_unique(file_writer *file, const char *path, octreel_error *error)
 {
     bool ok = false;
@@ -224,7 +226,7 @@ bool file_writer_open_unique(file_writer *file, const char *path, octreel_error 
     return ok;
 }
 
-/* Syncs a file to the disk. File systems that cannot sync count as success. */
+/* Syncs a file to the disk. Returns true also if the file system cannot sync. */
 static bool sync_stream(FILE *stream)
 {
     return fsync(fileno(stream)) == 0 || errno == EINVAL || errno == ENOTSUP || errno == ENOSYS;
@@ -282,7 +284,8 @@ bool file_writer_discard(file_writer *file)
     return false;
 }
 
-/* A write error, such as a full disk, is reported by file_writer_finish(). */
+/* Copies a stream. Only read errors are reported here; file_writer_finish() reports write errors, such as a full
+ * disk. */
 static bool copy_stream(FILE *in, const char *from, FILE *out, octreel_error *error)
 {
     char block[1 << 16];
@@ -384,8 +387,8 @@ bool stat_parent(const char *path, struct stat *status)
     return is;
 }
 
-/* Compares two paths that do not exist: they are equal if name and folder are. If a folder is missing too, the paths
- * are compared as text. */
+/* Returns whether two paths that do not exist are the same file. They are if their names and folders are the same.
+ * If a folder does not exist either, the paths are compared as text. */
 static bool is_same_new_path(const char *a, const char *b)
 {
     struct stat folders[2];

@@ -7,10 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Standard input can be read only once: file_open() keeps its bytes here. */
+/* The bytes of standard input. It can be read only once, so file_open() keeps the bytes here. */
 static struct {
     bool read;
-    char *bytes; /* null: not read yet, or given to the caller */
+    char *bytes; /* null: standard input was not read yet, or its bytes were given to the caller */
     size_t size;
 } standard;
 
@@ -22,7 +22,7 @@ static bool set_reason(char reason[FILE_REASON], const char *what)
     return false;
 }
 
-/* Opening a pipe would wait for its other end; a device may never end. */
+/* Opens a regular file only. Opening a pipe would wait for the process at its other end; a device may never end. */
 static FILE *open_regular_file(const char *path, uint64_t *size, char reason[FILE_REASON])
 {
     struct stat status;
@@ -37,13 +37,13 @@ static FILE *open_regular_file(const char *path, uint64_t *size, char reason[FIL
     return stream;
 }
 
-/* A stream that is being read to its end. `total` is the expected number of bytes, or 0 if unknown. */
+/* A stream that is read to its end. `total` is the expected number of bytes, or 0 if it is unknown. */
 typedef struct reading {
     FILE *stream;
     uint64_t total;
     file_progress *progress;
     void *context;
-    char *bytes; /* with room for at least one more byte */
+    char *bytes; /* has room for at least one more byte */
     size_t size, room;
 } reading;
 
@@ -61,7 +61,8 @@ static bool read_block(reading *r, size_t *got)
     return true;
 }
 
-/* The first buffer holds a whole regular file and one more byte, so that one more read finds the end. */
+/* Reads a stream to its end. The first buffer has room for the whole regular file and more, so that the last read
+ * finds the end of the file. */
 static bool read_stream(reading *r, char reason[FILE_REASON])
 {
     size_t got = 1;
@@ -82,7 +83,7 @@ static bool read_stream(reading *r, char reason[FILE_REASON])
     return false;
 }
 
-/* The size is known if standard input is redirected from a regular file. */
+/* Reads standard input. Its size is known if it is redirected from a regular file. */
 static bool read_standard_input(file_progress *progress, void *context, char **bytes, size_t *size,
                                 char reason[FILE_REASON])
 {
@@ -117,7 +118,7 @@ FILE *file_open(const char *path, uint64_t *size, char reason[FILE_REASON])
     return stream;
 }
 
-/* Copies the stored bytes. Inputs that file_open() opened first are small. */
+/* Copies the bytes that file_open() kept. Inputs that are opened before they are read whole are small. */
 static bool copy_stored_input(char **bytes, size_t *size, char reason[FILE_REASON])
 {
     *size = standard.size;

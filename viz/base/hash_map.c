@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /* hash_map.c - finds array items by key in constant time.
  *
- * The items stay in the caller's array; the map is only a table of their indices, 4 bytes each. A key's hash selects a
- * slot. If another item occupies it, the next slots are tried in turn (open addressing with linear probing), which
- * reads memory in order and needs no lists. An empty slot ends a search, so items cannot be removed singly. The table
- * is at most half full, which keeps a search at about 1.5 probes for a present key and 2.5 for an absent one (Knuth,
- * The Art of Computer Programming 3, 6.4). A table of 2^n slots replaces the division by a mask; it doubles and is
- * refilled when half full, so that adding costs O(1), amortized. */
+ * The items stay in the caller's array; the map is only a table of their indices, 4 bytes each. The hash of a key
+ * selects a slot. If another item occupies the slot, the next slots are tried in turn (open addressing with linear
+ * probing). Linear probing reads memory in order and needs no lists. An empty slot ends a search, so single items
+ * cannot be removed.
+ *
+ * The table is at most half full. A search then takes about 1.5 probes for a present key and 2.5 for an absent key
+ * (Knuth, The Art of Computer Programming 3, 6.4). The table has 2^n slots, so that a mask selects the slot instead of
+ * a division. When the table is half full, it is doubled and refilled; adding an item therefore costs O(1), amortized.
+ */
 #include "hash_map.h"
 
 #include <stdlib.h>

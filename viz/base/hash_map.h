@@ -1,11 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /* hash_map.h - finds the items of an array by their keys. Each item begins with its key. The map stores only the
- * indices of the items, which stay in the caller's array. Items cannot be removed singly.
+ * indices of the items, which stay in the caller's array. Single items cannot be removed.
  *
  * With `struct cell { uint64_t node; ... } *cells`:
- *   static const hash_map_item_type by_node = {sizeof(struct cell), hash_map_hash_id, hash_map_ids_equal};
- *   uint32_t place = hash_map_find(&map, &by_node, cells, &node);
- *   if (place == HASH_MAP_NONE) { ... append it to cells ...; hash_map_add(&map, &by_node, cells); }
+ *
+ *     static const hash_map_item_type by_node = {sizeof(struct cell), hash_map_hash_id, hash_map_ids_equal};
+ *     uint32_t place = hash_map_find(&map, &by_node, cells, &node);
+ *     if (place == HASH_MAP_NONE) {
+ *         ... append it to cells ...;
+ *         hash_map_add(&map, &by_node, cells);
+ *     }
  */
 #ifndef BASE_HASH_MAP_H
 #define BASE_HASH_MAP_H
@@ -18,19 +22,19 @@
 
 /* A zeroed hash_map is empty. */
 typedef struct hash_map {
-    size_t count;    /* the map holds the first `count` items of the array */
-    size_t size;     /* slots of the table: a power of two, or 0 */
-    uint32_t *table; /* 1 + an item's index; 0: the slot is free */
+    size_t count;    /* the first `count` items of the array are in the map */
+    size_t size;     /* the number of slots in the table: a power of two, or 0 */
+    uint32_t *table; /* for each slot, 1 + the index of its item; 0: the slot is free */
 } hash_map;
 
-/* Describes the items. A pointer to an item is also a pointer to its key. */
+/* Describes the items of an array. A pointer to an item is also a pointer to its key. */
 typedef struct hash_map_item_type {
     size_t item_size;
-    uint64_t (*hash)(const void *key); /* the low bits select the slot */
+    uint64_t (*hash)(const void *key); /* returns a hash whose low bits select the slot */
     bool (*same)(const void *a, const void *b);
 } hash_map_item_type;
 
-/* Hash and comparison for keys of 64 bits. */
+/* Hash and comparison functions for 64-bit keys. */
 static inline uint64_t hash_map_hash_id(const void *key)
 {
     const uint64_t mixed = *(const uint64_t *)key * UINT64_C(0x9e3779b97f4a7c15);
@@ -42,8 +46,8 @@ static inline bool hash_map_ids_equal(const void *a, const void *b)
     return *(const uint64_t *)a == *(const uint64_t *)b;
 }
 
-/* Returns the index of the item with this key, or HASH_MAP_NONE. Inline: a constant `type` then cost no indirect calls.
- */
+/* Returns the index of the item with this key, or HASH_MAP_NONE. The function is inline, so that a constant `type`
+ * costs no indirect calls. */
 static inline uint32_t hash_map_find(const hash_map *map, const hash_map_item_type *type, const void *items,
                                      const void *key)
 {
@@ -58,14 +62,14 @@ static inline uint32_t hash_map_find(const hash_map *map, const hash_map_item_ty
     return HASH_MAP_NONE;
 }
 
-/* Add the item at index map->count, whose key must not be in the map yet. False: out of memory, the map is unchanged.
- */
+/* Adds the item at index map->count. The map must not contain its key yet. If memory runs out, returns false; the
+ * map is then unchanged. */
 bool hash_map_add(hash_map *map, const hash_map_item_type *type, const void *items);
 
-/* Make room for `count` items. False: out of memory, the map is unchanged. */
+/* Makes capacity for `count` items. If memory runs out, returns false; the map is then unchanged. */
 bool hash_map_reserve(hash_map *map, const hash_map_item_type *type, const void *items, size_t count);
 
-/* Remove all items, but keep the memory. */
+/* Removes all items, but keeps the memory. */
 void hash_map_clear(hash_map *map);
 
 void hash_map_release(hash_map *map);

@@ -1,14 +1,19 @@
 /* SPDX-License-Identifier: MIT */
-/* hint.c - suggests the known name nearest to a mistyped word, and prints commands as the user types them.
+/* hint.c - suggests the known name that is nearest to a mistyped word, and prints commands in the form in which the
+ * user types them.
  *
- * How near two words are is their optimal string alignment distance: the smallest number of edits that turn one into
- * the other, where an edit inserts, deletes or replaces a letter or swaps two neighbouring letters. Slips of the
- * keyboard are nearly always one of these four; plain Levenshtein distance would count a swap as two. Dynamic
- * programming computes it: cell (i, j) is the distance of the first i letters of one word and the first j of the other,
- * and depends only on the cells one step back in either or both words and, for a swap, two steps back in both. So three
- * rows suffice instead of the whole table. Cost: the product of the lengths, for words of fewer than 40 letters. A
- * suggestion must need at most a third as many edits as the word has letters; otherwise every word would resemble some
- * option. Source: Damerau 1964; Boytsov 2011, "Indexing methods for approximate dictionary searching". */
+ * The distance of two words is their optimal string alignment distance: the smallest number of edits that turn one word
+ * into the other. An edit inserts, deletes or replaces a letter, or swaps two neighbouring letters. Nearly all typing
+ * mistakes are one of these edits; plain Levenshtein distance would count a swap as two.
+ *
+ * The distance is computed by dynamic programming. Cell (i, j) is the distance of the first i letters of one word and
+ * the first j letters of the other. It depends only on the cells one step back in either or both words and, for a swap,
+ * on the cell two steps back in both. Three rows of the table therefore suffice. Cost: the product of the lengths, for
+ * words of fewer than 40 letters.
+ *
+ * A suggestion may need at most a third as many edits as the word has letters; otherwise every word would resemble some
+ * option. Source: Damerau 1964; Boytsov 2011, "Indexing methods for approximate dictionary searching".
+ */
 #include "hint.h"
 
 #include <ctype.h>
@@ -19,7 +24,7 @@
 
 enum { LONGEST = 40, SHORTEST_BEGINNING = 3 };
 
-/* Words of other programs, such as odiff, ffmpeg and make, and their names in this one. */
+/* Option names of other programs, such as odiff, ffmpeg and make, and the names of the same options in Octreel. */
 static const char *const synonyms[][2] = {
     {"force", "replace"},       {"overwrite", "replace"},   {"clobber", "replace"}, {"continue", "resume"},
     {"film", "record"},         {"run", "record"},          {"play", "record"},     {"render", "record"},
@@ -46,7 +51,7 @@ static int lower_case(char c)
     return tolower((unsigned char)c);
 }
 
-/* Returns the optimal string alignment distance, without regard to case; LONGEST if a word is too long. */
+/* Returns the optimal string alignment distance of two words, ignoring case, or LONGEST if a word is too long. */
 static size_t find_edit_distance(const char *a, size_t a_length, const char *b, size_t b_length)
 {
     size_t rows[3][LONGEST + 1];
@@ -78,7 +83,8 @@ static bool is_synonym(const hint *h, const char *name)
     return false;
 }
 
-/* A third of the letters may be wrong, and one letter of a word shorter than three. */
+/* Returns whether a name is near enough to be suggested: a third of the letters may be wrong, or one letter of a
+ * word with fewer than three letters. A name that begins with the word is always near enough. */
 static bool is_near_enough(const hint *h, const char *name, size_t length, size_t distance)
 {
     const size_t allowed = h->length / 3;
@@ -110,7 +116,7 @@ const char *hint_format(const hint *h, const char *before, char text[HINT_TEXT])
 
 #define PROGRAM "octreel"
 
-enum { LONGEST_CALL = 200 }; /* longer names are printed as "octreel" */
+enum { LONGEST_CALL = 200 }; /* if the program's name is longer, "octreel" is printed instead */
 
 static char program[9 * LONGEST_CALL + 8] = PROGRAM;
 
@@ -130,8 +136,8 @@ const char *hint_program_name(void)
     return program;
 }
 
-/* True at the start of a line, after indentation, and after "usage:", "&&" and similar signs. False within sentences.
- */
+/* Returns whether "octreel" begins a command here: at the start of a line, after indentation, or after "usage:",
+ * "&&" and similar signs. Within sentences it does not. */
 static bool is_command_start(const char *text, const char *at)
 {
     if (at == text || at[-1] != ' ')

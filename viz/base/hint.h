@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* hint.h - helps to correct typing mistakes: finds the known name nearest to a word, and prints commands that can be
- * copied. */
+/* hint.h - helps to correct typing mistakes: finds the known name nearest to a word, and prints commands that a user
+ * can copy. */
 #ifndef BASE_HINT_H
 #define BASE_HINT_H
 
@@ -10,7 +10,7 @@
 
 /* ---- The nearest name -------------------------------------------------------------------------------------- */
 
-/* A mistyped word, and the nearest of the candidates offered so far. */
+/* A mistyped word, and the nearest of the candidates that were added so far. */
 typedef struct hint {
     const char *word;
     size_t length;
@@ -20,28 +20,29 @@ typedef struct hint {
 
 hint hint_create(const char *word, size_t length);
 
-/* Compare the word with a candidate and keep the nearest. A candidate is near enough if other programs use the word for
- * it, if it begins with the word, or if few edits turn the word into it: insert, delete or replace a letter, or swap
- * two neighbours. Upper and lower case are equal. */
+/* Compares the word with a candidate and keeps the nearest candidate. A candidate is near enough in three cases:
+ * other programs use the word for it, it begins with the word, or few edits turn the word into it. An edit inserts,
+ * deletes or replaces a letter, or swaps two neighbouring letters. Case is ignored. */
 void hint_add_candidate(hint *h, const char *name);
 
-/* Write the text between an error and its advice: ", did you mean --size? " with `before` = "--", or "; " if no
- * candidate is near enough. Returns `text`. */
+/* Writes the text between an error and its advice. With `before` = "--" it is ", did you mean --size? "; if no
+ * candidate is near enough, it is "; ". Returns `text`. */
 #define HINT_TEXT 96
 const char *hint_format(const hint *h, const char *before, char text[HINT_TEXT]);
 
 /* ---- Commands ----------------------------------------------------------------------------------------------- */
 
-/* Set the name by which the program was called, argv[0]. Call it once, before any thread starts. */
+/* Sets the name by which the user called the program, argv[0]. Call it once, before any thread starts. */
 void hint_set_program(const char *called);
 
-/* Returns the name set by hint_set_program(), quoted for a shell; "octreel" if none is set. */
+/* Returns the name that hint_set_program() set, quoted for a shell. If no name was set, returns "octreel". */
 const char *hint_program_name(void);
 
-/* Write a text and replace "octreel" by hint_program_name() where it begins a command. Within sentences it stays. */
+/* Writes a text. Where "octreel" begins a command, it is replaced by hint_program_name(). Within sentences it stays. */
 void hint_write_commands(FILE *out, const char *text);
 
-/* Write a word quoted for a shell, with control characters escaped. A word that begins with - becomes a path, ./-... */
+/* Writes a word, quoted for a shell and with control characters escaped. A word that begins with - is written as a
+ * path that begins with ./-, so that it is not taken for an option. */
 void hint_write_shell_word(FILE *out, const char *text);
 
 #endif

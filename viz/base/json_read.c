@@ -9,7 +9,8 @@
 
 /* ---- Places in an object ------------------------------------------------------------------------------------ */
 
-/* Returns the length written. The recursion is as deep as the reading code nests places, whatever the input. */
+/* Returns the number of characters written. The recursion is as deep as the reading functions nest places, which
+ * does not depend on the input. */
 static size_t format_place(const json_place *place, char *text, size_t size)
 {
     if (!place)
@@ -65,8 +66,8 @@ json_t *json_parse(const char *text, size_t size, size_t flags, json_error_t *er
     return NULL;
 }
 
-/* Reads the value at *at and moves *at past it; null at the end of the text. jansson does not store positions, but it
- * reports where a value ends. */
+/* Reads the value at *at and moves *at past it. Returns null at the end of the text. jansson does not store the
+ * positions of values, but it reports where a value ends. */
 static json_t *read_value_at(const char **at, const char *limit)
 {
     json_error_t end;
@@ -77,7 +78,7 @@ static json_t *read_value_at(const char **at, const char *limit)
     return value;
 }
 
-/* Returns the start of a place in the array or object at `at`; null if it is missing. */
+/* Returns the start of a member or element in the object or array at `at`; null if it is missing. */
 static const char *find_child(const char *at, const char *limit, const json_place *place)
 {
     if (*at != (place->member ? '{' : '['))
@@ -159,7 +160,7 @@ bool json_fail_line(json_reader *r, size_t line, const json_place *at, const cha
     return false;
 }
 
-/* Describe a value in a few words for an error. */
+/* Writes a short description of a value, for an error. */
 static void describe_value(const json_t *value, char *text, size_t size)
 {
     static const char *const types[] = {
@@ -192,8 +193,8 @@ bool json_fail_expected(json_reader *r, const json_t *value, const json_place *a
 
 /* ---- Objects ------------------------------------------------------------------------------------------------ */
 
-/* Reports jansson's message, but replaces its words for array and NUL: only objects are allowed here, and no option
- * allows NUL. */
+/* Reports jansson's message. Two messages are reworded: only objects are allowed here, never arrays, and users
+ * cannot set the option that would allow NUL. */
 static bool fail_with_jansson_error(json_reader *r, const json_error_t *parsed)
 {
     static const char *const words[][2] = {

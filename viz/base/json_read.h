@@ -10,62 +10,62 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* A place in the current object, such as points[3].velocity: a member or an element, and the place that contains it.
- * The current object itself is the null place. */
+/* A place in the current object, such as points[3].velocity. It is a member or an element, and has the place that
+ * contains it as its parent. A null pointer is the current object itself. */
 typedef struct json_place {
     const struct json_place *parent;
-    const char *member; /* null: the element at index */
+    const char *member; /* null: the place is the element at `index` */
     size_t index;
 } json_place;
 
-/* Write a place as "points[3].velocity", cut to `size`; "" for the null place. Returns `text`. */
+/* Writes a place as "points[3].velocity", cut to `size` bytes. The null place is "". Returns `text`. */
 const char *json_place_format(const json_place *place, char *text, size_t size);
 
-/* Call jansson's json_loadb(). When memory runs out, returns null with error->line -1; see
+/* Calls jansson's json_loadb(). If memory runs out, returns null and sets error->line to -1; see
  * json_detect_failed_allocations(). */
 json_t *json_parse(const char *text, size_t size, size_t flags, json_error_t *error);
 
-/* Make json_parse() notice every failed allocation of jansson. Call it once, before any thread starts. Without it,
- * jansson 2.14 silently drops a letter of a long string if one allocation fails and the next one succeeds. */
+/* Makes json_parse() notice every failed allocation of jansson. Call it once, before any thread starts. Without it,
+ * jansson 2.14 silently drops a character of a long string if one allocation fails and the next succeeds. */
 void json_detect_failed_allocations(void);
 
-/* Reads a text object by object. */
+/* Reads a JSON text object by object. */
 typedef struct json_reader {
-    const char *name;              /* the file name in errors */
-    const char *at, *limit;        /* the current object, and the end of the text */
-    size_t line;                   /* the line where the object begins, counted from 1 */
-    const struct json_member *row; /* the row whose value is being read; see json_table.h */
-    void *context;                 /* for the caller's functions that read values */
+    const char *name;              /* the name of the file in errors */
+    const char *at, *limit;        /* the start of the current object, and the end of the text */
+    size_t line;                   /* the number of the line in which the object begins; the first line is 1 */
+    const struct json_member *row; /* the table row of the member that is being read; see json_table.h */
+    void *context;                 /* passed on to the caller's functions that read values */
     octreel_error *error;
 } json_reader;
 
-/* Skip whitespace before the next object. False: end of the text. */
+/* Skips whitespace before the next object. Returns false at the end of the text. */
 bool json_skip_to_object(json_reader *r);
 
-/* Read the current object with `read` and move past it. All numbers are read as doubles, so -0 keeps its sign and
- * integers are exact up to 2^53. `alone`: nothing may follow the object. */
+/* Reads the current object with `read` and moves past it. All numbers are read as doubles: -0 keeps its sign, and
+ * integers are exact up to 2^53. With `alone`, it is an error if other text follows the object. */
 typedef bool json_object_reader(json_reader *r, json_t *object);
 bool json_read_object(json_reader *r, bool alone, json_object_reader *read);
 
-/* The largest whole number that every JSON reader keeps exactly: 2^53 - 1. */
+/* 2^53 - 1: every JSON reader reads whole numbers up to this one exactly. */
 #define JSON_LARGEST_WHOLE 9007199254740991
 
 /* ---- Errors ------------------------------------------------------------------------------------------------- */
 
-/* Returns the end of a file name, short enough to leave room for a reason in an error. */
+/* Returns the end of a file name that is short enough to leave room for a reason in an error. */
 const char *json_shorten_name(const char *name);
 
-/* Returns the line where a place begins, or the line of the nearest containing place if it is missing. Cost: O(size).
- */
+/* Returns the line in which a place begins. If the place is missing, returns the line of the nearest place that
+ * contains it. Cost: O(size). */
 size_t json_find_line(const json_reader *r, const json_place *at);
 
-/* Write an error about a place with a printf format. Always returns false. */
+/* Writes an error about a place from a printf format. Always returns false. */
 bool json_fail(json_reader *r, const json_place *at, const char *format, ...);
 
-/* Write an error with a given line number. Always returns false. */
+/* Writes an error about a place with a given line number. Always returns false. */
 bool json_fail_line(json_reader *r, size_t line, const json_place *at, const char *format, ...);
 
-/* Write the error "expected WHAT, found VALUE". Always returns false. */
+/* Writes the error "expected WHAT, found VALUE". Always returns false. */
 bool json_fail_expected(json_reader *r, const json_t *value, const json_place *at, const char *what);
 
 #endif

@@ -1,14 +1,17 @@
 /* SPDX-License-Identifier: MIT */
-/* json_stream.c - finds the ends of JSON objects in a stream, before parsing.
+/* json_stream.c - finds the ends of JSON objects in a stream before they are parsed.
  *
- * A parser such as jansson wants a whole text, and a call for "more" would block inside it while a game is still
- * running. So this file only finds where an object ends, and the parser then gets a complete one. The end is the
- * bracket that closes the first one. Brackets inside strings do not count, so the scanner tracks quotes and
- * backslashes, and keeps a stack of open brackets. Each byte is scanned once, even if an object arrives in many pieces.
+ * A parser such as jansson needs a whole text. A parser that reads from the stream would block while a game is still
+ * running and writing. Therefore this file only finds where an object ends; the parser then gets a complete object. The
+ * end of an object is the bracket that closes its first bracket. Brackets inside strings do not count, so the scanner
+ * tracks quotes and backslashes, and stores the open brackets on a stack. Each byte is scanned once, even if an object
+ * arrives in many pieces.
  *
- * A broken line must not swallow the objects after it: if a '}' is missing, the search would run on. Valid JSON has a
- * bracket only at the start or after ':', '[' or a comma in a list, and no control character in a string. At the first
- * byte that violates this the object counts as ended, and the parser reports the exact error. Cost: O(bytes). */
+ * If a '}' is missing in an object, the scan must not run on through the objects after it. In valid JSON an opening
+ * bracket stands only at the start, after ':', after '[', or after a comma in a list, and a string contains no control
+ * character. At the first byte that violates this, the scan ends the object, and the parser reports the exact error.
+ * Cost: O(bytes).
+ */
 #include "json_stream.h"
 #include "array.h"
 
@@ -26,13 +29,13 @@ static bool is_blank(char c)
     return c == ' ' || c == '\t' || c == '\n' || c == '\r';
 }
 
-/* True if an opening bracket is allowed here: at the start, after a colon, or as an element of a list. */
+/* Returns whether an opening bracket is allowed here: at the start, after a colon, or as an element of a list. */
 static bool can_open_bracket(const json_scan *s)
 {
     return s->depth == 0 || s->before == ':' || s->before == '[' || (s->before == ',' && s->open[s->depth - 1] == '[');
 }
 
-/* Scans a character inside a string. True: a control character, which JSON strings cannot contain. */
+/* Scans a character inside a string. Returns true if it is a control character, which JSON strings cannot contain. */
 static bool scan_string(json_scan *s, char c)
 {
     if (s->escaped)
@@ -44,7 +47,7 @@ static bool scan_string(json_scan *s, char c)
     return (unsigned char)c < ' ';
 }
 
-/* Scans the next character. True: the object ends here, or this cannot be an object. */
+/* Scans the next character. Returns true if the object ends here or the text cannot be an object. */
 static bool scan_character(json_scan *s, char c)
 {
     if (s->quoted)
@@ -80,8 +83,8 @@ static json_stream_state report_broken(json_reader *r, const char *format, const
     return JSON_STREAM_BROKEN;
 }
 
-/* Moves the current object to the start of the buffer and makes room for a block. Shrinks the buffer after a huge
- * object. */
+/* Moves the current object to the start of the buffer and makes room for a block. If the buffer is still large from
+ * an earlier huge object, shrinks it. Returns false if memory runs out. */
 static bool make_room_for_block(json_stream *s)
 {
     if (s->begin > 0)
@@ -97,7 +100,7 @@ static bool make_room_for_block(json_stream *s)
     return grown;
 }
 
-/* Waits until there is something to read. False: keep_going() stops the wait. */
+/* Waits until the stream has data or ends. Returns false if keep_going() stops the wait. */
 static bool wait_for_input(const json_stream *s)
 {
     enum { POLL_MILLISECONDS = 50 };
@@ -109,7 +112,7 @@ static bool wait_for_input(const json_stream *s)
     return true;
 }
 
-/* Reads the available bytes, or sets s->ended at the end of the stream. Returns JSON_STREAM_OBJECT if scanning can
+/* Reads the available bytes. At the end of the stream, sets s->ended. Returns JSON_STREAM_OBJECT if the scan can
  * continue. */
 static json_stream_state read_more(json_stream *s, json_reader *r)
 {
@@ -139,10 +142,11 @@ static void skip_blanks(json_stream *s, json_reader *r)
     for (; s->begin < s->size && is_blank(s->bytes[s->begin]); s->begin++)
         r->line += s->bytes[s->begin] == '\n';
     if (s->begin < s->size)
-        s->mark = 3; /* a byte order mark can only stand at the start */
+        s->mark = 3; /* after other text, a byte order mark is not skipped */
 }
 
-/* Continues the scan. True: the end of the object is found, or the object is too large for jansson. */
+/* Continues the scan with the bytes that were read. Returns true if the end of the object was found, or if the
+ * object is too large for jansson. */
 static bool find_object_end(json_stream *s)
 {
     for (; s->begin + s->scanned < s->size; s->scanned++)

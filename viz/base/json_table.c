@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /* json_table.c - reads and writes structures as JSON objects from one table of members.
  *
- * A reader and a writer written by hand drift apart, and every format repeats the same checks. Here a row gives the
- * name of a member, the offset of its value in the structure, limits, conditions, checks, and a codec: the pair of
- * functions for its type. Reading looks up each row's name in the object, and then every name of the object in the
- * table, so that a misspelt member is an error with a suggestion and is never ignored. The version is read first: a
- * file of another version says so before its new members are called unknown. Writing walks the same rows, so members
- * come in a fixed order and files are byte-identical. Cost of reading: members times rows, and both are few. */
+ * A reader and a writer that are written by hand drift apart, and every format repeats the same checks. Here, a row of
+ * a table gives the name of a member, the offset of its value in the structure, limits, conditions, checks, and a
+ * codec: the two functions that read and write its type.
+ *
+ * Reading first looks up each row's name in the object. Then it looks up every name of the object in the table, so that
+ * a misspelt member is never ignored: it is an error with a suggestion. The version is read first. A file of another
+ * version is therefore reported as such before its new members would be called unknown. Writing walks the same rows, so
+ * members have a fixed order and equal structures give equal bytes. Cost of reading: members times rows; both are few.
+ */
 #include "json_table.h"
 #include "hint.h"
 #include "octree/types.h"
@@ -24,7 +27,7 @@ static bool is_member(const json_member *table, const char *name)
     return table->name;
 }
 
-/* Reports an unknown member: with the member's line and the object's place. */
+/* Reports an unknown member. The error names the line of the member and the place of its object. */
 static bool fail_unknown_member(json_reader *r, const json_place *at, const json_member *table, const char *name)
 {
     char known[200] = "", text[HINT_TEXT];
@@ -53,7 +56,7 @@ static bool read_member(json_reader *r, json_t *object, const json_place *at, co
     return !row->check || row->check(r, &place, into);
 }
 
-/* Returns the row after the version, or the first row if the table has no version. */
+/* Returns the row after the version's row. If the table has no version, returns the first row. */
 static const json_member *find_row_after_version(const json_member *table)
 {
     const json_member *row = table;
@@ -62,7 +65,7 @@ static const json_member *find_row_after_version(const json_member *table)
     return row->name ? row + 1 : table;
 }
 
-/* The version is checked before unknown members, so that a newer file is reported as newer. */
+/* The version is checked before unknown members. A newer file is therefore reported as newer. */
 bool json_read_members(json_reader *r, json_t *object, const json_place *at, const json_member *table, void *into)
 {
     const char *name;
@@ -165,7 +168,7 @@ const json_codec json_structures = {NULL, write_structures};
 
 /* ---- Kinds and choices -------------------------------------------------------------------------------------- */
 
-/* Lists the possible objects for an error: {"range": ...}, {"nearest": ...} or {"radius": ...}. */
+/* Lists the objects that are possible, for an error: {"range": ...}, {"nearest": ...} or {"radius": ...}. */
 static const char *list_kinds(json_name *kinds, char *text, size_t size)
 {
     size_t length = 0;
@@ -356,7 +359,7 @@ static void write_version(json_writer *w, const void *from)
 
 const json_codec json_version = {read_version, write_version};
 
-/* True if a codec's whole number has 64 bits; otherwise it has 32. */
+/* Returns whether the whole number of a codec has 64 bits; otherwise it has 32. */
 static bool is_64_bit(const json_codec *codec)
 {
     return codec == &json_uint64 || (codec == &json_size && sizeof(size_t) == sizeof(uint64_t));
@@ -375,7 +378,8 @@ static bool read_whole_number(json_reader *r, json_t *value, const json_place *a
     return true;
 }
 
-/* Writes at most row->max, so that the value can be read again. Rows that are never read have max 0: no limit. */
+/* Writes a whole number. A number above row->max is written as row->max, so that it can be read again. In rows that
+ * are never read, max is 0 and means no limit. */
 static void write_whole_number(json_writer *w, const void *from)
 {
     const uint64_t max = (uint64_t)w->row->max;
@@ -451,7 +455,7 @@ static void write_id_array(json_writer *w, const void *from)
 
 const json_codec json_ids = {read_id_array, write_id_array};
 
-/* row->min and row->max are the limits of the number if max is above min. */
+/* Reads a number. If row->max is greater than row->min, they are the limits of the number. */
 static bool read_number(json_reader *r, json_t *value, const json_place *at, void *into)
 {
     const json_member *row = r->row;

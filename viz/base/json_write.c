@@ -14,7 +14,7 @@ static void break_line(json_writer *writer)
     writer->newline = false;
 }
 
-/* Writes the comma, space or line end before the next value or key. */
+/* Writes the comma, space or line end that precedes the next value or key. */
 static void write_separator(json_writer *writer)
 {
     if (writer->comma)
@@ -58,7 +58,7 @@ void json_write_end_array(json_writer *writer)
     write_closing(writer, ']');
 }
 
-/* Writes a value that is a single word. */
+/* Writes a value that is a single word, such as true. */
 static void write_word(json_writer *writer, const char *word)
 {
     write_separator(writer);
@@ -66,7 +66,7 @@ static void write_word(json_writer *writer, const char *word)
     writer->comma = true;
 }
 
-/* A buffer for numbers: many small writes to a stream are slow. */
+/* A buffer that collects numbers, because many small writes to a stream are slow. */
 typedef struct number_buffer {
     char text[8 * NUMBER_TEXT];
     size_t size;
@@ -116,7 +116,7 @@ static void write_escape(FILE *out, unsigned char c)
         fprintf(out, "\\u%04x", (unsigned)c);
 }
 
-/* Returns the number of characters at `at` that need no escape. */
+/* Returns how many characters from `at` on need no escape. */
 static size_t count_unescaped(const unsigned char *at)
 {
     size_t count = 0;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* json_write.h - writes JSON to a stream, value by value. Commas are written automatically.
  *
- * Numbers are the shortest text that reads back to the same double, whatever the locale. Everything is on one line,
- * except where json_start_new_line() is called. Errors stay with the stream: check ferror() or fclose() at the end. To
- * write into memory, use open_memstream().
+ * A number is written as the shortest text that reads back to the same double, in any locale. All text is on one line,
+ * except where json_start_new_line() is called. Errors stay with the stream: the caller checks ferror() or fclose() at
+ * the end. To write into memory, use open_memstream().
  */
 #ifndef BASE_JSON_WRITE_H
 #define BASE_JSON_WRITE_H
@@ -15,13 +15,14 @@
 #include <stdint.h>
 #include <stdio.h>
 
-/* Start as {.out = stream}. The caller pairs begin with end, and in an object each value with a key. */
+/* Initialize it as {.out = stream}. The caller ends every array and object that it begins, and in an object writes a
+ * key before each value. */
 typedef struct json_writer {
     FILE *out;
-    bool comma;                    /* write a comma before the next value or key */
-    bool newline;                  /* write a line end before the next value, key or end */
-    const struct json_member *row; /* the row whose value is being written; see json_table.h */
-    const void *context;           /* for the caller's functions that write values */
+    bool comma;                    /* a comma precedes the next value or key */
+    bool newline;                  /* a line end precedes the next value, key or end */
+    const struct json_member *row; /* the table row of the member that is being written; see json_table.h */
+    const void *context;           /* passed on to the caller's functions that write values */
 } json_writer;
 
 void json_write_begin_object(json_writer *writer);
@@ -29,24 +30,25 @@ void json_write_end_object(json_writer *writer);
 void json_write_begin_array(json_writer *writer);
 void json_write_end_array(json_writer *writer);
 
-/* Write the name of an object's next value. */
+/* Writes the key of the next value in an object. */
 void json_write_key(json_writer *writer, const char *key);
 
-/* Write UTF-8. Bytes that are no valid UTF-8 become U+FFFD. */
+/* Writes UTF-8 text as a string. Bytes that are not valid UTF-8 become U+FFFD. */
 void json_write_string(json_writer *writer, const char *text);
 
-/* NaN and infinities, which JSON does not have, are written as null. */
+/* Writes a number. NaN and infinities, which JSON cannot represent, are written as null. */
 void json_write_number(json_writer *writer, double value);
 void json_write_integer(json_writer *writer, uint64_t value);
 void json_write_bool(json_writer *writer, bool value);
 void json_write_null(json_writer *writer);
 
-/* Write several numbers, faster than one by one: as elements of a begun array, or as a whole array. */
+/* Write several numbers, faster than one by one. json_write_elements() writes them as elements of an array that was
+ * begun, json_write_numbers() as a whole array. */
 void json_write_elements(json_writer *writer, const double *values, size_t count);
 void json_write_numbers(json_writer *writer, const double *values, size_t count);
 
-/* Write a member of an object: its key and value. A vector is an array of three numbers, a box an object with two
- * corners. */
+/* Write a member of an object: its key and its value. A vector is written as an array of three numbers, a box as an
+ * object with two corners. */
 void json_write_integer_member(json_writer *writer, const char *key, uint64_t value);
 void json_write_number_member(json_writer *writer, const char *key, double value);
 void json_write_bool_member(json_writer *writer, const char *key, bool value);
@@ -56,10 +58,10 @@ void json_write_box_member(json_writer *writer, const char *key, const octree_bo
 void json_begin_object_member(json_writer *writer, const char *key);
 void json_begin_array_member(json_writer *writer, const char *key);
 
-/* Write a line end before the next value, key or end. */
+/* Makes a line end precede the next value, key or end. */
 void json_start_new_line(json_writer *writer);
 
-/* End the line after a complete value. The next value starts a new text. */
+/* Ends the line after a complete value. The next value begins a new JSON text. */
 void json_write_end_line(json_writer *writer);
 
 #endif

@@ -19,14 +19,14 @@ static bool is_digit(char c)
 /* The parts of a decimal number: its value is mantissa times ten to the exponent. */
 typedef struct decimal {
     bool negative;
-    uint64_t mantissa;    /* the first MOST_DIGITS significant digits as an integer */
-    size_t digits, count; /* number of digits without leading zeros, and with them */
+    uint64_t mantissa;    /* the first MOST_DIGITS significant digits, as an integer */
+    size_t digits, count; /* the number of digits without leading zeros, and with leading zeros */
     int64_t exponent;
 } decimal;
 
 enum {
-    MOST_DIGITS = 19,         /* any number of 19 digits fits 64 bits */
-    LARGEST_EXACT_POWER = 22, /* largest power of ten that is exact as a double */
+    MOST_DIGITS = 19,         /* any number of 19 digits fits into 64 bits */
+    LARGEST_EXACT_POWER = 22, /* the largest power of ten that a double represents exactly */
 };
 
 static const char *scan_digits(const char *at, const char *limit, decimal *d)
@@ -40,7 +40,7 @@ static const char *scan_digits(const char *at, const char *limit, decimal *d)
     return at;
 }
 
-/* Returns the end of an exponent, or `at` if there is none. */
+/* Returns the end of an exponent, or `at` if no exponent begins there. */
 static const char *scan_exponent(const char *at, const char *limit, decimal *d)
 {
     const char *digit = at + 1;
@@ -57,7 +57,7 @@ static const char *scan_exponent(const char *at, const char *limit, decimal *d)
     return digit;
 }
 
-/* Returns the end of the number, or null if there is none. */
+/* Returns the end of the number that begins at `begin`, or null if no number begins there. */
 static const char *scan_number(const char *begin, const char *limit, decimal *d)
 {
     const char *at = begin;
@@ -72,9 +72,9 @@ static const char *scan_number(const char *begin, const char *limit, decimal *d)
     return d->count > 0 ? scan_exponent(at, limit, d) : NULL;
 }
 
-/* Clinger's fast path (1990): if the mantissa and the power of ten are both exact doubles, one multiplication or
- * division rounds correctly. Most numbers of point clouds qualify: reading a million points takes three fifths of the
- * time. False: the number needs more precision. */
+/* Converts with Clinger's fast path (1990). If the mantissa and the power of ten are both exact doubles, one
+ * multiplication or division rounds correctly. Most numbers in point clouds are of this kind: it reduces the time
+ * for reading a million points to three fifths. Returns false if the number needs more precision. */
 static bool convert_exactly(const decimal *d, double *value)
 {
     static const double powers[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
@@ -87,8 +87,8 @@ static bool convert_exactly(const decimal *d, double *value)
     return true;
 }
 
-/* Converts with strtod(), which needs a final zero and the locale's decimal point, which may be several bytes. False:
- * larger than the largest double, or out of memory. */
+/* Converts with strtod(). strtod() needs a final zero and the locale's decimal point, which may be several bytes
+ * long. Returns false if the number is larger than the largest double or memory runs out. */
 static bool convert_by_library(const char *begin, const char *end, double *value)
 {
     char few[128];

@@ -1,13 +1,17 @@
 /* SPDX-License-Identifier: MIT */
 /* number_print.c - prints doubles as the shortest of %.15g, %.16g and %.17g that reads back to the same bits.
  *
- * The plain way prints 15 digits, reads them back with strtod(), and tries 16 and 17 digits if the bits differ. That
- * makes recording 100,000 points take twice as long. Numbers from 2^-7 to 1e14 are therefore printed with integers: the
- * fraction becomes a 60-bit fixed-point number, which holds it exactly, and multiplying by ten moves the next digit in
- * front of the point. Nothing is rounded on the way. `half_last`, half of the double's last bit, is scaled along:
- * digits read back to the same double exactly if what they leave out is at most that. So no strtod() is needed. All
- * other numbers use printf. General algorithms (Ryu, Grisu) need tables of big powers for exponents that are rare here.
- * Cost: a few divisions. */
+ * The plain way prints 15 digits, reads them back with strtod(), and tries 16 and 17 digits if the bits differ. It
+ * doubles the time for recording 100,000 points.
+ *
+ * Numbers from 2^-7 to 1e14 are therefore printed with integers. The fraction becomes a 60-bit fixed-point number,
+ * which represents it exactly. Multiplying it by ten moves the next digit in front of the point, and nothing is rounded
+ * on the way. `half_last`, half of the double's last bit, is multiplied by ten as well. The digits read back to the
+ * same double exactly if the remaining fraction is at most `half_last`. No strtod() is needed.
+ *
+ * All other numbers are printed with printf. General algorithms (Ryu, Grisu) need tables of large powers for exponents
+ * that are rare here. Cost: a few divisions.
+ */
 #include "number.h"
 
 #include <float.h>
@@ -20,8 +24,8 @@
 /* ---- Printing with integers --------------------------------------------------------------------------------- */
 
 enum {
-    FEWEST_DIGITS = 15, /* any decimal number of 15 digits can be stored in a double and read back */
-    HALF_BITS = 30,     /* half of the fraction's bits: half times 10^9 still fits 64 bits */
+    FEWEST_DIGITS = 15, /* a decimal number of 15 digits always survives conversion to double and back */
+    HALF_BITS = 30,     /* half of the fraction's bits: such a half times 10^9 fits into 64 bits */
     FRACTION_BITS = 2 * HALF_BITS,
     MOST_AT_ONCE = 9,
 };
@@ -29,8 +33,8 @@ enum {
 #define FRACTION_ONE (UINT64_C(1) << FRACTION_BITS)
 #define HALF_MASK ((UINT64_C(1) << HALF_BITS) - 1)
 
-/* From SMALLEST_PLAIN on, half of a double's last bit is a whole number of 2^-60. Below LARGEST_PLAIN, the 15th digit
- * lies after the point. */
+/* The limits of the numbers that are printed with integers. From SMALLEST_PLAIN on, half of a double's last bit is a
+ * whole number of 2^-60. Below LARGEST_PLAIN, the 15th digit lies after the point. */
 #define SMALLEST_PLAIN 0x1p-7
 #define LARGEST_PLAIN 1e14
 
@@ -38,14 +42,15 @@ static const uint64_t powers[] = {1,           10,           100,           1000
                                   100000,      1000000,      10000000,      100000000,      1000000000,
                                   10000000000, 100000000000, 1000000000000, 10000000000000, 100000000000000};
 
-/* A number in this range, stored exactly: its digits so far as one integer, and the remaining fraction. */
+/* The exact expansion of a number between SMALLEST_PLAIN and LARGEST_PLAIN: the digits found so far, as one integer,
+ * and the remaining fraction. */
 typedef struct expansion {
     uint64_t digits;
-    int count;          /* significant digits so far; negative: zeros still to skip */
-    int places;         /* digits after the point */
+    int count;          /* the number of significant digits so far; negative: zeros still to skip */
+    int places;         /* the number of digits after the point */
     uint64_t rest;      /* the remaining fraction of the last digit's unit, in units of 1 / FRACTION_ONE */
-    uint64_t half_last; /* half of the double's last bit, in the same unit */
-    bool even;          /* the last bit is 0: a tie reads back as this double */
+    uint64_t half_last; /* half of the double's last bit, in the unit of `rest` */
+    bool even;          /* the double's last bit is 0, so a tie reads back as this double */
 } expansion;
 
 static expansion begin_expansion(double magnitude)
@@ -59,14 +64,16 @@ static expansion begin_expansion(double magnitude)
                    .half_last = UINT64_C(1) << (exponent + FRACTION_BITS - DBL_MANT_DIG),
                    .even = bits % 2 == 0};
     if (whole == 0)
-        x.count = magnitude < 0.01 ? -2 : magnitude < 0.1 ? -1 : 0; /* zeros after the point are not significant */
+        x.count = magnitude < 0.01  ? -2
+                  : magnitude < 0.1 ? -1
+                                    : 0; /* zeros directly after the point are not significant */
     else
         while (x.count < FEWEST_DIGITS && powers[x.count] <= whole)
             x.count++;
     return x;
 }
 
-/* Moves the next `count` digits from the fraction to the digits. */
+/* Moves the next `count` digits from the fraction x->rest to x->digits. */
 static void append_digits(expansion *x, int count)
 {
     const uint64_t power = powers[count], low = (x->rest & HALF_MASK) * power,
@@ -78,14 +85,15 @@ static void append_digits(expansion *x, int count)
     x->places += count;
 }
 
-/* True if the remaining fraction rounds the digits up. Ties round to the even digit, as in printf. */
+/* Returns whether the remaining fraction rounds the digits up. A tie rounds to the even digit, as in printf. */
 static bool rounds_up(const expansion *x)
 {
     return x->rest > FRACTION_ONE / 2 || (x->rest == FRACTION_ONE / 2 && x->digits % 2 != 0);
 }
 
-/* True if the rounded digits read back to the same double: the error is at most half of its last bit. Just below a
- * power of two the spacing of doubles is halved, but powers of two in this range have at most 14 digits. */
+/* Returns whether the rounded digits read back to the same double: their error must be at most half of the double's
+ * last bit. Just below a power of two the spacing of doubles is only half as large. This needs no special case: in
+ * this range, powers of two have at most 14 digits. */
 static bool has_enough_digits(const expansion *x)
 {
     const uint64_t off = rounds_up(x) ? FRACTION_ONE - x->rest : x->rest;
@@ -108,7 +116,8 @@ static expansion find_shortest_digits(double magnitude)
     return x;
 }
 
-/* Writes the last `count` digits before `end` and removes them from *digits. Returns where they begin. */
+/* Writes the last `count` digits of *digits in front of `end` and removes them from *digits. Returns where they
+ * begin. */
 static char *write_digits(char *end, uint64_t *digits, int count)
 {
     static const char pairs[] = "00010203040506070809101112131415161718192021222324252627282930313233343536373839"
@@ -123,7 +132,8 @@ static char *write_digits(char *end, uint64_t *digits, int count)
     return end;
 }
 
-/* Prints like %g without an exponent. Returns 0 if the number is outside SMALLEST_PLAIN to LARGEST_PLAIN. */
+/* Prints a number as %g does, without an exponent. Returns the length, or 0 if the number is not between
+ * SMALLEST_PLAIN and LARGEST_PLAIN. */
 static size_t print_exactly(double value, char text[NUMBER_TEXT])
 {
     expansion x = {.digits = 0};
@@ -150,7 +160,7 @@ static size_t print_exactly(double value, char text[NUMBER_TEXT])
 
 /* ---- Printing with printf ----------------------------------------------------------------------------------- */
 
-/* Replaces the locale's decimal point, which may be several bytes, by '.'. Returns the new length. */
+/* Replaces the locale's decimal point, which may be several bytes long, by '.'. Returns the new length. */
 static size_t replace_locale_point(char *text)
 {
     char *point = text + strspn(text, "-0123456789");

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* parallel.c - runs tasks on a team of threads. */
+/* parallel.c - runs tasks on several threads. */
 #include "parallel.h"
 #include "cores.h"
 
@@ -8,7 +8,7 @@
 
 enum { MOST_THREADS = 64 };
 
-/* Shared by all workers: each takes the next index until none is left. */
+/* The work that all threads share. Each thread takes the next index until no index is left. */
 typedef struct work {
     atomic_size_t next;
     size_t count;

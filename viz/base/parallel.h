@@ -5,14 +5,14 @@
 
 #include <stddef.h>
 
-/* Performs task i. Tasks run at the same time, in any order. */
+/* Performs task i. Tasks run concurrently and in any order. */
 typedef void parallel_task(size_t i, void *context);
 
-/* Run tasks 0 to count - 1 and return when all are done. The calling thread works too, so all tasks are done even if no
- * other thread can be started. */
+/* Runs tasks 0 to count - 1 and returns when all are done. The calling thread works, too, so all tasks are done even
+ * if no other thread can be started. */
 void parallel_for(size_t count, parallel_task *task, void *context);
 
-/* parallel_for() with the signature of octree_executor.run. `unused` is ignored. */
+/* Calls parallel_for(). This function has the signature of octree_executor.run; `unused` is ignored. */
 void parallel_run(parallel_task *task, size_t count, void *task_context, void *unused);
 
 #endif

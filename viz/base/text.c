@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* text.c - printing into memory, escaping, UTF-8 checks and base64. */
+/* text.c - prints into memory, escapes text, checks UTF-8 and encodes base64. */
 #include "text.h"
 
 #include <ctype.h>
@@ -16,7 +16,7 @@ bool text_stream_begin(text_stream *s)
     return s->stream != NULL;
 }
 
-/* fclose() may fail to allocate the final text; text is then null although the stream has no error. */
+/* fclose() may fail to allocate the final text. In this case *text is null although the stream has no error. */
 bool text_stream_end(text_stream *s, char **text)
 {
     const bool whole = s->stream && !ferror(s->stream);
@@ -29,8 +29,8 @@ bool text_stream_end(text_stream *s, char **text)
 
 /* ---- Printable text ------------------------------------------------------------------------------------------ */
 
-/* Valid non-ASCII UTF-8 (table 3-7 of the Unicode standard): for each range of first bytes, the range of the second
- * byte and the length. */
+/* The valid non-ASCII sequences of UTF-8 (table 3-7 of the Unicode standard). For each range of first bytes: the
+ * range of the second byte, and the length. */
 static const struct {
     unsigned char first, last, second_min, second_max;
     size_t length;
@@ -96,7 +96,7 @@ const char *escape_nothing(const char *text, const char *at, char room[ESCAPE_RO
     return NULL;
 }
 
-/* XML readers turn line ends and tabs in attributes into spaces, unless they are character references. */
+/* XML readers turn line ends and tabs in attributes into spaces, unless they are written as character references. */
 const char *escape_xml(const char *text, const char *at, char room[ESCAPE_ROOM])
 {
     (void)text;
@@ -113,7 +113,8 @@ static bool is_word_character(char c)
     return isalnum((unsigned char)c) || (unsigned char)c >= 0x80;
 }
 
-/* An underscore inside a word needs no escape. Other special characters become character references. */
+/* An underscore inside a word needs no escape. Other characters that Markdown treats specially become character
+ * references. */
 const char *escape_markdown(const char *text, const char *at, char room[ESCAPE_ROOM])
 {
     if (*at == '_' && at > text && is_word_character(at[-1]) && is_word_character(at[1]))
@@ -140,7 +141,7 @@ bool utf8_is_unprintable(const unsigned char *at)
     }
 }
 
-/* Returns the number of bytes read. */
+/* Writes a non-ASCII character. Returns the number of bytes that were read. */
 static size_t write_non_ascii(FILE *out, const unsigned char *at)
 {
     const size_t length = utf8_sequence_length(at);
@@ -188,7 +189,7 @@ enum { GROUPS = 4096 };
 
 static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
-/* Encodes up to three bytes as four digits. Missing bytes count as zero and end in '='. */
+/* Encodes up to three bytes as four base64 digits. Missing bytes count as zero; their digits become '='. */
 static void encode_base64_group(const unsigned char *from, size_t count, char *to)
 {
     const unsigned bits =

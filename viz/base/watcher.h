@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* watcher.h - how a caller follows a long task, and stops it. */
+/* watcher.h - callbacks by which a caller follows the progress of a long task and stops the task. */
 #ifndef BASE_WATCHER_H
 #define BASE_WATCHER_H
 
@@ -8,8 +8,8 @@
 #include <stdint.h>
 
 typedef struct watcher {
-    void (*progress)(uint64_t done, uint64_t total, void *context); /* after each step; may be null */
-    bool (*keep_going)(void *context);                              /* between steps: false stops; may be null */
+    void (*progress)(uint64_t done, uint64_t total, void *context); /* called after each step; may be null */
+    bool (*keep_going)(void *context); /* called between steps; false stops the task; may be null */
     void *context;
 } watcher;
 
