@@ -160,6 +160,8 @@ static void report_context_fallback(const char *name, const char *instead_of, co
 /* If standard output cannot be written completely, the program fails, even if the command succeeded. */
 int main(int argc, char **argv)
 {
+    static char line[1 << 16];
+    setvbuf(stderr, line, _IOLBF, sizeof line); /* whole lines, so that those of parallel processes do not mix */
     hint_set_program(argc > 0 ? argv[0] : NULL);
     draw_context_set_report(report_context_fallback);
     json_detect_failed_allocations();

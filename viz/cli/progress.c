@@ -117,6 +117,7 @@ void progress_end(progress *p)
     fputc('\r', stderr);
     erase_longer_line(p, 0, read_terminal_width() - 1);
     fputc('\r', stderr);
+    fflush(stderr);
 }
 
 /* ---- Signals ------------------------------------------------------------------------------------------------ */
