@@ -64,9 +64,7 @@ static expansion begin_expansion(double magnitude)
                    .half_last = UINT64_C(1) << (exponent + FRACTION_BITS - DBL_MANT_DIG),
                    .even = bits % 2 == 0};
     if (whole == 0)
-        x.count = magnitude < 0.01  ? -2
-                  : magnitude < 0.1 ? -1
-                                    : 0; /* zeros directly after the point are not significant */
+        x.count = magnitude < 0.01 ? -2 : magnitude < 0.1 ? -1 : 0; /* zeros after the point are not significant */
     else
         while (x.count < FEWEST_DIGITS && powers[x.count] <= whole)
             x.count++;
