@@ -24,7 +24,7 @@ typedef struct cause_span {
  * ticks. */
 typedef enum cause_wrong { WRONG_MORE, WRONG_FEWER, WRONG_OTHER, WRONG_CHANGES } cause_wrong;
 
-/* Zeroed: empty. */
+/* The differences between two sessions. A zeroed cause has none. */
 typedef struct cause {
     cause_facts session; /* the differences between the sessions */
     cause_facts view;    /* the differences between the views; empty if only sessions were compared */

@@ -52,7 +52,7 @@ static bool is_same(const cause_place *place, const json_t *a, const json_t *b)
 typedef struct keyed {
     const char *word; /* the element itself if it is a text; the name of its only member, such as "insert"; else "" */
     uint64_t id;      /* CAUSE_NO_ID if the element has no id */
-    size_t place;     /* the index in the list */
+    size_t place;     /* the element's index in its list */
     json_t *element;
 } keyed;
 

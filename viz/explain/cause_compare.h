@@ -17,7 +17,7 @@ typedef struct cause_place {
     const char *where; /* the path of both values; "" for the outermost object */
     const char *query; /* the name of the query to whose answer the values belong; else "" */
     uint64_t tick;     /* the tick to which the values belong, or CAUSE_NO_TICK */
-    bool exact;        /* true: 0 and -0 differ */
+    bool exact;        /* 0 and -0 are treated as different */
 } cause_place;
 
 /* Return whether two values are equal. A null pointer stands for a missing value. With `exact`, 0 and -0 differ;

@@ -50,7 +50,7 @@ typedef struct cause_group {
     cause_fact listed[CAUSE_LISTED];
 } cause_group;
 
-/* Zeroed: empty. */
+/* A list of facts in groups. A zeroed list is empty. */
 typedef struct cause_facts {
     cause_group *groups; /* in the order in which they were found */
     size_t count, room;

@@ -39,7 +39,7 @@ typedef struct cause_stretch {
     char *causes; /* the kinds in effect with their first ticks: "keys 14, queries radius 15"; null: none; owned */
 } cause_stretch;
 
-/* Zeroed: empty. */
+/* The differences between two sessions, and the stretches found so far. A zeroed structure is empty. */
 typedef struct cause_origins {
     cause_kind *kinds;
     size_t kind_count, kind_room;

@@ -17,13 +17,13 @@
 
 typedef struct entry {
     json_t *element;
-    char *text;   /* the element as JSON */
-    size_t place; /* the index in the list */
+    char *text;   /* the JSON text of the element */
+    size_t place; /* the element's index in its list */
     bool paired;
 } entry;
 
 typedef struct entries {
-    entry *all;   /* in the order of the list */
+    entry *all;   /* one entry for each element, in the order of the list */
     entry **left; /* all entries, sorted by text; after equal elements are paired: the entries without a partner */
     size_t count, left_count;
 } entries;

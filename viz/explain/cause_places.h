@@ -20,7 +20,7 @@ typedef enum cause_rule {
 /* A row of the table. With a verb, facts are printed as "NOUN 12 VERB". Without a verb, they are printed as "another
  * NOUN (8, was 4)", "one more NOUN (...)" or "one NOUN fewer (...)". */
 typedef struct cause_row {
-    const char *where, *noun, *plural; /* plural null: the noun and an s */
+    const char *where, *noun, *plural; /* if plural is null, it is the noun and an s */
     const char *verbs[CAUSE_CHANGES];  /* the verb for each cause_change; null: no verb */
     bool option;                       /* the value is an option of the whole session and affects all ticks */
     bool every;                        /* print "at every tick" after facts that have no tick */

@@ -29,7 +29,7 @@ typedef struct pair_cause {
     bool only_drawn; /* both frames show the same scene: only rendering differs */
 } pair_cause;
 
-/* Zeroed: nothing is explained. */
+/* The explanation of a comparison. In a zeroed explanation nothing is explained. */
 typedef struct explanation {
     char *headline;    /* one line that says why the sides differ; null if no cause is known; owned */
     char *trouble;     /* the error that prevented an explanation; null if there was no error; owned */

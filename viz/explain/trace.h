@@ -23,12 +23,12 @@ typedef struct trace_part {
 
 #define TRACE_BACKGROUND (LAYER_DIAGRAM + 1)
 
-/* Zeroed: empty. */
+/* The parts drawn at the differing pixels of a pair of frames. A zeroed trace has no parts. */
 typedef struct trace {
     bool made;
     trace_part *parts; /* each part once, in descending order of pixels; owned */
     size_t count;
-    uint64_t pixels; /* the sum over all parts */
+    uint64_t pixels; /* the sum of the pixels of all parts */
 } trace;
 
 /* The state while two games are played and their frames are traced. Zeroed: before the first tick. */
