@@ -16,7 +16,7 @@ typedef struct accept_options {
 
     /* `note`, `store` and `variant` are for baselines only. If a reason is given, a reference that does not exist
      * becomes a baseline. */
-    acceptance_note note; /* reason null: no reason was given */
+    acceptance_note note; /* note.reason is null if no reason was given */
     const char *store;    /* the folder where pictures are stored; null: they are not stored */
     bool variant;         /* keep the previously accepted digests of a frame */
     bool json;            /* print the changes as one JSON object that lists all changed frames */

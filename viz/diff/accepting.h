@@ -12,7 +12,7 @@ typedef enum action { KEPT, CHANGED, ADDED, REMOVED, ACTIONS } action;
 typedef struct accepting {
     const accept_options *options;
     diff_side reference, frames;
-    bool is_new; /* the reference does not exist yet */
+    bool is_new; /* the reference does not exist yet and is created */
     diff_result result;
     action *actions; /* one action for each pair */
     size_t counts[ACTIONS];

@@ -27,7 +27,7 @@
 
 #include <stdio.h>
 
-/* When and why frames are accepted. */
+/* The date on which frames are accepted, and the reason. */
 typedef struct acceptance_note {
     const char *date;   /* YYYY-MM-DD */
     const char *reason; /* one line */

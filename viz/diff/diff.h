@@ -9,14 +9,14 @@
 
 /* Each finding, its name in reports, and the verdict that it causes. */
 #define DIFF_FINDING_MAP(X)                                                                                            \
-    X(SAME_BYTES, "same_bytes", DIFF_SAME)          /* identical files; not decoded */                                 \
-    X(SAME_PIXELS, "same_pixels", DIFF_SAME)        /* equal pixels in different files */                              \
-    X(WITHIN, "within_tolerance", DIFF_SAME)        /* different, but within the tolerance */                          \
-    X(PIXELS, "pixels", DIFF_DIFFERENT)             /* different beyond the tolerance */                               \
-    X(SIZE, "size", DIFF_DIFFERENT)                 /* different width or height */                                    \
-    X(DIGEST, "digest", DIFF_DIFFERENT)             /* same size, different digests */                                 \
-    X(NO_FRAME, "no_frame", DIFF_DIFFERENT)         /* a reference without a frame */                                  \
-    X(NO_REFERENCE, "no_reference", DIFF_DIFFERENT) /* a frame without a reference */                                  \
+    X(SAME_BYTES, "same_bytes", DIFF_SAME)          /* the files have equal bytes and were not decoded */              \
+    X(SAME_PIXELS, "same_pixels", DIFF_SAME)        /* the files differ, but their pixels are equal */                 \
+    X(WITHIN, "within_tolerance", DIFF_SAME)        /* the pixels differ, but within the tolerance */                  \
+    X(PIXELS, "pixels", DIFF_DIFFERENT)             /* the pixels differ beyond the tolerance */                       \
+    X(SIZE, "size", DIFF_DIFFERENT)                 /* the widths or heights differ */                                 \
+    X(DIGEST, "digest", DIFF_DIFFERENT)             /* the sizes are equal, but the digests differ */                  \
+    X(NO_FRAME, "no_frame", DIFF_DIFFERENT)         /* the reference has no frame */                                   \
+    X(NO_REFERENCE, "no_reference", DIFF_DIFFERENT) /* the frame has no reference */                                   \
     X(UNREADABLE, "unreadable", DIFF_TROUBLE)
 
 typedef enum diff_finding {
@@ -66,7 +66,7 @@ typedef struct diff_pair {
 
 typedef struct diff_result {
     diff_options options; /* the options of the comparison */
-    diff_pair *pairs;     /* in the order of names */
+    diff_pair *pairs;     /* sorted by the names of their frames */
     size_t count;
     size_t found[DIFF_FINDINGS]; /* the number of pairs with each finding */
     diff_verdict verdict;

@@ -14,7 +14,7 @@ typedef struct listed_frame {
     size_t line; /* the line number in the file; 0: from the command line */
 } listed_frame;
 
-/* Zeroed: empty. */
+/* A list of frame names. A zeroed list is empty. */
 typedef struct frame_list {
     listed_frame *frames; /* owned */
     size_t count, room;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* mask.c - packs and unpacks masks. */
+/* mask.c - converts masks between bytes and run lengths. */
 #include "mask.h"
 #include "array.h"
 

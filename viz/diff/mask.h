@@ -8,7 +8,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Zeroed: no pixel is ignored. */
+/* The ignored pixels of a frame. In a zeroed mask, no pixel is ignored. */
 typedef struct pixel_mask {
     int width, height;
     uint32_t *runs; /* run lengths in reading order, alternating: compared, ignored, compared ...; owned */

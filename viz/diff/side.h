@@ -14,7 +14,7 @@ typedef enum diff_kind { DIFF_PICTURE, DIFF_FOLDER, DIFF_RECORDING, DIFF_BASELIN
 
 /* The digest and the size of a frame. */
 typedef struct frame_digest {
-    uint64_t pixels; /* image_digest() */
+    uint64_t pixels; /* the digest of the pixels, by image_digest() */
     int width, height;
     image_digest_kind kind;
     size_t acceptance; /* in a baseline: the index in side->acceptances */
@@ -45,7 +45,7 @@ typedef struct diff_side {
     size_t count, room;
     bool no_frames;          /* a recording made without frames: its ticks are compared instead */
     image_color background;  /* in a baseline: the color behind transparent pixels */
-    acceptance *acceptances; /* in a baseline; owned */
+    acceptance *acceptances; /* the acceptances of a baseline; owned */
     size_t acceptance_count, acceptance_room;
 } diff_side;
 
