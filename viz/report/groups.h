@@ -16,7 +16,7 @@ typedef struct frame_group {
     const char *cause;         /* the explanation's sentence for the first pair, or null; owned by the explanation */
     const char *line;          /* the name of the first pair and how its frames differ: diff_print_pair() */
     const char *difference;    /* how the frames of the first pair differ, without its name: diff_print_difference() */
-    const char *frames;        /* the names of all frames */
+    const char *frames;        /* the names of all frames of the group */
     const char *others;        /* the names of all frames except the first; "" if there is only one */
 } frame_group;
 
