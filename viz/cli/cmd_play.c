@@ -17,7 +17,7 @@
 #include <unistd.h>
 
 typedef struct arguments {
-    const char *session, *keys, *page; /* null: not given */
+    const char *session, *keys, *page; /* SESSION, --keys and the page to write; null: not given */
     film_options film;
     view_options view;
 } arguments;

@@ -20,7 +20,7 @@ typedef struct arguments {
     const char *session, *keys;
     film_options film;
     view_options view;
-    uint64_t every; /* 0: not given */
+    uint64_t every; /* the value of --every; 0: not given */
     bool no_frames, json;
 } arguments;
 

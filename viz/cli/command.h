@@ -25,7 +25,7 @@ typedef struct command {
     const char *environment; /* printed only in the manual */
 
     const char *negative_error;       /* the error for an argument such as -10; null: "unknown option -1" */
-    int min_arguments, max_arguments; /* without options and their values */
+    int min_arguments, max_arguments; /* how many arguments the command takes, without options */
     const char *takes;                /* words for the arguments in errors: "one session" */
     file_kinds inputs[2];             /* the kinds of file that the first and the second argument can be; 0: no file */
     bool refuses_standard_input;      /* "-" is refused, because the command also reads files beside its input */
@@ -44,7 +44,7 @@ const command *command_at(size_t n);
 /* A kind of file that `octreel help NAME` and a manual of section 5 describe. */
 typedef struct help_topic {
     const char *name, *line;
-    const char *text; /* in the notation of prose.h */
+    const char *text; /* the help text, in the notation of prose.h */
 } help_topic;
 
 /* Returns the n-th topic; null if n is beyond the last. */

@@ -72,7 +72,7 @@ typed_option option_as_typed(const command_option *option);
 bool is_folder(const char *path);
 
 command_option_reader read_flag;   /* bool: set to true; the option takes no value */
-command_option_reader read_text;   /* const char *: any text */
+command_option_reader read_text;   /* const char *: takes any text */
 command_option_reader read_name;   /* const char *: the path of a file or folder; refuses "" */
 command_option_reader read_folder; /* const char *: the path of a folder to write; refuses names of files */
 /* const char *: the path of a PNG to write. Refuses folders and names of other files. "-" is standard output and is
@@ -81,7 +81,7 @@ command_option_reader read_picture;
 /* const char *: the path of a text file to write. Refuses folders and names of pictures. "-" is standard output. */
 command_option_reader read_file;
 command_option_reader read_whole;  /* an unsigned integer of option->size bytes */
-command_option_reader read_color;  /* image_color, as RRGGBB or #RRGGBB */
+command_option_reader read_color;  /* image_color: takes RRGGBB or #RRGGBB */
 command_option_reader read_choice; /* an enumeration, by its name in `names` */
 command_option_reader read_quiet;  /* makes is_quiet() return true */
 

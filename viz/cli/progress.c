@@ -15,8 +15,8 @@
 
 /* ---- The bar ------------------------------------------------------------------------------------------------ */
 
-#define MOST_BAR 32 /* most characters of the bar */
-#define LEAST_BAR 8 /* fewest characters of the bar; if fewer fit, no bar is drawn */
+#define MOST_BAR 32 /* the bar's largest length in characters */
+#define LEAST_BAR 8 /* the bar's smallest length in characters; if less fits, no bar is drawn */
 #define LINE 512
 #define SECONDS_BETWEEN_UPDATES 0.1
 
