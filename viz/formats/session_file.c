@@ -347,7 +347,7 @@ bool session_write(const octree_session *session, const point_values *values, FI
         unwritten[i] = get_session_list(session, i);
     session_write_header(session, values, out);
     for (uint64_t tick; (tick = find_next_tick(unwritten)) != OCTREE_EVERY_TICK;) {
-        octree_session now = {.keys = NULL}; /* the items of this tick only */
+        octree_session now = {.keys = NULL}; /* a session with only the items of this tick */
         for (int i = 0; i < SESSION_LISTS; i++) {
             json_counted_array *list = &unwritten[i];
             size_t count = 0;

@@ -137,7 +137,7 @@ static void write_fit(json_writer *w, const void *from)
     json_write_string(w, fit_name(*(const view_fit *)from == FIT_WORLD ? FIT_WORLD : FIT_POINTS));
 }
 
-#define MOST_TURN 360 /* degrees */
+#define MOST_TURN 360 /* the largest angle, in degrees */
 
 static bool is_valid_look(double azimuth, double elevation)
 {
