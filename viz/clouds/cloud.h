@@ -60,7 +60,7 @@
 
 typedef struct cloud {
     double (*positions)[3]; /* `count` rows of x, y and z, in the file's order and units; all finite; owned */
-    size_t count;           /* at least 1 after a successful read */
+    size_t count;           /* the number of points; at least 1 after a successful read */
     size_t skipped;         /* the number of points in the file that are not in `positions` */
     /* Why points were skipped: "without finite coordinates", or "marked as withheld" (deleted, in LAS). Null if no
      * point was skipped. Static storage. */

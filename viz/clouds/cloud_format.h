@@ -41,11 +41,11 @@ typedef struct cloud_lines {
 typedef struct cloud_file {
     const char *name;
     const unsigned char *bytes;
-    size_t size; /* size in bytes, at least 1 */
+    size_t size; /* the size of the file in bytes, at least 1 */
     cloud_lines lines;
     cloud *out;
     octreel_error *error;
-    const cloud_watch *watch; /* may be null */
+    const cloud_watch *watch; /* the callbacks for progress; may be null */
     size_t room, row_room;    /* capacities of out->positions and out->rows */
     unsigned channels;        /* bits 1 << cloud_channel of the values that points have in addition to x, y and z */
     bool zero_is_missing;     /* a value that is zero in every point is treated as missing */

@@ -26,9 +26,9 @@ enum {
     AT_LENGTH = 105,
     AT_COUNT = 107,
     AT_FACTORS = 131,      /* the scales of x, y and z, then their offsets */
-    AT_WAVEFORMS = 227,    /* since version 1.3 */
-    AT_RECORDS = 235,      /* since version 1.4: extended variable length records */
-    AT_RECORD_COUNT = 243, /* since version 1.4 */
+    AT_WAVEFORMS = 227,    /* the start of waveforms; since version 1.3 */
+    AT_RECORDS = 235,      /* the start of extended variable length records; since version 1.4 */
+    AT_RECORD_COUNT = 243, /* the number of extended records; since version 1.4 */
     AT_WIDE_COUNT = 247,   /* since version 1.4: the number of points as 64 bits */
 };
 

@@ -44,7 +44,7 @@ static void write_record(const laszip_point_struct *p, unsigned format, unsigned
 
 /* The argument of decompress(), which runs in the child process. */
 typedef struct decompression {
-    char path[32]; /* the compressed file */
+    char path[32]; /* the path of the compressed file */
     unsigned format;
     uint64_t count;
 } decompression;

@@ -20,9 +20,9 @@ typedef struct text_columns {
     struct {
         size_t column; /* the index of the column, counted from 0 at the fourth column; ascending */
         cloud_channel channel;
-    } places[CLOUD_CHANNELS]; /* the columns that have a channel */
+    } places[CLOUD_CHANNELS]; /* the columns that have a channel, in ascending order */
     size_t place_count;
-    size_t count;     /* the number of columns to read */
+    size_t count;     /* the number of columns to read, from the fourth on */
     bool unnamed;     /* the file has more than three columns and no column names */
     bool guessed;     /* the channels are guessed; the members below describe the lines that were read so far */
     bool ranges[2];   /* for BYTES and FRACTIONS: all colour channels were within this range */
