@@ -37,7 +37,7 @@ typedef struct json_member {
     /* The conditions of writing the member; all of them must hold. */
     size_t given;                 /* offset of a bool that must be true; reading sets it to true; 0: no condition */
     size_t nonzero, nonzero_size; /* offset and size of bytes that must not all be 0; see JSON_IF() */
-    bool (*is_set)(const void *structure); /* must return true; null: no condition */
+    bool (*is_set)(const void *structure); /* a function that must return true; null: no condition */
     bool nullable;                         /* null is written if a condition fails, and null can be read */
     bool line;                             /* the member is written on a line of its own */
 
@@ -124,13 +124,13 @@ extern const json_codec json_ids;
 extern const json_codec json_number;      /* a double; if row->min and row->max differ, they are its limits */
 extern const json_codec json_nonnegative; /* a double that is at least 0 */
 extern const json_codec json_numbers;     /* an array of row->size doubles */
-extern const json_codec json_vector;      /* double[3] */
+extern const json_codec json_vector;      /* a vector: double[3] */
 extern const json_codec json_box;         /* an octree_box whose min is at most its max */
 extern const json_codec json_constant;    /* the text row->about and no other */
 extern const json_codec json_label;       /* char[row->size]: printable ASCII and a final zero */
 /* The format version row->max and no other. Errors name the file by row->about: "recording". */
 extern const json_codec json_version;
-extern const json_codec json_bool;       /* bool */
+extern const json_codec json_bool;       /* a bool */
 extern const json_codec json_choice;     /* an enumeration: an index into row->names */
 extern const json_codec json_set;        /* an unsigned with bits 1 << index into row->names */
 extern const json_codec json_structure;  /* a structure with the members row->members */
