@@ -127,14 +127,14 @@ const char *escape_markdown(const char *text, const char *at, char room[ESCAPE_R
 bool utf8_is_unprintable(const unsigned char *at)
 {
     switch (at[0]) {
-    case 0xc2: /* U+0080 to U+009F */
+    case 0xc2: /* control characters: U+0080 to U+009F */
         return at[1] < 0xa0;
-    case 0xd8: /* U+061C */
+    case 0xd8: /* a mark of writing direction: U+061C */
         return at[1] == 0x9c;
     case 0xe2: /* U+200E, U+200F; U+2028 to U+202E; U+2066 to U+2069 */
         return (at[1] == 0x80 && (at[2] == 0x8e || at[2] == 0x8f || (at[2] >= 0xa8 && at[2] <= 0xae))) ||
                (at[1] == 0x81 && at[2] >= 0xa6 && at[2] <= 0xa9);
-    case 0xef: /* U+FFFE, U+FFFF */
+    case 0xef: /* not characters: U+FFFE, U+FFFF */
         return at[1] == 0xbf && at[2] >= 0xbe;
     default:
         return false;

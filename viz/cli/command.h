@@ -19,7 +19,7 @@ typedef struct command {
     const char *usage;       /* the arguments: "FRAME X Y [OPTION ...]" */
     const char *about;       /* printed before the options */
     const char *more;        /* printed after the options */
-    const char *statuses[3]; /* the meanings of exit statuses 0, 1, 2; null: "done", never returned, "error" */
+    const char *statuses[3]; /* meanings of exit statuses 0, 1, 2; null: "done" for 0, 1 is unused, "error" for 2 */
     const char *examples;    /* pairs of lines: "# what the command produces", then the command */
     const char *files;       /* printed only in the manual */
     const char *environment; /* printed only in the manual */

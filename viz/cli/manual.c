@@ -122,7 +122,7 @@ static void put_lines(FILE *out, const char *text, size_t length, int indent)
     fputs(".EE\n", out);
 }
 
-/* Begins a section. `name` ends at its line end. */
+/* Begins a section. `name` ends at the first line end in the text. */
 static void put_section(FILE *out, const char *name)
 {
     fputs(".SH ", out);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* cause_compare.h - compares two sessions, two views or two ticks and collects the differences as facts.
  *
- * Both are written as JSON, and the JSON is compared member by member. If memory runs out, facts->out_of_memory is set.
+ * The two things to compare are written as JSON objects, which are compared member by member. If memory runs out,
+ * facts->out_of_memory is set.
  */
 #ifndef EXPLAIN_CAUSE_COMPARE_H
 #define EXPLAIN_CAUSE_COMPARE_H
