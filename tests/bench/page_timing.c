@@ -35,23 +35,53 @@ static bool fail(play *p, const char *format, ...)
 
 /* ---- The script --------------------------------------------------------------------------------------------- */
 
+/* Write `count` texts to a file, one after the other. */
+static bool write_texts(play *p, const char *path, const char *const texts[], size_t count)
+{
+    FILE *file = fopen(path, "wb");
+    for (size_t i = 0; file && i < count; i++)
+        fputs(texts[i], file);
+    return (file && fclose(file) == 0) || fail(p, "%s: %s", path, strerror(errno));
+}
+
+/* Write the timing script beside the page, in a function because the script waits for promises. */
+static bool write_script(play *p, uint64_t frames, const char *script)
+{
+    char path[PATH_MAX], begin[96];
+    snprintf(begin, sizeof begin, "const FRAMES = %" PRIu64 ";\n(async () => {\n", frames);
+    const size_t folder = (size_t)(strrchr(p->page, '/') + 1 - p->page);
+    if (snprintf(path, sizeof path, "%.*stiming.js", (int)folder, p->page) >= (int)sizeof path)
+        return fail(p, "%s: the path is too long", p->page);
+    return write_texts(p, path, (const char *const[]){begin, script, "})();\n"}, 3);
+}
+
+/* Let the page run the timing script: the security policy of a page allows only its own scripts. */
 static bool add_script(play *p, uint64_t frames, page_times *times)
 {
+    static const char policy[] = "script-src ";
     octreel_error error;
-    char *script;
+    char *script, *page = NULL;
     size_t size;
     if (!file_read_whole(PAGE_SCRIPT, &script, &size, &error))
         return fail(p, "%s", error.text);
-    FILE *page = fopen(p->page, "ab");
-    if (page) {
-        fseek(page, 0, SEEK_END);
-        times->kb = (double)ftell(page) / 1000;
-        fprintf(page, "<script>const FRAMES = %" PRIu64 ";</script>\n<script type=\"module\">\n", frames);
-        fwrite(script, 1, size, page);
-        fputs("</script>\n", page);
+    script[size] = 0;
+    bool ok = write_script(p, frames, script) &&
+              (file_read_whole(p->page, &page, &size, &error) || fail(p, "%s", error.text));
+    if (ok)
+        page[size] = 0; /* file_read_whole() leaves room for it */
+    char *allowed = ok ? strstr(page, policy) : NULL;
+    times->kb = (double)size / 1000;
+    if (ok && !allowed)
+        ok = fail(p, "%s: has no security policy for scripts", p->page);
+    if (ok) {
+        char *behind = allowed + strlen(policy);
+        behind[-1] = 0;
+        ok = write_texts(p, p->page,
+                         (const char *const[]){page, " file: ", behind, "<script src=\"timing.js\"></script>\n"}, 4);
     }
+    free(page);
     free(script);
-    return (page && fclose(page) == 0) || fail(p, "%s: %s", p->page, strerror(errno));
+    return ok;
 }
 
 /* ---- The browser -------------------------------------------------------------------------------------------- */
