@@ -91,7 +91,7 @@ static void files_that_are_not_fonts_are_refused(void **state)
     } rows[] = {
         {0, 0, 0, "is not a console font"},        {28, 0, 17, "larger than 16 x 32 pixels"},
         {24, 0, 33, "larger than 16 x 32 pixels"}, {20, 0, 9, "larger than 16 x 32 pixels"},
-        {16, 0, 127 - 32, "is truncated"},         {8, 0, ROOM + 1, "is cut short"},
+        {16, 0, 127 - 32, "is truncated"},         {8, 0, ROOM + 1, "is truncated"},
         {16, 0, GLYPHS + 1, "is truncated"},       {28, HEADER - 1, 12, "is not a console font"},
         {28, 3, 12, "is not a console font"},
     };
