@@ -132,7 +132,8 @@ static void view_of_a_tree_that_no_tick_has_is_reported(void **state)
     static const struct {
         view_tree tree;
         const char *text;
-    } rows[] = {{TREE_FOREIGN, "--tree foreign shows no nodes\n"}, {TREE_BOTH, "--tree both shows Octreel's alone\n"}};
+    } rows[] = {{TREE_FOREIGN, "--tree foreign shows no nodes\n"},
+                {TREE_BOTH, "--tree both shows only the nodes of Octreel\n"}};
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         film_options options = small_film("film");
