@@ -2,6 +2,7 @@
 /* page_timing.c - see page_timing.h. */
 #include "page_timing.h"
 #include "file.h"
+#include "scripted_page.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -35,50 +36,37 @@ static bool fail(play *p, const char *format, ...)
 
 /* ---- The script --------------------------------------------------------------------------------------------- */
 
-/* Write `count` texts to a file, one after the other. */
-static bool write_texts(play *p, const char *path, const char *const texts[], size_t count)
-{
-    FILE *file = fopen(path, "wb");
-    for (size_t i = 0; file && i < count; i++)
-        fputs(texts[i], file);
-    return (file && fclose(file) == 0) || fail(p, "%s: %s", path, strerror(errno));
-}
-
 /* Write the timing script beside the page, in a function because the script waits for promises. */
 static bool write_script(play *p, uint64_t frames, const char *script)
 {
-    char path[PATH_MAX], begin[96];
-    snprintf(begin, sizeof begin, "const FRAMES = %" PRIu64 ";\n(async () => {\n", frames);
+    char path[PATH_MAX];
     const size_t folder = (size_t)(strrchr(p->page, '/') + 1 - p->page);
     if (snprintf(path, sizeof path, "%.*stiming.js", (int)folder, p->page) >= (int)sizeof path)
         return fail(p, "%s: the path is too long", p->page);
-    return write_texts(p, path, (const char *const[]){begin, script, "})();\n"}, 3);
+    FILE *file = fopen(path, "wb");
+    if (file)
+        fprintf(file, "const FRAMES = %" PRIu64 ";\n(async () => {\n%s})();\n", frames, script);
+    return (file && fclose(file) == 0) || fail(p, "%s: %s", path, strerror(errno));
 }
 
-/* Let the page run the timing script: the security policy of a page allows only its own scripts. */
+/* Read a text file, which ends with a zero in memory. The caller frees it. Null on failure. */
+static char *read_text(play *p, const char *path, size_t *size)
+{
+    octreel_error error;
+    char *text;
+    if (!file_read_whole(path, &text, size, &error))
+        return fail(p, "%s", error.text), NULL;
+    text[*size] = 0;
+    return text;
+}
+
 static bool add_script(play *p, uint64_t frames, page_times *times)
 {
-    static const char policy[] = "script-src ";
-    octreel_error error;
-    char *script, *page = NULL;
-    size_t size;
-    if (!file_read_whole(PAGE_SCRIPT, &script, &size, &error))
-        return fail(p, "%s", error.text);
-    script[size] = 0;
-    bool ok = write_script(p, frames, script) &&
-              (file_read_whole(p->page, &page, &size, &error) || fail(p, "%s", error.text));
-    if (ok)
-        page[size] = 0; /* file_read_whole() leaves room for it */
-    char *allowed = ok ? strstr(page, policy) : NULL;
+    size_t size = 0;
+    char *script = read_text(p, PAGE_SCRIPT, &size), *page = script ? read_text(p, p->page, &size) : NULL;
     times->kb = (double)size / 1000;
-    if (ok && !allowed)
-        ok = fail(p, "%s: has no security policy for scripts", p->page);
-    if (ok) {
-        char *behind = allowed + strlen(policy);
-        behind[-1] = 0;
-        ok = write_texts(p, p->page,
-                         (const char *const[]){page, " file: ", behind, "<script src=\"timing.js\"></script>\n"}, 4);
-    }
+    const bool ok = page && write_script(p, frames, script) &&
+                    (write_scripted_page(p->page, page, "timing.js") || fail(p, "%s: %s", p->page, strerror(errno)));
     free(page);
     free(script);
     return ok;

@@ -11,6 +11,7 @@
 #include "commands.h"
 #include "files.h"
 #include "fixture.h"
+#include "scripted_page.h"
 
 /* Nothing is asked of a network, and nothing is kept. The sandbox needs more of the system than containers give. */
 static const char options[] = "--headless --no-sandbox --disable-gpu --disable-extensions --no-first-run "
@@ -102,21 +103,15 @@ static void write_driving_script(const char *folder, const char *const scripts[]
     assert_int_equal(fclose(file), 0);
 }
 
-/* Write "driven.html" beside the page. Its security policy also allows scripts from files, and so the driving one. */
+/* Write "driven.html", which runs the scripts, beside the page. */
 static place write_driven_page(const char *page, const char *const scripts[])
 {
-    static const char policy[] = "script-src ";
     place folder;
     const char *slash = strrchr(page, '/');
     snprintf(folder.path, sizeof folder.path, "%.*s.", slash == NULL ? 0 : (int)(slash + 1 - page), page);
     const place driven = place_below(folder.path, "driven.html");
-    char *text = file_read(page, NULL), *behind = strstr(text, policy);
-    FILE *file = fopen(driven.path, "w");
-    assert_non_null(file);
-    behind = behind == NULL ? text : behind + strlen(policy);
-    fprintf(file, "%.*s%s%s<script src=\"driven.js\"></script>\n", (int)(behind - text), text,
-            behind == text ? "" : "file: ", behind);
-    assert_int_equal(fclose(file), 0);
+    char *text = file_read(page, NULL);
+    assert_true(write_scripted_page(driven.path, text, "driven.js"));
     free(text);
     write_driving_script(folder.path, scripts);
     return driven;
