@@ -277,7 +277,7 @@ static bool is_small(const edited_files *files)
         session_release(&file);
     }
     if (about && recording_parse("", (char *)about->bytes, about->size, &v, &every, &ignored))
-        small = small && v.width * v.height * view_samples_per_side(&v) * view_samples_per_side(&v) <= MOST_PIXELS;
+        small = small && v.width * v.height * v.aa * v.aa <= MOST_PIXELS;
     return small;
 }
 

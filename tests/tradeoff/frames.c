@@ -58,7 +58,7 @@ void subject_show(const subject *s, const view *v, scene *picture)
 
 static image draw_samples(const scene *picture)
 {
-    const int samples = view_samples_per_side(&picture->view);
+    const int samples = picture->view.aa;
     const int width = picture->view.width * samples, height = picture->view.height * samples;
     image drawn;
     octreel_error why;

@@ -35,8 +35,8 @@ static bool find_text_position(const scene *s, const scene_label *label, int *x,
     if (label->in_world) {
         if (!find_pixel_and_band(s, label->at, pixel, &band))
             return false;
-        pixel[0] /= view_samples_per_side(&s->view);
-        pixel[1] /= view_samples_per_side(&s->view);
+        pixel[0] /= s->view.aa;
+        pixel[1] /= s->view.aa;
         move_beside_position(s, label, pixel);
     }
     if (!(fabs(pixel[0]) < FARTHEST && fabs(pixel[1]) < FARTHEST))
@@ -68,7 +68,7 @@ static int find_rim_width(const scene *s, const scene_label *label)
 void add_label_letters(quad_list *list, const scene *s, const scene_label *label)
 {
     const lettering *letters = scene_label_lettering(s, label);
-    const int sub = QUAD_SUBPIXELS * view_samples_per_side(&s->view);
+    const int sub = QUAD_SUBPIXELS * s->view.aa;
     quad q = {.order = make_text_order(label->style.layer)};
     int left, top;
     if (!find_text_position(s, label, &left, &top))

@@ -144,7 +144,7 @@ static void set_clip_limits(quad_list *list, const scene *s)
 static bool paint_closeup(painter *p, const scene *s)
 {
     const scene closer = project_scene_to_samples(s->closeup);
-    const int subpixels = QUAD_SUBPIXELS * view_samples_per_side(&closer.view);
+    const int subpixels = QUAD_SUBPIXELS * closer.view.aa;
     p->closeup = p->closeup ? p->closeup : calloc(1, sizeof *p->closeup);
     if (!p->closeup || !painter_paint_scene(p->closeup, s->closeup))
         return false;
@@ -172,7 +172,7 @@ bool painter_paint_scene(painter *p, const scene *picture)
     }
     for (size_t i = 0; i < s->panels.count; i++) {
         quads_begin_element(&p->quads, SCENE_PANEL, i);
-        stroke_add_panel(&p->quads, &s->panels.items[i], view_samples_per_side(&s->view));
+        stroke_add_panel(&p->quads, &s->panels.items[i], s->view.aa);
         if (s->panels.items[i].style.role == ROLE_OWN)
             splats_fill_panel(&p->splats, s, &s->panels.items[i]);
     }

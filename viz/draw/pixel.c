@@ -51,7 +51,7 @@ static void release_sources(sources all)
 /* Fill *from for a scene that p has painted. False when out of memory. */
 static bool open_source(source *from, const scene *s, const painter *p)
 {
-    const int samples = view_samples_per_side(&s->view);
+    const int samples = s->view.aa;
     from->scene = s;
     from->painter = p;
     from->fine = project_scene_to_samples(s);
@@ -92,14 +92,14 @@ static bool is_edge_quad(const quad *q)
 
 static size_t count_samples(const scene *s)
 {
-    const size_t side = (size_t)view_samples_per_side(&s->view);
+    const size_t side = (size_t)s->view.aa;
     return (size_t)s->view.width * (size_t)s->view.height * side * side;
 }
 
 /* Draw all quads of a painter into `samples`, one byte per sample. */
 static bool fill_all_quads(renderer *r, const scene *s, const painter *p, uint8_t *samples, octreel_error *error)
 {
-    const int side = view_samples_per_side(&s->view);
+    const int side = s->view.aa;
     const renderer_part all = {0, 0, s->view.width * side, s->view.height * side};
     return renderer_fill_quads(r, p->quads.items, p->quads.count, all, samples, error);
 }
@@ -148,7 +148,7 @@ static uint32_t find_element_number(const source *from, uint32_t stroke, int x, 
 /* Replace the number of a stroke by the number of its element, at each sample. */
 static void replace_stroke_numbers(const scene *s, const sources all, uint32_t *numbers)
 {
-    const size_t width = (size_t)s->view.width * (size_t)view_samples_per_side(&s->view), size = count_samples(s);
+    const size_t width = (size_t)s->view.width * (size_t)s->view.aa, size = count_samples(s);
     for (size_t i = 0; i < size; i++) {
         const source *from = &all[numbers[i] > all[0].strokes];
         if (numbers[i] > 0)
@@ -187,7 +187,7 @@ static unsigned find_quad_layers(const scene *s, const painter *p, const quad *q
 /* Set a pixel of the mask if any of the pixel's samples is set. */
 static void shrink_mask(const view *v, const uint8_t *samples, uint8_t *mask)
 {
-    const size_t side = (size_t)view_samples_per_side(v), width = (size_t)v->width;
+    const size_t side = (size_t)v->aa, width = (size_t)v->width;
     memset(mask, 0, width * (size_t)v->height);
     for (size_t y = 0; y < (size_t)v->height * side; y++)
         for (size_t x = 0; x < width * side; x++)
@@ -392,7 +392,7 @@ static bool add_all_quad_covers(renderer *r, probe *p, octreel_error *error)
 
 bool renderer_list_pixel_covers(renderer *r, const scene *s, int x, int y, draw_covers *list, octreel_error *error)
 {
-    const int samples = view_samples_per_side(&s->view);
+    const int samples = s->view.aa;
     probe p = {.picture = s, .part = {x * samples, y * samples, samples, samples}, .list = list};
     list->count = 0;
     if (!renderer_fits_scene(r, s, error))

@@ -27,7 +27,7 @@
 scene project_scene_to_samples(const scene *s)
 {
     scene fine = *s;
-    const int samples = view_samples_per_side(&s->view);
+    const int samples = s->view.aa;
     fine.view.width *= samples;
     fine.view.height *= samples;
     fine.camera.zoom *= samples;
@@ -157,7 +157,7 @@ unsigned project_segment(const scene *s, const double first[3], const double sec
 
 bool clip_picture_segment(const scene *s, const double from[3], const double to[3], piece *p)
 {
-    const int samples = view_samples_per_side(&s->view);
+    const int samples = s->view.aa;
     p->band = 0;
     for (int axis = 0; axis < 2; axis++) {
         p->from[axis] = from[axis] * samples;

@@ -6,7 +6,7 @@
 #include "quads.h"
 
 /* Returns a copy of a scene whose pixels are samples: the size of the picture and the camera's zoom are multiplied by
- * view_samples_per_side(). The copy shares the elements of `s`. The functions below take such a copy. */
+ * view.aa. The copy shares the elements of `s`. The functions below take such a copy. */
 scene project_scene_to_samples(const scene *s);
 
 /* The part of a segment that lies in one band of depth, in pixels. */

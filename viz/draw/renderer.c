@@ -80,7 +80,7 @@ renderer_info renderer_describe(const renderer *r)
 
 bool renderer_fits_scene(const renderer *r, const scene *s, octreel_error *error)
 {
-    const int samples = view_samples_per_side(&s->view);
+    const int samples = s->view.aa;
     return (s->view.width * samples == r->width && s->view.height * samples == r->height) ||
            error_set(error, "the scene is not of the renderer's size");
 }

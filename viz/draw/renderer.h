@@ -2,7 +2,7 @@
 /* renderer.h - draws scenes of one size into indices of the theme's colours.
  *
  * paint.h turns a scene into flat quads. The integer rasterizer (fill.h) or GL (gl_surface.c) fills them; both give the
- * same pixels. With anti-aliasing, a renderer draws view_samples_per_side() times as many samples on each axis, and
+ * same pixels. With anti-aliasing, a renderer draws view.aa times as many samples on each axis, and
  * image_shrink() averages them. Lines, markers and letters keep their size in the picture. A renderer may be used only
  * from the thread that opened it. */
 #ifndef DRAW_RENDERER_H

@@ -60,7 +60,7 @@ static splatter make_splatter(const scene *s)
 {
     return (splatter){.scene = s,
                       .spacing = point_scale_length_in_pixels(&s->camera, s->spacing) * POINT_OVERLAP,
-                      .most = POINT_WIDEST * s->unit * view_samples_per_side(&s->view)};
+                      .most = POINT_WIDEST * s->unit * s->view.aa};
 }
 
 /* Returns a view depth in integer units. Under perspective it is the logarithm of the depth, because an object at twice
@@ -77,7 +77,7 @@ static int32_t depth_in_units(const splatter *with, double depth)
 static int disc_diameter(const splatter *with, scene_style style, double depth)
 {
     const scene *s = with->scene;
-    const int least = stroke_marker_side(style.width, s->unit) * view_samples_per_side(&s->view);
+    const int least = stroke_marker_side(style.width, s->unit) * s->view.aa;
     const double side = ceil(s->camera.perspective ? with->spacing / depth : with->spacing);
     return side > with->most ? with->most : side > least ? (int)side : least;
 }
@@ -143,7 +143,7 @@ static void draw_disc(splats *t, const scene *s, size_t index, const splat_squar
  * points are not counted. */
 static uint32_t *find_density_counter(const splats *t, const scene *s, const splat_square *q)
 {
-    const int samples = view_samples_per_side(&s->view), half = (q->side - 1) / 2;
+    const int samples = s->view.aa, half = (q->side - 1) / 2;
     const int x = q->left + half, y = q->top + half;
     if (s->view.point_color != POINTS_BY_DENSITY || x < 0 || y < 0 || x >= s->view.width || y >= s->view.height)
         return NULL;
@@ -207,7 +207,7 @@ static int32_t measure_depth_below_neighbors(const splats *t, const scene *s, in
 /* Returns the light at a sample, 256 for full light. Eye-dome lighting at two distances shows fine and large shapes. */
 static int find_light(const splats *t, const scene *s, int x, int y)
 {
-    const int reach = s->unit * view_samples_per_side(&s->view);
+    const int reach = s->unit * s->view.aa;
     return 256 * HALF_LIGHT /
            (HALF_LIGHT + measure_depth_below_neighbors(t, s, x, y, reach) +
             measure_depth_below_neighbors(t, s, x, y, 4 * reach));
@@ -290,7 +290,7 @@ void splats_release(splats *t)
 
 static bool reserve_samples(splats *t, const scene *s)
 {
-    const size_t size = (size_t)s->view.width * (size_t)s->view.height, side = (size_t)view_samples_per_side(&s->view);
+    const size_t size = (size_t)s->view.width * (size_t)s->view.height, side = (size_t)s->view.aa;
     const size_t pixels = s->view.point_color == POINTS_BY_DENSITY ? size / side / side : 0;
     if (!array_grow(&t->samples, size, &t->sample_room, sizeof *t->samples) ||
         !array_grow(&t->colors, size, &t->color_room, sizeof *t->colors) ||
@@ -315,7 +315,7 @@ bool splats_paint_points(splats *t, quad_list *quads, const scene *s)
 
 void splats_fill_panel(splats *t, const scene *s, const scene_panel *panel)
 {
-    const int samples = view_samples_per_side(&s->view);
+    const int samples = s->view.aa;
     for (int y = panel->y * samples; y < (panel->y + panel->height) * samples && y < s->view.height; y++)
         for (int x = panel->x * samples; x < (panel->x + panel->width) * samples && x < s->view.width; x++)
             if (x >= 0 && y >= 0)
@@ -324,7 +324,7 @@ void splats_fill_panel(splats *t, const scene *s, const scene_panel *panel)
 
 void splats_copy_closeup(splats *t, const scene *s, const splats *closeup, const scene *closer)
 {
-    const size_t side = (size_t)view_samples_per_side(&s->view), width = (size_t)s->view.width;
+    const size_t side = (size_t)s->view.aa, width = (size_t)s->view.width;
     const size_t row = (size_t)closer->view.width, left = (size_t)closer->place[0] * side,
                  top = (size_t)closer->place[1] * side;
     for (size_t y = 0; y < (size_t)closer->view.height; y++)

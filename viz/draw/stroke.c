@@ -37,7 +37,7 @@ static int find_line_width(const scene *s, unsigned wanted)
 
 pencil stroke_make_pencil(const scene *s, scene_style style, unsigned depth)
 {
-    const int samples = view_samples_per_side(&s->view);
+    const int samples = s->view.aa;
     return (pencil){.style = style,
                     .width = find_line_width(s, style.width) * samples,
                     .unit = s->unit,

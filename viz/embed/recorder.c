@@ -78,7 +78,7 @@ octreel_recorder_def octreel_recorder_def_default(void)
                                   .diagram = view_diagram_name(v.diagram),
                                   .lod = v.lod,
                                   .budget = v.budget,
-                                  .aa = view_samples_per_side(&v),
+                                  .aa = v.aa,
                                   .every = 1,
                                   .fill = draw_fill_name(DRAW_FILL_INTEGERS),
                                   .context = draw_context_name(DRAW_AUTO),
@@ -147,7 +147,7 @@ static octreel_status set_view(octreel_recorder *r, const octreel_recorder_def *
         if (!option->parse(option, options[i][1], v, &r->error))
             return OCTREEL_BAD_OPTION;
     }
-    const int longest = VIEW_MAX_SIDE / view_samples_per_side(v);
+    const int longest = VIEW_MAX_SIDE / v->aa;
     v->width = def->width;
     v->height = def->height;
     v->labels = def->labels;

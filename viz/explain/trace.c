@@ -186,7 +186,7 @@ static bool count_parts(tracing *t, const image_tolerance *tolerance)
 static bool pick_elements(tracer *t, const scene *s, uint32_t *numbers)
 {
     const renderer_choice choice = {0};
-    const int samples = view_samples_per_side(&s->view);
+    const int samples = s->view.aa;
     octreel_error why = {""};
     if (!t->renderer && !*t->untraced)
         t->renderer = renderer_open(s->view.width * samples, s->view.height * samples, &choice, &why);
@@ -239,9 +239,8 @@ bool tracer_trace(tracer *t, const recorded sides[2], const octree_game *const g
                   const diff_options *options, trace *made, octreel_error *error)
 {
     const view *a = &sides[0].view.view, *b = &sides[1].view.view;
-    tracing state = {.tracer = t, .games = games, .samples = (size_t)view_samples_per_side(a)};
-    if (a->width != b->width || a->height != b->height || view_samples_per_side(a) != view_samples_per_side(b) ||
-        *t->untraced)
+    tracing state = {.tracer = t, .games = games, .samples = (size_t)a->aa};
+    if (a->width != b->width || a->height != b->height || a->aa != b->aa || *t->untraced)
         return true;
     for (int i = 0; i < 2; i++)
         if (!tick_scene_build(&t->scenes[i], &sides[i].view.view, games[i], &t->histories[i],

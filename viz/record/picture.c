@@ -31,7 +31,7 @@ bool picture_fit(view *v, const octree *tree, const point_values *values, octree
 
 static bool check_samples(const view *v, octreel_error *error)
 {
-    const int samples = view_samples_per_side(v);
+    const int samples = v->aa;
     if (samples != 1 && samples != 2 && samples != 4)
         return error_set(error, "anti-aliasing must be 1, 2 or 4, not %d", samples);
     if (samples == 1 || (v->width <= VIEW_MAX_SIDE / samples && v->height <= VIEW_MAX_SIDE / samples))
@@ -45,7 +45,7 @@ static bool check_samples(const view *v, octreel_error *error)
 
 static bool create_images(picture *p, const view *v)
 {
-    const int samples = view_samples_per_side(v);
+    const int samples = v->aa;
     const bool rgb = view_is_rgb(v);
     image *drawn = rgb ? &p->samples : &p->frame;
     if (!image_create(drawn, v->width * samples, v->height * samples, 1) ||
@@ -60,8 +60,7 @@ bool picture_open(picture *p, const view *v, const renderer_choice *choice, octr
     *p = (picture){0};
     if (!check_samples(v, error))
         return false;
-    p->renderer =
-        renderer_open(v->width * view_samples_per_side(v), v->height * view_samples_per_side(v), choice, error);
+    p->renderer = renderer_open(v->width * v->aa, v->height * v->aa, choice, error);
     if (!p->renderer)
         return false;
     if (create_images(p, v))
@@ -86,7 +85,7 @@ image *picture_samples(picture *p)
 bool picture_finish(picture *p, const scene *s, octreel_error *error)
 {
     return !p->samples.pixels ||
-           image_shrink(&p->samples, renderer_sample_colors(p->renderer), view_samples_per_side(&s->view), &p->frame) ||
+           image_shrink(&p->samples, renderer_sample_colors(p->renderer), s->view.aa, &p->frame) ||
            error_set(error, "the scene's anti-aliasing is not the picture's");
 }
 

@@ -100,7 +100,7 @@ static void find_nearest(pick *p, const uint32_t *numbers, size_t samples)
 
 static bool move_to_nearest(pick *p, renderer *r, const scene *s, octreel_error *error)
 {
-    const size_t samples = (size_t)view_samples_per_side(&s->view);
+    const size_t samples = (size_t)s->view.aa;
     uint32_t *numbers = malloc((size_t)p->width * (size_t)p->height * samples * samples * sizeof *numbers);
     bool ok = numbers || error_no_memory(error);
     ok = ok && renderer_find_element_numbers(r, s, numbers, error);
@@ -144,7 +144,7 @@ static bool name_elements(pick *p, renderer *r, const playback *from, octreel_er
 
 bool pick_scene(pick *p, const playback *from, renderer *r, octreel_error *error)
 {
-    const int samples = view_samples_per_side(&from->view);
+    const int samples = from->view.aa;
     p->samples = samples * samples;
     if (!name_elements(p, r, from, error))
         return false;

@@ -113,7 +113,7 @@ typedef struct view {
     bool labels;     /* write the paths of nodes on their boxes */
     bool closeup;    /* enlarge a small region in a part of the picture; compose/closeup_course.h chooses the region */
     double lod;      /* in pixels: leave out smaller boxes of nodes if an ancestor's box is drawn; 0: leave out none */
-    int aa;          /* samples per pixel on each axis: 1, 2 or 4; 0 means 1 */
+    int aa;          /* samples per pixel on each axis: 1, 2 or 4 */
     uint64_t budget; /* the most boxes of nodes (for each tree) and the most points in a frame; a thousandth of it is
                         the most velocity arrows; 0: no limits */
 } view;
@@ -135,16 +135,10 @@ static inline bool view_paints_points(const view *v)
     return v->point_color != POINTS_BY_PLAIN || v->shade != SHADE_BANDS;
 }
 
-/* Returns the number of samples per pixel on each axis. */
-static inline int view_samples_per_side(const view *v)
-{
-    return v->aa > 1 ? v->aa : 1;
-}
-
 /* True if frames are RGB, because they need colours that are not in the theme's table. */
 static inline bool view_is_rgb(const view *v)
 {
-    return view_samples_per_side(v) > 1 || view_paints_points(v);
+    return v->aa > 1 || view_paints_points(v);
 }
 
 /* Returns the name or the description of the n-th value of an enumeration; null if n is beyond the last value. */

@@ -31,13 +31,13 @@ renderer *open_gl_renderer(int width, int height)
 
 renderer *open_renderer_for(const scene *s)
 {
-    const int samples = view_samples_per_side(&s->view);
+    const int samples = s->view.aa;
     return open_renderer(s->view.width * samples, s->view.height * samples);
 }
 
 size_t frame_samples(const scene *s)
 {
-    const size_t samples = (size_t)view_samples_per_side(&s->view);
+    const size_t samples = (size_t)s->view.aa;
     return (size_t)s->view.width * (size_t)s->view.height * samples * samples;
 }
 

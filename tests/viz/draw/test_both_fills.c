@@ -19,7 +19,7 @@ typedef struct both {
 
 static both open_both(const view *v)
 {
-    const int samples = view_samples_per_side(v);
+    const int samples = v->aa;
     return (both){open_renderer(v->width * samples, v->height * samples),
                   open_gl_renderer(v->width * samples, v->height * samples)};
 }
@@ -33,7 +33,7 @@ static void close_both(both *b)
 static void assert_drawn_alike(const both *b, const scene *s)
 {
     uint8_t *one = draw(b->integers, s), *other = draw(b->gl, s);
-    const size_t width = (size_t)s->view.width * (size_t)view_samples_per_side(&s->view);
+    const size_t width = (size_t)s->view.width * (size_t)s->view.aa;
     for (size_t i = 0; i < frame_samples(s); i++)
         if (one[i] != other[i])
             fail_msg("sample %zu %zu is %d by integers, %d by GL", i % width, i / width, one[i], other[i]);

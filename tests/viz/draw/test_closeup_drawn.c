@@ -32,7 +32,7 @@ static scene close_scene(view_camera camera, int aa, int ticks)
 static uint8_t *drawn_by(const scene *s, draw_fill fill)
 {
     octreel_error error = {""};
-    const int samples = view_samples_per_side(&s->view);
+    const int samples = s->view.aa;
     renderer *r =
         renderer_open(s->view.width * samples, s->view.height * samples, &(renderer_choice){.fill = fill}, &error);
     uint8_t *indices = malloc(frame_samples(s));
@@ -47,7 +47,7 @@ static void close_up_draws_its_scene_and_changes_no_other_pixel(void **state)
     (void)state;
     for (int i = 0; i < 8; i++) {
         scene s = close_scene(i % 2 ? CAMERA_FOLLOW : CAMERA_ISO, i / 2 % 2 + 1, i / 4 ? 219 : 30);
-        const size_t side = (size_t)view_samples_per_side(&s.view), width = (size_t)s.view.width * side;
+        const size_t side = (size_t)s.view.aa, width = (size_t)s.view.width * side;
         const size_t own = (size_t)s.closeup->view.width * side, rows = (size_t)s.closeup->view.height * side;
         const size_t left = (size_t)s.closeup->place[0] * side, top = (size_t)s.closeup->place[1] * side;
         uint8_t *whole = drawn_by(&s, DRAW_FILL_INTEGERS), *gl = drawn_by(&s, DRAW_FILL_GL);

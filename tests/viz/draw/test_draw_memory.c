@@ -44,7 +44,7 @@ static bool ask_it(renderer *r, const scene *s, void *bytes, octreel_error *erro
 static renderer *open_memory(const scene *s)
 {
     octreel_error error;
-    const int samples = view_samples_per_side(&s->view);
+    const int samples = s->view.aa;
     renderer *r = renderer_open(s->view.width * samples, s->view.height * samples, &(renderer_choice){0}, &error);
     assert_non_null(r);
     return r;

@@ -39,7 +39,7 @@ static scene layered_scene(view_camera camera, int aa)
 /* The pixel of a sample. */
 static size_t pixel_of_sample(const scene *s, size_t sample)
 {
-    const size_t side = (size_t)view_samples_per_side(&s->view), width = (size_t)s->view.width * side;
+    const size_t side = (size_t)s->view.aa, width = (size_t)s->view.width * side;
     return sample / width / side * (size_t)s->view.width + sample % width / side;
 }
 

@@ -43,7 +43,7 @@ static int place_of(const scene *s, const draw_covers *list, scene_kind kind, si
 /* The number of samples of a pixel at which renderer_find_element_numbers() returns this number. */
 static int picked(const scene *s, const uint32_t *numbers, int x, int y, uint32_t number)
 {
-    const int samples = view_samples_per_side(&s->view), width = s->view.width * samples;
+    const int samples = s->view.aa, width = s->view.width * samples;
     int count = 0;
     for (int i = 0; i < samples * samples; i++)
         count += numbers[(y * samples + i / samples) * width + x * samples + i % samples] == number;
@@ -53,7 +53,7 @@ static int picked(const scene *s, const uint32_t *numbers, int x, int y, uint32_
 static void check_pixel(renderer *r, const scene *s, const uint32_t *numbers, int x, int y)
 {
     draw_covers list = touches_at(r, s, x, y);
-    const int samples = view_samples_per_side(&s->view);
+    const int samples = s->view.aa;
     int shown = 0;
     for (size_t i = 0; i < list.count; i++) {
         const draw_cover *touch = &list.items[i];
@@ -76,7 +76,7 @@ static void element_at_a_pixel_equals_that_of_the_whole_picture(void **state)
         if (!golden_scene(&golden_frames[i], &s, &failed))
             fail_msg("%s", failed.text);
         renderer *r = open_renderer_for(&s);
-        const int samples = view_samples_per_side(&s.view), size = s.view.width * s.view.height * samples * samples;
+        const int samples = s.view.aa, size = s.view.width * s.view.height * samples * samples;
         uint32_t *numbers = malloc((size_t)size * sizeof *numbers);
         assert_true(renderer_find_element_numbers(r, &s, numbers, &error));
         for (int lit = 0, tries = 0; lit < 12 && tries < 4000; tries++) {

@@ -57,7 +57,7 @@ static void release(lit *l, scene *s)
 
 static theme_color color_at(const lit *l, const scene *s, int x, int y)
 {
-    const size_t i = (size_t)y * (size_t)(s->view.width * view_samples_per_side(&s->view)) + (size_t)x;
+    const size_t i = (size_t)y * (size_t)(s->view.width * s->view.aa) + (size_t)x;
     const uint8_t *own = renderer_sample_colors(l->renderer) + 3 * i;
     assert_int_equal(l->indices[i], THEME_OWN);
     return (theme_color){own[0], own[1], own[2]};

@@ -37,7 +37,7 @@ static mask cover_text(const scene *s)
 static void check_scene(scene *s)
 {
     const mask m = cover_text(s);
-    const size_t side = (size_t)view_samples_per_side(&s->view), width = (size_t)m.width * side;
+    const size_t side = (size_t)s->view.aa, width = (size_t)m.width * side;
     uint8_t *with = draw_once(s);
     s->labels.count = s->panels.count = 0;
     uint8_t *without = draw_once(s);

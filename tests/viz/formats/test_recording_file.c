@@ -76,7 +76,7 @@ static void assert_same_view(const view *a, const view *b)
     assert_true(a->width == b->width && a->height == b->height && a->camera == b->camera && a->layers == b->layers);
     assert_true(a->coloring == b->coloring && a->diagram == b->diagram && a->fit == b->fit);
     assert_true(a->labels == b->labels && a->closeup == b->closeup && a->lod == b->lod && a->budget == b->budget &&
-                view_samples_per_side(a) == view_samples_per_side(b));
+                a->aa == b->aa);
     assert_true(a->point_color == b->point_color && a->shade == b->shade);
     assert_int_equal(a->point_scale.given, b->point_scale.given);
     assert_memory_equal(&a->point_scale.of, &b->point_scale.of, sizeof a->point_scale.of);

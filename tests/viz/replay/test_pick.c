@@ -231,7 +231,7 @@ static void check_places_of_boxes(const scene *s)
 {
     renderer *r = open_renderer_for(s);
     uint32_t *numbers = pick(r, s);
-    const size_t samples = (size_t)view_samples_per_side(&s->view), width = (size_t)s->view.width * samples;
+    const size_t samples = (size_t)s->view.aa, width = (size_t)s->view.width * samples;
     size_t boxes = 0;
     for (size_t at = 0; at < frame_samples(s); at++) {
         const scene_element element =

@@ -206,8 +206,7 @@ bool web_view(size_t recording)
     uint64_t every;
     if (!recording_parse("the view", page.room, recording, &v, &every, &page.error) || !fit_view(&v))
         return fail();
-    if (v.width != now->width || v.height != now->height || view_samples_per_side(&v) != view_samples_per_side(now) ||
-        view_is_rgb(&v) != view_is_rgb(now)) {
+    if (v.width != now->width || v.height != now->height || v.aa != now->aa || view_is_rgb(&v) != view_is_rgb(now)) {
         picture_close(&page.playback.picture);
         free(page.rgba);
         page.rgba = NULL;
