@@ -357,7 +357,8 @@ bool session_write(const octree_session *session, const point_values *values, FI
             if (count > 0)
                 *list = (json_counted_array){get_item(list, i, count), list->count - count};
         }
-        const octree_input input = session_collect_input(&now);
+        const octree_input input = /* a gap is written alone, because the game plays no other input of its tick */
+            now.gap_count ? (octree_input){.gap = now.gaps} : session_collect_input(&now);
         session_write_tick(tick, &input, values, out);
     }
     return fflush(out) == 0 && !ferror(out);

@@ -398,6 +398,26 @@ static void gaps_survive_the_round_trip(void **state)
     session_release(&copy);
 }
 
+/* The game plays no other input of a gap's tick, and a reader refuses it. */
+static void gaps_are_written_without_other_input_of_their_tick(void **state)
+{
+    octree_gap gap = {2, "lost"};
+    const octree_edit edits[] = {{.tick = 2, .kind = OCTREE_EDIT_REMOVE, .body.id = 1},
+                                 {.tick = 3, .kind = OCTREE_EDIT_REMOVE, .body.id = 2}};
+    octree_session session = octree_session_default();
+    (void)state;
+    session.gaps = &gap;
+    session.gap_count = 1;
+    session.edits = edits;
+    session.edit_count = 2;
+    char *text = text_of_session(&session, NULL);
+    assert_non_null(strstr(text, "\n{\"tick\": 2, \"gap\": \"lost\"}\n{\"tick\": 3, \"edits\": [{\"remove\": 2}]}\n"));
+    session_file copy = session_of_text(text);
+    assert_int_equal(copy.session.edit_count, 1);
+    session_release(&copy);
+    free(text);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -417,6 +437,7 @@ int main(void)
         cmocka_unit_test(keys_are_replaced),
         cmocka_unit_test(unknown_keys_are_refused_and_change_nothing),
         cmocka_unit_test(gaps_survive_the_round_trip),
+        cmocka_unit_test(gaps_are_written_without_other_input_of_their_tick),
     };
     return cmocka_run_group_tests_name("session_write", tests, NULL, NULL);
 }
