@@ -177,28 +177,25 @@ const json_member session_body_members[] = {
     {0},
 };
 
-typedef bool value_setter(json_reader *r, const json_place *at, uint64_t id, const point_value *value);
-
-static bool read_body_with_values(json_reader *r, json_t *value, const json_place *at, value_setter *set_value,
-                                  octree_body *body)
+static bool read_body_with_values(json_reader *r, json_t *value, const json_place *at, bool inserted, octree_body *body)
 {
     valued_body valued = {.body = *body};
     if (!json_read_members(r, value, at, session_body_members, &valued))
         return false;
+    if (inserted && !json_object_get(value, "id"))
+        return json_fail(r, at, "the member \"id\" is missing");
     *body = valued.body;
-    return set_value(r, at, body->id, &valued.value);
+    return (inserted ? set_inserted_value : session_set_value)(r, at, body->id, &valued.value);
 }
 
 static bool read_body(json_reader *r, json_t *value, const json_place *at, void *into)
 {
-    return read_body_with_values(r, value, at, session_set_value, into);
+    return read_body_with_values(r, value, at, false, into);
 }
 
 static bool read_inserted_body(json_reader *r, json_t *value, const json_place *at, void *into)
 {
-    if (json_is_object(value) && !json_object_get(value, "id"))
-        return json_fail(r, at, "the member \"id\" is missing");
-    return read_body_with_values(r, value, at, set_inserted_value, into);
+    return read_body_with_values(r, value, at, true, into);
 }
 
 static void write_body(json_writer *w, const void *from)

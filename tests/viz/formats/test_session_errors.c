@@ -328,6 +328,8 @@ static void bad_ticks_are_refused(void **state)
          "3: edits[0].move: unknown member \"velocity\"; known: id, position"},
         {START "{\"tick\":1,\"edits\":[{\"insert\":{\"position\":[1,2,3]}}]}",
          "3: edits[0].insert: the member \"id\" is missing"},
+        {START "{\"tick\":1,\"edits\":[{\"insert\":{\"idd\":7,\"position\":[1,2,3]}}]}",
+         "3: edits[0].insert: unknown member \"idd\", did you mean id?"},
         {START "{\"tick\":1,\"edits\":[{\"remove\":\"all\"}]}",
          "3: edits[0].remove: expected a whole number from 0 to"},
         {START "{\"tick\":1,\"queries\":[{\"rnge\":1}]}",
