@@ -292,6 +292,8 @@ void contents_give_changes(contents *c, batch *b)
 
 void contents_take_changes(contents *c, batch *b)
 {
+    if (b->change_count == 0) /* contents_give_changes() left the list here */
+        return;
     c->changes = b->changes;
     c->change_count = c->change_room = b->change_count;
     b->changes = NULL;
