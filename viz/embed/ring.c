@@ -77,17 +77,19 @@ losses ring_losses(const ring *r, uint64_t *ticks)
     return lost;
 }
 
-/* Give the first tick an insertion for each point at the start. Returns false if memory runs out. */
+/* Give the first tick an insertion for each point at the start, sorted by id. Returns false if memory runs out. */
 static bool add_insertions(const ring *r)
 {
+    const points none = {0};
+    points start = {0}, spare = {0};
     batch *first = r->list.first;
     first->changes = malloc((r->start.count + 1) * sizeof *first->changes);
-    for (size_t slot = 0; first->changes && slot < r->start.size; slot++) {
-        const octree_point *point = &r->start.slots[slot];
-        if (point->id != UINT64_MAX)
-            change_make(point->id, NULL, point->position, &first->changes[first->change_count++]);
-    }
-    return first->changes;
+    const bool ok = first->changes && point_table_list(&r->start, &start, &spare);
+    if (ok)
+        first->change_count = changes_between(&none, &start, first->changes);
+    points_release(&start);
+    points_release(&spare);
+    return ok;
 }
 
 static octreel_status film_list(const ring *r, const filmer_settings *s, const char *folder, octreel_error *error)
