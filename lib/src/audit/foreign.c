@@ -233,18 +233,17 @@ static void sum_points_below(foreign *f)
         }
 }
 
-octree_status foreign_set_nodes(foreign *f, const octree_foreign_tree *tree)
+bool foreign_set_nodes(foreign *f, const octree_foreign_tree *tree)
 {
     octree_foreign_state *state = &f->state;
     size_t fault;
     arena_free(f->memory, f->nodes, f->size);
     f->places.count = f->keys.count = f->marks.count = f->visits.count = 0;
     if (!copy_nodes(f, tree))
-        return OCTREE_NO_MEMORY;
+        return false;
     const octree_foreign_tree copy = {.nodes = f->nodes, .node_count = tree->node_count};
-    const octree_status status = index_nodes(f->memory, &copy, &f->places, &f->keys, &fault);
-    if (status != OCTREE_OK)
-        return status;
+    if (index_nodes(f->memory, &copy, &f->places, &f->keys, &fault) != OCTREE_OK)
+        return false;
     state->given = state->fresh = true;
     state->digest = OCTREE_DIGEST_START;
     state->leaf_count = state->depth = 0;
@@ -254,13 +253,13 @@ octree_status foreign_set_nodes(foreign *f, const octree_foreign_tree *tree)
         places[i].kind = i ? places[i - 1].kind : 0;
         if (!find_node_kind(f, &places[i]) ||
             !list_push(f->memory, &f->marks, &(foreign_mark){.query = 0}, sizeof(foreign_mark)))
-            return OCTREE_NO_MEMORY;
+            return false;
         state->digest = digest_foreign_node(state->digest, places[i].node);
         state->leaf_count += places[i].leaf;
         state->depth = places[i].depth > state->depth ? places[i].depth : state->depth;
     }
     sum_points_below(f);
-    return OCTREE_OK;
+    return true;
 }
 
 void foreign_release(foreign *f)

@@ -59,8 +59,9 @@ typedef struct foreign {
     bool checked;
 } foreign;
 
-/* Copy nodes and make the copies the current nodes. Returns OK, NO_MEMORY, or an error of octree_foreign_check(). */
-octree_status foreign_set_nodes(foreign *f, const octree_foreign_tree *tree);
+/* Copy nodes that octree_foreign_check() accepts, and make the copies the current nodes. False when there is no memory.
+ */
+bool foreign_set_nodes(foreign *f, const octree_foreign_tree *tree);
 void foreign_release(foreign *f);
 
 /* The index of the node that has an id; SIZE_MAX if no node has it. */

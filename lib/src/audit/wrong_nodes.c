@@ -343,8 +343,9 @@ static size_t find_pruned_ancestor(const foreign *f, size_t place)
 static size_t next_holder(const foreign *f, const octree_point *point, size_t *at)
 {
     const foreign_holding *items = f->holdings.items;
-    if (is_listed(f, point->id)) {
-        const size_t i = foreign_first_holding(f, point->id) + (*at)++;
+    const size_t first = foreign_first_holding(f, point->id);
+    if (first < f->holdings.count && items[first].id == point->id) {
+        const size_t i = first + (*at)++;
         return i < f->holdings.count && items[i].id == point->id ? items[i].place : SIZE_MAX;
     }
     for (const octree_foreign_place *places = places_of(f); *at < f->places.count; ++*at)

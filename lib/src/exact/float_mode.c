@@ -3,6 +3,10 @@
  */
 #include "float_mode.h"
 
+/* True while a public function that changed the thread's mode is running. A thread has at most one such function: inner
+ * calls find the default mode, and `changed` is false while a caller's function runs. */
+static _Thread_local bool changed;
+
 /* ---- The control register ------------------------------------------------------------------------------------ */
 
 #if defined(__SSE2__)
@@ -62,14 +66,20 @@ static void write_default(void)
 {
     fesetenv(FE_DFL_ENV);
 }
+
+/* Test the mode by its effect on some operations. The operands are volatile, so that the compiler does not fold the
+ * operations. A mode that fesetenv() could not change counts as the default, because nothing more can be done. */
+bool float_mode_is_default(void)
+{
+    static const volatile double one = 1, half_ulp = 0x1p-53, more = 0x1.8p-53, least = 0x1p-1074, normal = 0x1p-1022;
+    const bool nearest = one + half_ulp == one && -one - half_ulp == -one && one + more > one && -one - more < -one;
+    return changed || (nearest && least + least > 0 && normal * 0.5 > 0);
+}
 #endif
 
 /* ---- The caller's mode --------------------------------------------------------------------------------------- */
 
-/* The state of the public function that changed the thread's mode; `changed` is true while there is one. A thread has
- * at most one such function: inner calls find the default mode, and while a caller's function runs `changed` is false.
- */
-static _Thread_local bool changed;
+/* The mode to restore, while `changed` is true. */
 static _Thread_local float_control caller_control;
 
 void float_mode_enter(void)
@@ -98,17 +108,6 @@ void float_mode_resume(bool paused)
     if (paused)
         float_mode_enter();
 }
-
-#if !defined(__SSE2__) && !(defined(__aarch64__) && defined(__GNUC__))
-/* Test the mode by its effect on some operations. The operands are volatile, so that the compiler does not fold the
- * operations. A mode that fesetenv() could not change counts as the default, because nothing more can be done. */
-bool float_mode_is_default(void)
-{
-    static const volatile double one = 1, half_ulp = 0x1p-53, more = 0x1.8p-53, least = 0x1p-1074, normal = 0x1p-1022;
-    const bool nearest = one + half_ulp == one && -one - half_ulp == -one && one + more > one && -one - more < -one;
-    return changed || (nearest && least + least > 0 && normal * 0.5 > 0);
-}
-#endif
 
 /* ---- The caller's functions ---------------------------------------------------------------------------------- */
 

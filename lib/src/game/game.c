@@ -213,9 +213,8 @@ audited_points game_audited_points(const octree_game *game)
 static bool check_foreign_nodes(octree_game *game, const octree_foreign_tree *replacement)
 {
     const audited_points points = game_audited_points(game);
-    if (replacement && foreign_set_nodes(&game->foreign, replacement) != OCTREE_OK)
-        return false;
-    return foreign_check_nodes(&game->foreign, &points);
+    return (!replacement || foreign_set_nodes(&game->foreign, replacement)) &&
+           foreign_check_nodes(&game->foreign, &points);
 }
 
 /* Check the foreign nodes. Then ask the queries and list the shapes: those of the tick first, then those of every tick.

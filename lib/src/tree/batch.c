@@ -15,7 +15,6 @@
  * the changes, plan.c makes them. Cost: O(count) radix passes and one visit per leaf.
  */
 #include "division.h"
-#include "float_rules.h"
 #include "grid_fill.h"
 
 #include <string.h>

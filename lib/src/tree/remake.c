@@ -13,8 +13,8 @@
  * or is stored twice, moves depend on one another; the function gives up and move_order.c simulates them. Cost:
  * O(n) with 90 to 140 bytes a point while it runs.
  */
-#include "division.h"
 #include "grid_fill.h"
+#include "tasks.h"
 
 #include <stdatomic.h>
 #include <string.h>

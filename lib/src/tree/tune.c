@@ -245,7 +245,7 @@ static octree_status choose_by_sample(octree *tree, const octree_mix *mix, size_
     /* a visit of `tree`, because its executor runs tasks of the trial trees */
     const unsigned begun = begin_visit(tree);
     s.neighbors = arena_allocate(memory, size);
-    const bool ok = make_sample(&s, tree) && s.neighbors;
+    const bool ok = s.neighbors && make_sample(&s, tree);
     const octree_status status = ok ? choose_capacity(&s, tree->def, capacity) : OCTREE_NO_MEMORY;
     end_visit(begun);
     arena_free(memory, s.neighbors, size);
