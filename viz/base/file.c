@@ -58,14 +58,18 @@ bool file_has_ending(const char *name, const char *endings)
     return false;
 }
 
-/* The path is built in a buffer on the stack. With malloc(), lack of memory would look like a missing file. The
- * system refuses paths of PATH_MAX or more bytes, so no file has a longer path. */
+bool path_print(const char *folder, const char *name, char path[PATH_MAX])
+{
+    const int length = snprintf(path, PATH_MAX, "%s%s%s", folder, separator_after(folder), name);
+    return length >= 0 && length < PATH_MAX;
+}
+
+/* The path is built in a buffer on the stack. With malloc(), lack of memory would look like a missing file. */
 bool folder_contains(const char *folder, const char *name)
 {
     char path[PATH_MAX];
-    const int length = snprintf(path, sizeof path, "%s%s%s", folder, separator_after(folder), name);
     struct stat status;
-    return length >= 0 && (size_t)length < sizeof path && stat(path, &status) == 0;
+    return path_print(folder, name, path) && stat(path, &status) == 0;
 }
 
 static int is_listed(const struct dirent *entry)

@@ -5,6 +5,7 @@
 
 #include "error.h"
 
+#include <limits.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -13,6 +14,9 @@
 /* Returns "folder/name". For the folder "", which is the current folder, returns only the name. The caller frees the
  * path. Returns null if memory runs out. */
 char *path_join(const char *folder, const char *name);
+
+/* Print the same path into a buffer. Returns false if it has PATH_MAX or more bytes, which the system would refuse. */
+bool path_print(const char *folder, const char *name, char path[PATH_MAX]);
 
 /* Returns the folder that contains a path: "a" for "a/b" and "a/b/", "." for "b". The caller frees it. Returns null
  * if memory runs out. */

@@ -48,8 +48,8 @@ bool frame_is_name_of_recording(const char *name, uint64_t ticks, uint64_t every
 static bool print_frame_path(const char *folder, uint64_t tick, char path[PATH_MAX], octreel_error *error)
 {
     char name[FRAME_NAME];
-    const int length = snprintf(path, PATH_MAX, "%s%s%s", folder, *folder ? "/" : "", frame_print_name(tick, name));
-    return (length >= 0 && length < PATH_MAX) || error_set(error, "%s: the path is too long", folder);
+    return path_print(folder, frame_print_name(tick, name), path) ||
+           error_set(error, "%s: the path is too long", folder);
 }
 
 bool frame_write(const char *folder, const image *picture, const frame_origin *origin, octreel_error *error)
