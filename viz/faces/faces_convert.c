@@ -146,9 +146,11 @@ int main(int argc, char **argv)
 {
     static font f;
     static face faces[MOST_FACES];
-    FILE *out = argc > 2 && argc - 2 <= MOST_FACES ? fopen(argv[1], "w") : NULL;
+    if (argc < 3 || argc - 2 > MOST_FACES)
+        stop("arguments:", "expected an output file and 1 to 16 fonts");
+    FILE *out = fopen(argv[1], "w");
     if (!out)
-        stop(argc > 1 ? argv[1] : "", "cannot be written");
+        stop(argv[1], "cannot be written");
     fprintf(out, "/* Made by faces_convert of the fonts of Spleen; see viz/THIRD-PARTY. */\n#include \"glyphs.h\"\n\n");
     for (int i = 0; i < argc - 2; i++) {
         read_font(&f, argv[i + 2]);
