@@ -44,7 +44,7 @@ typedef void (*context_function)(void);
 /* The members that all kinds of contexts have. It is the first member of the struct of each kind. */
 typedef struct context context;
 struct context {
-    const char *name;
+    draw_context kind;
     void *library; /* handle of the loaded library, set by context_create() */
 
     /* Make the context current, even if its library reports that it is current already: contexts of different kinds

@@ -114,7 +114,7 @@ static bool open_mesa(egl_context *c, bool any_renderer)
 context *context_egl_open(const renderer_choice *choice, octreel_error *error)
 {
     static const context face = {
-        .name = "egl", .make_current = make_current, .find_function = find_function, .close = close_context};
+        .kind = DRAW_EGL, .make_current = make_current, .find_function = find_function, .close = close_context};
     egl_context *c = context_create(&face, sizeof *c, (const char *const[]){"libEGL.so.1", "libEGL.so"},
                                     "EGL, the off-screen renderer, cannot be loaded (Debian: libegl1)", error);
     if (!c)

@@ -57,7 +57,7 @@ context *context_osmesa_open(const renderer_choice *choice, octreel_error *error
 {
     (void)choice; /* OSMesa always draws with the CPU */
     static const context face = {
-        .name = "osmesa", .make_current = make_current, .find_function = find_function, .close = close_context};
+        .kind = DRAW_OSMESA, .make_current = make_current, .find_function = find_function, .close = close_context};
     osmesa_context *c = context_create(&face, sizeof *c, (const char *const[]){"libOSMesa.so.8", "libOSMesa.so"},
                                        "OSMesa, the off-screen renderer, cannot be loaded (Debian: libosmesa6)", error);
     if (!c)

@@ -57,7 +57,7 @@ static bool load_gl_functions(gl *functions, const context *c, octreel_error *er
         missing = "gl" #name;
     GL_FUNCTIONS(GL_LOOK_UP)
 #undef GL_LOOK_UP
-    return !missing || error_set(error, "the %s context has no %s", c->name, missing);
+    return !missing || error_set(error, "the %s context has no %s", draw_context_name(c->kind), missing);
 }
 
 #define BATCH 8192 /* the most quads in one draw call */
@@ -87,7 +87,7 @@ static bool check_driver(gl_surface *s, bool any, octreel_error *error)
     return error_set(error,
                      "the %s context draws with \"%.60s\"; only llvmpipe draws the same frames on every machine (is "
                      "GALLIUM_DRIVER set?)",
-                     s->context->name, name ? name : "nothing");
+                     draw_context_name(s->context->kind), name ? name : "nothing");
 }
 
 static bool make_framebuffer(gl_surface *s, octreel_error *error)
@@ -106,8 +106,8 @@ static bool make_framebuffer(gl_surface *s, octreel_error *error)
     if (s->side <= limits[0] && s->side <= limits[1] && s->width <= largest && s->height <= largest &&
         gl->CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE && gl->GetError() == GL_NO_ERROR)
         return true;
-    return error_set(error, "the %s context gives no framebuffer of %d x %d pixels", s->context->name, s->width,
-                     s->height);
+    return error_set(error, "the %s context gives no framebuffer of %d x %d pixels",
+                     draw_context_name(s->context->kind), s->width, s->height);
 }
 
 /* Set, once, all GL state on which frames depend. */
@@ -176,7 +176,8 @@ static renderer_info describe_surface(surface *face)
     gl_surface *s = (gl_surface *)face;
     s->context->make_current(s->context); /* glGetString() describes the current context */
     return (renderer_info){
-        .context = s->context->name,
+        .kind = s->context->kind,
+        .context = draw_context_name(s->context->kind),
         .vendor = (const char *)s->gl.GetString(GL_VENDOR),
         .renderer = (const char *)s->gl.GetString(GL_RENDERER),
         .version = (const char *)s->gl.GetString(GL_VERSION),

@@ -5,7 +5,6 @@
 #include "letters.h"
 #include "stroke.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

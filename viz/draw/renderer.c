@@ -2,7 +2,6 @@
 /* renderer.c - draws scenes as indices of colours, with the integer rasterizer or with GL (gl_surface.c). */
 #include "renderer.h"
 #include "fill.h"
-#include "json_table.h"
 #include "paint.h"
 
 #include <stdlib.h>
@@ -116,7 +115,7 @@ bool renderer_redraw_with_gl(renderer *r, uint8_t *indices, draw_context *by, oc
     const quad_list *last = &r->canvas.last;
     if (!r->surface && !(r->surface = surface_open(r->width, r->height, &r->choice, error)))
         return false;
-    *by = (draw_context)json_find_name(draw_context_name, r->surface->about(r->surface).context);
+    *by = r->surface->about(r->surface).kind;
     return r->surface->fill(r->surface, last->items, last->count, all, indices, error);
 }
 

@@ -18,9 +18,10 @@ const char *draw_fill_name(int fill);
 
 /* The rasterizer that draws, and its GL context. The strings are valid while the renderer is open. */
 typedef struct renderer_info {
-    const char *context;                     /* "osmesa" or "egl" */
+    draw_context kind;                       /* the kind of GL context; DRAW_AUTO without GL */
+    const char *context;                     /* its name: "osmesa" or "egl" */
     const char *vendor, *renderer, *version; /* the strings of glGetString() */
-    const char *fill; /* the rasterizer: "integers" or "gl"; with "integers" all other members are null */
+    const char *fill; /* the rasterizer: "integers" or "gl"; with "integers" all other texts are null */
 } renderer_info;
 
 /* Open a renderer of this size in samples. Null with an error if a side is outside 1..VIEW_MAX_SIDE, if memory runs
