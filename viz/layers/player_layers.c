@@ -69,8 +69,8 @@ static void add_swept_paths(scene *s, const octree_tick *tick, double box_size, 
     const octree_box start = box_around(tick->from, box_size), end = box_around(tick->attempt, box_size);
     double from[3], to[3];
     for (unsigned corner = 0; corner < CORNERS; corner++) {
-        scene_box_corner(&start, corner, from);
-        scene_box_corner(&end, corner, to);
+        box_corner(&start, corner, from);
+        box_corner(&end, corner, to);
         add_path_line(s, CROSS_LINES + corner, from, to, style);
     }
     for (size_t i = 0; i < tick->hit_count; i++)

@@ -6,7 +6,6 @@
 #include "number.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #define TICK_SPACE                                                                                                     \
@@ -155,7 +154,7 @@ static void add_tick(axes *a, const axis_edge *e, double at, uint64_t id)
     scene *s = a->scene;
     double ends[2][3];
     const double length = TICK_LENGTH * longest_side(s);
-    scene_box_corner(a->box, e->corner, ends[0]);
+    box_corner(a->box, e->corner, ends[0]);
     for (int i = 0; i < 3; i++)
         ends[1][i] = ends[0][i] + (e->corner >> i & 1 ? length : -length);
     ends[0][e->axis] = ends[1][e->axis] = at;
@@ -200,8 +199,8 @@ static void add_axis(axes *a, const axis_edge *e, bool drawn)
 {
     scene_label letter = scene_make_label((uint64_t)e->axis, axis_style, "%c", "xyz"[e->axis]);
     double ends[2][3];
-    scene_box_corner(a->box, e->corner, ends[0]);
-    scene_box_corner(a->box, e->corner | 1u << e->axis, ends[1]);
+    box_corner(a->box, e->corner, ends[0]);
+    box_corner(a->box, e->corner | 1u << e->axis, ends[1]);
     if (drawn)
         scene_add_line(a->scene, (uint64_t)e->axis, ends[0], ends[1], axis_style);
     if (is_end_on(a, e))
@@ -223,7 +222,7 @@ static void add_axes(scene *s, const octree_box *world)
     axis_edge edges[3];
     for (unsigned i = 0; i < 8; i++) {
         double at[3];
-        scene_box_corner(a.box, i, at);
+        box_corner(a.box, i, at);
         a.whole &= camera_find_pixel(&s->camera, at, a.corners[i]);
     }
     for (int axis = 0; axis < 3; axis++) {

@@ -222,8 +222,7 @@ double camera_box_size_in_pixels(const camera *c, const octree_box *box)
         return parallel_box_pixels(c, box);
     for (unsigned corner = 0; corner < 8; corner++) {
         double position[3], seen[3], pixel[2];
-        for (int i = 0; i < 3; i++)
-            position[i] = corner >> i & 1 ? box->max[i] : box->min[i];
+        box_corner(box, corner, position);
         camera_transform(c, position, seen);
         if (!(seen[2] >= c->near))
             return INFINITY;

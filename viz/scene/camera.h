@@ -111,4 +111,11 @@ void camera_fit_points(view *v, const octree *tree);
 /* Compute the cosine and sine of an angle in turns, from polynomials, so that every machine gets the same bits. */
 void camera_compute_cosine_sine(double turns, double *cosine, double *sine);
 
+/* Compute the position of a corner of a box. Bit i of the corner's number is set at the upper end of axis i. */
+static inline void box_corner(const octree_box *box, unsigned corner, double position[3])
+{
+    for (unsigned i = 0; i < 3; i++)
+        position[i] = corner >> i & 1 ? box->max[i] : box->min[i];
+}
+
 #endif

@@ -130,12 +130,6 @@ scene busy_scene(int width, int height, view_camera camera)
     return s;
 }
 
-void box_corner(const octree_box *box, unsigned corner, double position[3])
-{
-    for (int axis = 0; axis < 3; axis++)
-        position[axis] = corner >> axis & 1 ? box->max[axis] : box->min[axis];
-}
-
 void pixel_of(const scene *s, const double position[3], double pixel[2])
 {
     double seen[3];

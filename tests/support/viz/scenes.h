@@ -43,9 +43,6 @@ void build_tree(scene *s, const view *v, const octree *tree, const char *title);
 /* Tick 30 of the default session, with all layers and options. */
 scene busy_scene(int width, int height, view_camera camera);
 
-/* Corner 0..7 of a box: bit 0 takes x from its maximum, bit 1 y, bit 2 z. */
-void box_corner(const octree_box *box, unsigned corner, double position[3]);
-
 /* The pixel of a position that is before the camera. */
 void pixel_of(const scene *s, const double position[3], double pixel[2]);
 
