@@ -170,10 +170,10 @@ bool film_tree(const octree *tree, const tree_subject *about, const film_options
         *summary = (film_summary){.frames = 1,
                                   .checks = checks,
                                   .left_out = renderer_left_out_count(p.renderer),
-                                  .over_budget = scene_count_left_out_beyond(&s.tally) != 0,
-                                  .below_lod = scene_count_left_out_small(&s.tally) != 0,
-                                  .beyond = scene_count_left_out_beyond(&s.tally),
-                                  .small = scene_count_left_out_small(&s.tally)};
+                                  .over_budget = scene_kinds_beyond_budget(&s.tally) != 0,
+                                  .below_lod = scene_kinds_below_lod(&s.tally) != 0,
+                                  .beyond = scene_kinds_beyond_budget(&s.tally),
+                                  .small = scene_kinds_below_lod(&s.tally)};
     scene_release(&s);
     picture_close(&p);
     return ok;

@@ -149,8 +149,8 @@ static bool film_frame(playback *p, film_step *step, octreel_error *error)
     frame_origin origin = {.tick = step->tick, .scene = p->extras.scene_digest};
     const bool done = draw_frame(p, &origin, &step->kept, error);
     step->left_out = origin.left_out;
-    step->over_budget = scene_count_left_out_beyond(&p->scene.tally);
-    step->below_lod = scene_count_left_out_small(&p->scene.tally);
+    step->over_budget = scene_kinds_beyond_budget(&p->scene.tally);
+    step->below_lod = scene_kinds_below_lod(&p->scene.tally);
     return done;
 }
 

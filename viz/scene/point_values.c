@@ -3,7 +3,6 @@
 #include "point_values.h"
 #include "array.h"
 
-#include <assert.h>
 #include <string.h>
 
 /* ---- Finding ------------------------------------------------------------------------------------------------ */
@@ -42,7 +41,7 @@ bool point_value_has_any(const point_value *value)
     return kind_bits(value) != 0;
 }
 
-static_assert(sizeof(point_value) == 12, "point_value_equals() compares bytes: no padding");
+_Static_assert(sizeof(point_value) == 12, "point_value_equals() compares bytes: no padding");
 
 bool point_value_equals(const point_value *a, const point_value *b)
 {

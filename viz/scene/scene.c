@@ -153,7 +153,7 @@ void scene_add_rectangle(scene *s, uint64_t id, const int at[2], const int size[
                                      .y = at[1],
                                      .width = size[0],
                                      .height = size[1],
-                                     .style = {.layer = (uint8_t)layer, .role = (uint8_t)role}});
+                                     .style = make_role_style((view_layer)layer, (theme_role)role, STROKE_SOLID, 0)});
 }
 
 void scene_set_view(scene *s, const view *v)

@@ -118,13 +118,13 @@ typedef struct scene_tally {
 enum { LEFT_OUT_NODES = 1, LEFT_OUT_POINTS = 2, LEFT_OUT_ARROWS = 4 };
 
 /* The first function returns the kinds that the view's budget leaves out, the second those that its lod leaves out. */
-static inline unsigned scene_count_left_out_beyond(const scene_tally *tally)
+static inline unsigned scene_kinds_beyond_budget(const scene_tally *tally)
 {
     return (tally->beyond ? LEFT_OUT_NODES : 0u) | (tally->thinned ? LEFT_OUT_POINTS : 0u) |
            (tally->arrows.thinned ? LEFT_OUT_ARROWS : 0u);
 }
 
-static inline unsigned scene_count_left_out_small(const scene_tally *tally)
+static inline unsigned scene_kinds_below_lod(const scene_tally *tally)
 {
     return (tally->small || tally->small_marked ? LEFT_OUT_NODES : 0u) | (tally->arrows.small ? LEFT_OUT_ARROWS : 0u);
 }
@@ -192,13 +192,6 @@ static inline void scene_box_middle(const octree_box *box, double middle[3])
 {
     for (int i = 0; i < 3; i++)
         middle[i] = box->min[i] / 2 + box->max[i] / 2;
-}
-
-/* Compute the position of a corner of a box. Bit i of the corner's number is set at the upper end of axis i. */
-static inline void scene_box_corner(const octree_box *box, unsigned corner, double position[3])
-{
-    for (unsigned i = 0; i < 3; i++)
-        position[i] = corner >> i & 1 ? box->max[i] : box->min[i];
 }
 
 /* ---- Elements ----------------------------------------------------------------------------------------------- */
