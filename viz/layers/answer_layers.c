@@ -122,8 +122,8 @@ static void add_ball(scene *s, const octree_answer *answer, size_t place, view_l
 static void write_radius(pen *p, const octree_answer *answer)
 {
     char radius[NUMBER_TEXT], found[SCENE_TEXT];
-    const size_t taken = (size_t)snprintf(found, sizeof found, "%zu found", answer->count) + DETAIL + 1;
-    format_number_within(answer->radius, taken < (size_t)p->letters ? (size_t)p->letters - taken : 1, radius);
+    const int room = detail_room(p, (size_t)snprintf(found, sizeof found, "%zu found", answer->count));
+    format_number_within(answer->radius, room ? (size_t)room : 1, radius);
     write_row(p, "radius", radius, "%s", found);
 }
 
@@ -221,7 +221,7 @@ static void write_nearest(pen *p, const octree_answer *answer)
     }
     number_format(answer->neighbors[0].distance, 6, distance);
     snprintf(id, sizeof id, "#%" PRIu64, answer->neighbors[0].point.id);
-    const bool fits = DETAIL + strlen(id) + 1 + strlen(distance) + strlen(" away") <= (size_t)p->letters;
+    const bool fits = (int)strlen(id) <= detail_room(p, strlen(distance) + strlen(" away"));
     if (!fits)
         write_row(p, "nearest", "", "%s", id);
     write_row(p, fits ? "nearest" : "", fits ? id : "", "%s away", distance);

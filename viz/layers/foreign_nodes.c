@@ -131,61 +131,51 @@ void add_visited_foreign_nodes(scene *s, const layer_source *in, scene_style sty
 
 /* ---- Wrong nodes --------------------------------------------------------------------------------------------- */
 
-/* A marker for a wrong foreign node, or for a point that no foreign node lists. */
-typedef struct wrong_mark {
-    uint64_t id;
-    const octree_foreign_place *node; /* the wrong node; null: the marker is for a point */
-    octree_wrong_node_kind kind;      /* the first error of the node */
-    double at[3];                     /* the position of the text: the point, or the node's upper corner */
-} wrong_mark;
-
-#define MOST_MARKS (2 * OCTREE_LISTED_WRONG_NODES)
-
 /* The bits in the id of a marker for a point. No other element of this layer has both of these bits set. */
 #define LOST_ELEMENT (FOREIGN_ELEMENT | UINT64_C(1) << 61)
 #define LOST_MARK 6 /* half the size of a marker for a point, in halves of a picture unit */
 
-/* Find the nodes and points that a tick's markers show: at most OCTREE_LISTED_WRONG_NODES nodes, and as many points.
- * Return the number of markers. */
-static size_t find_marks(const layer_source *in, wrong_mark marks[MOST_MARKS])
+wrong_marks find_wrong_marks(const layer_source *in)
 {
     const octree_foreign_state *foreign = &in->tick->foreign;
-    size_t count = 0;
-    for (size_t i = 0; i < foreign->node_count && count < OCTREE_LISTED_WRONG_NODES; i++) {
+    wrong_marks marks = {.count = 0};
+    if (!shows_foreign_tree(in))
+        return marks;
+    for (size_t i = 0; i < foreign->node_count && marks.count < OCTREE_LISTED_WRONG_NODES; i++) {
         const octree_foreign_place *node = &foreign->nodes[i];
         octree_wrong_node_kind kind = 0;
         while (node->wrong && !(node->wrong >> kind & 1))
             kind++;
         const double *at = node->node->box.max;
         if (node->wrong)
-            marks[count++] = (wrong_mark){foreign_element(node->node->id), node, kind, {at[0], at[1], at[2]}};
+            marks.items[marks.count++] =
+                (wrong_mark){foreign_element(node->node->id), node, kind, {at[0], at[1], at[2]}};
     }
     for (size_t i = 0; i < foreign->listed_count; i++) {
         octree_point point;
         const double *at = point.position;
         if (foreign->listed[i].kind == OCTREE_NODE_LOST_POINT &&
             octree_game_find(in->game, foreign->listed[i].point, &point))
-            marks[count++] = (wrong_mark){LOST_ELEMENT | point.id, NULL, OCTREE_NODE_LOST_POINT, {at[0], at[1], at[2]}};
+            marks.items[marks.count++] =
+                (wrong_mark){LOST_ELEMENT | point.id, NULL, OCTREE_NODE_LOST_POINT, {at[0], at[1], at[2]}};
     }
-    return count;
+    return marks;
 }
 
-void mark_wrong_foreign_nodes(scene *s, const layer_source *in, text_space *occupied)
+void mark_wrong_foreign_nodes(scene *s, const wrong_marks *marks, text_space *occupied)
 {
-    wrong_mark marks[MOST_MARKS];
-    const size_t count = find_marks(in, marks);
-    for (size_t i = 0; i < count; i++) {
-        if (marks[i].node) {
-            add_box(s, marks[i].node, make_layer_style(LAYER_WRONG, STROKE_DASHED, 2));
+    for (size_t i = 0; i < marks->count; i++) {
+        if (marks->items[i].node) {
+            add_box(s, marks->items[i].node, make_layer_style(LAYER_WRONG, STROKE_DASHED, 2));
             continue;
         }
-        scene_add_mark(s, marks[i].id, marks[i].at, SHAPE_CROSS,
+        scene_add_mark(s, marks->items[i].id, marks->items[i].at, SHAPE_CROSS,
                        make_layer_style(LAYER_WRONG, STROKE_SOLID, LOST_MARK));
-        text_space_reserve_mark(occupied, s, marks[i].at, LOST_MARK);
+        text_space_reserve_mark(occupied, s, marks->items[i].at, LOST_MARK);
     }
 }
 
-size_t label_wrong_foreign_nodes(scene *s, const layer_source *in, text_space *occupied)
+size_t label_wrong_foreign_nodes(scene *s, const wrong_marks *marks, text_space *occupied)
 {
     static const char *const words[OCTREE_WRONG_NODE_KINDS] = {
         [OCTREE_NODE_OUTSIDE_PARENT] = "outside parent", [OCTREE_NODE_UNKNOWN_POINT] = "unknown point",
@@ -193,12 +183,11 @@ size_t label_wrong_foreign_nodes(scene *s, const layer_source *in, text_space *o
         [OCTREE_NODE_LOST_POINT] = "in no node",         [OCTREE_NODE_UNKNOWN_NODE] = "",
         [OCTREE_NODE_PRUNED_POINT] = "wrongly pruned"};
     const scene_style style = make_layer_style(LAYER_WRONG, STROKE_SOLID, 1);
-    wrong_mark marks[MOST_MARKS];
-    const size_t count = find_marks(in, marks);
     size_t left_out = 0;
-    for (size_t i = 0; i < count; i++)
+    for (size_t i = 0; i < marks->count; i++)
         left_out += !text_space_add_label_beside(
-            occupied, s, scene_make_label(marks[i].id, style, "%s", words[marks[i].kind]), marks[i].at, LOST_MARK);
+            occupied, s, scene_make_label(marks->items[i].id, style, "%s", words[marks->items[i].kind]),
+            marks->items[i].at, LOST_MARK);
     return left_out;
 }
 

@@ -34,11 +34,28 @@ bool shows_foreign_tree(const layer_source *in);
 void add_foreign_nodes(scene *s, const layer_source *in);
 void add_visited_foreign_nodes(scene *s, const layer_source *in, scene_style style);
 
+/* A marker for a wrong foreign node, or for a point that no foreign node lists. */
+typedef struct wrong_mark {
+    uint64_t id;
+    const octree_foreign_place *node; /* the wrong node; null: the marker is for a point */
+    octree_wrong_node_kind kind;      /* the first error of the node */
+    double at[3];                     /* the position of the text: the point, or the node's upper corner */
+} wrong_mark;
+
+/* The markers of a tick: at most OCTREE_LISTED_WRONG_NODES nodes, and as many points. */
+typedef struct wrong_marks {
+    wrong_mark items[2 * OCTREE_LISTED_WRONG_NODES];
+    size_t count;
+} wrong_marks;
+
+/* Return the markers of a tick; none if the frame does not show the foreign nodes. */
+wrong_marks find_wrong_marks(const layer_source *in);
+
 /* mark_wrong_foreign_nodes() adds markers for the wrong foreign nodes, and for the points that no foreign node lists.
  * label_wrong_foreign_nodes() writes the error beside each marker where there is room, and returns the number of texts
  * without room. `occupied` is the part of the picture that markers and texts already cover. */
-void mark_wrong_foreign_nodes(scene *s, const layer_source *in, text_space *occupied);
-size_t label_wrong_foreign_nodes(scene *s, const layer_source *in, text_space *occupied);
+void mark_wrong_foreign_nodes(scene *s, const wrong_marks *marks, text_space *occupied);
+size_t label_wrong_foreign_nodes(scene *s, const wrong_marks *marks, text_space *occupied);
 
 /* Append the text `before`, and then a phrase such as "foreign node 5: leaf at depth 2 of kind "leaf" under node 7, 3
  * points listed, box ...", and the node's error if it is wrong. */

@@ -85,8 +85,7 @@ void write_row(pen *p, const char *name, const char *detail, const char *format,
     vsnprintf(value, sizeof value, format, arguments);
     va_end(arguments);
     snprintf(between, sizeof between, "%s", detail);
-    const int room = p->letters - DETAIL - 1 - (int)strlen(value);
-    cut_text(between, room > 0 ? (size_t)room : 0);
+    cut_text(between, (size_t)detail_room(p, strlen(value)));
     const int taken = *between ? DETAIL + (int)strlen(between) : (int)strlen(name);
     /* A value cut to 2 characters or fewer would be useless, so it is not cut and covers the name. */
     if (p->letters - taken - 1 > 2)
@@ -122,7 +121,7 @@ const char *format_number_within(double value, size_t letters, char text[NUMBER_
 void write_ids(pen *p, const char *name, const octree_point *points, size_t count)
 {
     char text[SCENE_TEXT * 2];
-    const int room = p->letters - DETAIL - 1 - snprintf(NULL, 0, "%zu found", count);
+    const int room = detail_room(p, (size_t)snprintf(NULL, 0, "%zu found", count));
     size_t shown = count < PEN_MOST_IDS ? count : PEN_MOST_IDS;
     do {
         size_t used = 0;

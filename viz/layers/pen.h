@@ -36,6 +36,13 @@ void write_title_text(pen *p, theme_role role, const char *text);
 /* Write a line of text and move to the next line. */
 void write_line(pen *p, theme_role role, const char *text);
 
+/* Return the number of characters that a row has for its detail beside a value of this length. */
+static inline int detail_room(const pen *p, size_t value_length)
+{
+    const int room = p->letters - DETAIL - 1 - (int)value_length;
+    return room > 0 ? room : 0;
+}
+
 /* Write a row: a name at the left, a formatted value at the right, and between them a detail, which may be empty. If
  * the value needs the room of the detail, the detail is cut. */
 void write_row(pen *p, const char *name, const char *detail, const char *format, ...);

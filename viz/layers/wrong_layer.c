@@ -7,7 +7,6 @@
 #include "layer_type.h"
 #include "layout.h"
 
-#include <stdio.h>
 #include <string.h>
 
 /* Half the size of markers, half the size of rings, and the width of lines, in halves of a picture unit. */
@@ -114,16 +113,15 @@ static void add_wrong_answers(scene *s, const layer_source *in, view_layer layer
     size_t worst, left_out = 0;
     const bool few = judgement_count_wrong(in->answers, in->answer_count, &worst) <= FEW_RINGS;
     text_space occupied = {.count = 0};
+    const wrong_marks marks = find_wrong_marks(in);
     for (size_t i = 0; i < in->answer_count; i++)
         if (in->answers[i].judgement.wrong)
             mark_wrong_answer(s, &in->answers[i], i, few || i == worst ? RING : RING / 2, &occupied);
-    if (shows_foreign_tree(in))
-        mark_wrong_foreign_nodes(s, in, &occupied);
+    mark_wrong_foreign_nodes(s, &marks, &occupied);
     for (size_t i = 0; i < in->answer_count; i++)
         if (in->answers[i].judgement.wrong && (few || i == worst))
             left_out += !add_answer_label(s, &in->answers[i], i, &occupied);
-    if (shows_foreign_tree(in))
-        left_out += label_wrong_foreign_nodes(s, in, &occupied);
+    left_out += label_wrong_foreign_nodes(s, &marks, &occupied);
     add_left_out_count(s, left_out, &occupied);
 }
 
