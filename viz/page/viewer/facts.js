@@ -19,7 +19,7 @@ const CURVES = [
 /* The events and their signs, in the order of octree_event. A "rare" event comes last, has no key, and has a lane only
  * if it occurs; "own" as above. */
 const EVENTS = [
-    ["moved", "→"],
+    ["moved", "→", "player"],
     ["refused", "⊘"],
     ["collided", "✕"],
     ["full", "■"],
@@ -81,7 +81,7 @@ class Recording {
     /* The name of a curve or an event. */
     nameOf(name, of)
     {
-        return of === "own" && this.hasForeignNodes ? `Octreel's ${name}` : name;
+        return of === "player" ? `player ${name}` : of === "own" && this.hasForeignNodes ? `Octreel's ${name}` : name;
     }
 
     static parse(text)

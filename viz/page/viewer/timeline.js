@@ -133,8 +133,7 @@ class Timeline {
     eventLane([name, sign, of], bit)
     {
         const count = this.recording.count(bit);
-        /* Other points may move at every tick. */
-        const words = bit === MOVED ? "player moved" : this.recording.nameOf(name, of);
+        const words = this.recording.nameOf(name, of);
         const label = element("button", words, {type: "button", class: "lane-label", "data-event": name,
                                                "aria-pressed": "false", title: `Select ticks with the event ${words}`});
         label.prepend(element("span", sign, {class: "sign", "aria-hidden": "true"}));
