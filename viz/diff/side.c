@@ -83,7 +83,9 @@ static bool is_without_frames(const diff_side *side)
 static bool read_folder(diff_side *side, octreel_error *error)
 {
     char **names = folder_names(side->path, error);
-    bool ok = names;
+    bool ok = true;
+    if (!names)
+        return false;
     side->kind = folder_contains(side->path, "recording.json") ? DIFF_RECORDING : DIFF_FOLDER;
     side->no_frames = is_without_frames(side);
     for (size_t i = 0; ok && !side->no_frames && names[i]; i++)

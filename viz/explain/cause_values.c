@@ -55,10 +55,11 @@ void cause_compare_values(const session_file *a, const session_file *b, cause_fa
     facts->out_of_memory |= !as || !bs;
     for (size_t i = 0, j = 0; as && bs && i < a_count && j < b_count;) {
         const uint64_t x = as[i], y = bs[j];
-        const point_value before = point_values_get(&a->values, x), now = point_values_get(&b->values, y);
-        const bool is_new = i == 0 || as[i - 1] != x;
-        if (x == y && is_new && !point_value_equals(&before, &now))
-            compare_value(facts, x, &before, &now);
+        if (x == y && (i == 0 || as[i - 1] != x)) {
+            const point_value before = point_values_get(&a->values, x), now = point_values_get(&b->values, y);
+            if (!point_value_equals(&before, &now))
+                compare_value(facts, x, &before, &now);
+        }
         i += x <= y;
         j += y <= x;
     }

@@ -2,7 +2,8 @@
 /* junit.c - writes the elements of JUnit XML that enclose the test cases. */
 #include "junit.h"
 
-void write_attribute(FILE *out, const char *name, const char *value)
+/* Write an XML attribute: a space, then NAME="VALUE". */
+static void write_attribute(FILE *out, const char *name, const char *value)
 {
     fprintf(out, " %s=\"", name);
     write_escaped(out, value, escape_xml);

@@ -15,7 +15,4 @@ void junit_end(FILE *out);
 /* Begin a test case of the suite. The caller closes the testcase element. */
 void junit_begin_case(FILE *out, const char *path, const char *name);
 
-/* Write an XML attribute: a space, then NAME="VALUE". */
-void write_attribute(FILE *out, const char *name, const char *value);
-
 #endif

@@ -143,11 +143,11 @@ static void write_findings(json_writer *w, const diff_report *report)
 /* Write the names of a group's frames. Each frame is in exactly one group. */
 void diff_json_group(json_writer *w, const diff_report *report, size_t group)
 {
-    const diff_result *result = report->result;
+    const frame_group *g = &report->groups->groups[group];
     json_begin_array_member(w, "frames");
-    for (size_t i = report->groups->groups[group].first; i < result->count; i++)
+    for (size_t i = g->first; i <= g->last; i++)
         if (report->groups->of[i] == group)
-            json_write_string(w, diff_pair_name(&result->pairs[i]));
+            json_write_string(w, diff_pair_name(&report->result->pairs[i]));
     json_write_end_array(w);
 }
 
@@ -155,12 +155,11 @@ static void write_groups(json_writer *w, const diff_report *report)
 {
     json_begin_array_member(w, "groups");
     for (size_t i = 0; i < report->groups->count; i++) {
-        const size_t first = report->groups->groups[i].first;
-        const char *cause = explanation_cause(report->why, first);
+        const frame_group *g = &report->groups->groups[i];
         json_write_begin_object(w);
-        json_write_text_member(w, "finding", diff_finding_name(report->result->pairs[first].finding));
-        if (cause)
-            json_write_text_member(w, "cause", cause);
+        json_write_text_member(w, "finding", diff_finding_name(report->result->pairs[g->first].finding));
+        if (g->cause)
+            json_write_text_member(w, "cause", g->cause);
         diff_json_group(w, report, i);
         json_write_end_object(w);
     }
