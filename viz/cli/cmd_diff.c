@@ -22,7 +22,7 @@ typedef struct arguments {
     diff_options options;
     unsigned layers;              /* bits 1 << view_layer of the ignored layers */
     image_rectangle *ignored;     /* owned */
-    output_file outputs[OUTPUTS]; /* outputs[PAGE] has no path; `folder` is set instead */
+    output_file outputs[OUTPUTS]; /* [PAGE] is the page in `folder` */
     const char *folder, *store;   /* the values of --output and --store; null: not given */
     uint64_t causes;              /* the number of differing frames and ticks to explain */
     bool has_causes;              /* --causes was given */
@@ -213,13 +213,10 @@ static int write_reports(const arguments *a, diff_report *all)
 /* Checks that no output overwrites a compared file or another output. */
 static bool check_files(const arguments *a, const diff_side sides[2], octreel_error *error)
 {
-    char *page = a->folder ? path_join(a->folder, EVIDENCE_PAGE) : NULL;
-    const output_file outputs[OUTPUTS] = {{"-o", page}, a->outputs[JUNIT], a->outputs[MARKDOWN]};
-    bool ok = check_outputs_differ(outputs, OUTPUTS, error);
+    bool ok = check_outputs_differ(a->outputs, OUTPUTS, error);
     for (size_t i = 0; ok && i < OUTPUTS; i++)
-        ok = diff_side_check_output(&sides[0], &outputs[i], error) &&
-             diff_side_check_output(&sides[1], &outputs[i], error);
-    free(page);
+        ok = diff_side_check_output(&sides[0], &a->outputs[i], error) &&
+             diff_side_check_output(&sides[1], &a->outputs[i], error);
     return ok;
 }
 
@@ -259,17 +256,22 @@ static int compare(const arguments *a, const char *paths[2])
 static int run(int argc, char **argv)
 {
     arguments a = {.options = diff_options_default(),
-                   .outputs = {[JUNIT] = {"--junit", NULL}, [MARKDOWN] = {"--markdown", NULL}},
+                   .outputs = {{"-o", NULL}, {"--junit", NULL}, {"--markdown", NULL}},
                    .causes = EXPLAIN_DEFAULT};
     int status = command_read_arguments(&command_diff, &a, argc, argv);
     a.annotate = a.annotate || getenv("GITHUB_ACTIONS");
     a.lines = a.has_causes && a.causes > LIST_LINES ? (size_t)a.causes : LIST_LINES;
     if (a.folder && !a.has_causes)
         a.causes = DIFF_REPORT_PAGE_FRAMES; /* the page shows this many frames, each with its cause */
-    if (status == COMMAND_GO_ON)
+    char *page = a.folder ? path_join(a.folder, EVIDENCE_PAGE) : NULL;
+    a.outputs[PAGE].path = page;
+    if (status == COMMAND_GO_ON && a.folder && !page)
+        status = print_error("out of memory");
+    else if (status == COMMAND_GO_ON)
         status = check_standard_output(a.outputs, OUTPUTS, a.json)
                      ? compare(&a, (const char *[]){argv[optind], argv[optind + 1]})
                      : EXIT_TROUBLE;
+    free(page);
     free(a.ignored);
     return status;
 }

@@ -47,10 +47,11 @@ static void make_page_name(const char *session, char name[NAME_MAX + 1])
 
 static bool is_recording_page(const char *path)
 {
-    char beside[PATH_MAX];
-    const char *base = path_base_name(path);
-    snprintf(beside, sizeof beside, "%.*srecording.json", (int)(base - path), path);
-    return folder_is_recording_file(base) && access(beside, F_OK) == 0;
+    char *folder = path_parent_folder(path);
+    const bool is =
+        folder && folder_is_recording_file(path_base_name(path)) && folder_contains(folder, "recording.json");
+    free(folder);
+    return is;
 }
 
 /* Checks that the page overwrites no other file. Only a page that this command wrote earlier may be overwritten. */

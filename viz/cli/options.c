@@ -100,7 +100,12 @@ char option_letter(const char *name)
     return 0;
 }
 
-typed_option option_as_typed(const command_option *option)
+/* An option as it is typed on the command line: "--every" or "-o". */
+typedef struct typed_option {
+    char text[32];
+} typed_option;
+
+static typed_option option_as_typed(const command_option *option)
 {
     typed_option typed;
     const char letter = option_letter(option->name);

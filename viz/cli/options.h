@@ -62,13 +62,6 @@ struct command_option {
 /* Returns the letter of an option, such as 'o' for "output"; 0 if the option has no letter. */
 char option_letter(const char *name);
 
-/* An option as it is typed on the command line: "--every" or "-o". */
-typedef struct typed_option {
-    char text[32];
-} typed_option;
-
-typed_option option_as_typed(const command_option *option);
-
 bool is_folder(const char *path);
 
 command_option_reader read_flag;   /* bool: set to true; the option takes no value */

@@ -22,7 +22,6 @@ typedef struct text_columns {
         cloud_channel channel;
     } places[CLOUD_CHANNELS]; /* the columns that have a channel, in ascending order */
     size_t place_count;
-    size_t count;     /* the number of columns to read, from the fourth on */
     bool unnamed;     /* the file has more than three columns and no column names */
     bool guessed;     /* the channels are guessed; the members below describe the lines that were read so far */
     bool ranges[2];   /* for BYTES and FRACTIONS: all colour channels were within this range */
@@ -101,7 +100,6 @@ static void add_column(text_columns *columns, size_t column, cloud_channel chann
 {
     columns->places[columns->place_count].column = column;
     columns->places[columns->place_count++].channel = channel;
-    columns->count = column + 1;
 }
 
 /* Reads the column names. Names such as "id,x,y,z" are refused, because the first three columns must be the
@@ -211,15 +209,15 @@ static double parse_field(cloud_span field)
     return number_parse(field.begin, field.limit, &end, &number) && end == field.limit ? number : NAN;
 }
 
-/* Parses the columns after the coordinates. Missing columns become NaN. Returns the number of columns, or
- * columns->count + 1 if there are more. */
+/* Parses the columns after the coordinates, up to the last one that has a channel. Missing columns become NaN. Returns
+ * the number of parsed columns, and one more if others follow. */
 static size_t parse_values(cloud_span line, char separator, const text_columns *columns, double numbers[CLOUD_CHANNELS])
 {
     cloud_span field;
     size_t i = 0, next = 0;
     for (int channel = CLOUD_Z + 1; channel < CLOUD_CHANNELS; channel++)
         numbers[channel] = NAN;
-    for (; i < columns->count && read_next_field(&line, separator, &field); i++)
+    for (; next < columns->place_count && read_next_field(&line, separator, &field); i++)
         if (columns->places[next].column == i)
             numbers[columns->places[next++].channel] = parse_field(field);
     return i + read_next_field(&line, separator, &field);
@@ -262,7 +260,7 @@ static void discard_guess(cloud_file *file, text_columns *columns)
 {
     cloud_discard_values(file);
     memset(file->out->out_of_range, 0, sizeof file->out->out_of_range);
-    columns->count = 0;
+    columns->place_count = 0;
     columns->guessed = false;
 }
 
@@ -282,7 +280,7 @@ static void check_guess(cloud_file *file, text_columns *columns, size_t count, c
         columns->brightest = fmax(columns->brightest, numbers[CLOUD_RED + i]);
     }
     columns->no_normals |= fabs(square - 1) > 0.01;
-    if (!fits || count != columns->count || (count == 4 && isnan(numbers[CLOUD_INTENSITY])))
+    if (!fits || count != columns->place_count || (count == 4 && isnan(numbers[CLOUD_INTENSITY])))
         discard_guess(file, columns);
 }
 
@@ -293,7 +291,7 @@ static void decide_guess(cloud_file *file, text_columns *columns)
 {
     const int range = columns->ranges[BYTES] ? BYTES : FRACTIONS;
     const bool bright = range == BYTES ? columns->brightest >= 128 : columns->brightest >= 0.5 && columns->no_normals;
-    const bool four = columns->count == 4, read = columns->guessed && bright && !columns->shifted[range];
+    const bool four = columns->place_count == 4, read = columns->guessed && bright && !columns->shifted[range];
     if (read && range == BYTES)
         file->out->column_note = four ? "columns 4 to 7 have no names and are read as intensity r g b"
                                       : "columns 4 to 6 have no names and are read as r g b";
@@ -362,7 +360,7 @@ static bool parse_point(cloud_file *file, cloud_span line, bool named, text_colu
         return true;
     if (file->out->count == 0 && !named)
         guess_columns(file, line, separator, columns);
-    if (columns->count > 0) {
+    if (columns->place_count > 0) {
         const size_t count = parse_values(line, separator, columns, numbers);
         if (columns->guessed)
             check_guess(file, columns, count, numbers);

@@ -146,9 +146,8 @@ static bool is_valid_look(double azimuth, double elevation)
 
 static bool parse_look(const view_option *option, const char *text, view *v, octreel_error *error)
 {
-    double look[2];
-    return numbers_parse(text, look, 2) && is_valid_look(look[0], look[1]) ? parse_numbers(option, text, v, error)
-                                                                           : report_wrong_value(option, text, error);
+    return parse_numbers(option, text, v, error) &&
+           (is_valid_look(v->look.azimuth, v->look.elevation) || report_wrong_value(option, text, error));
 }
 
 static bool check_look(json_reader *r, const json_place *at, void *structure)
@@ -285,6 +284,11 @@ static bool check_point_scale(json_reader *r, const json_place *at, void *struct
 }
 
 /* The members of "derived". A point_scale is written as eleven doubles. */
+_Static_assert(offsetof(view, height) == offsetof(view, width) + sizeof(int) &&
+                   offsetof(view_filter, max_depth) == offsetof(view_filter, min_depth) + sizeof(unsigned) &&
+                   offsetof(view, look.elevation) == offsetof(view, look.azimuth) + sizeof(double),
+               "one row reads two members as an array");
+
 const json_member view_derived_members[] = {
     {"focus", &json_box, offsetof(view, focus), .is_set = has_focus, .check = check_focus},
     {"point_scale", &json_numbers, offsetof(view, point_scale.of), .given = offsetof(view, point_scale.given),

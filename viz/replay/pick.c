@@ -22,7 +22,6 @@
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* ---- The frame and its recording ---------------------------------------------------------------------------- */
 
