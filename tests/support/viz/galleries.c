@@ -131,8 +131,7 @@ void assert_not_compared(const char *a, const char *b, const diff_options *optio
     diff_result result;
     octreel_error error = {""};
     assert_false(diff_run(&sides[0], &sides[1], options ? options : &exact, &result, &error));
-    if (!strstr(error.text, part))
-        fail_msg("\"%s\" does not contain \"%s\"", error.text, part);
+    assert_contains(error.text, part);
     diff_side_release(&sides[0]);
     diff_side_release(&sides[1]);
 }
