@@ -135,7 +135,8 @@ static bool copy_about(batch *b, const octreel_tick_info *about)
         return false;
     b->queries = copy(b, about->queries, about->query_count, sizeof *about->queries);
     bool whole = b->queries || b->query_count == 0;
-    /* After a failure, go on with the other queries, so that no copied query points to the program's memory. */
+    /* After a failed copy, continue with the other queries: no copied query may keep a pointer into the program's
+     * memory. */
     for (size_t i = 0; b->queries && i < b->query_count; i++) {
         octree_query *query = &b->queries[i];
         query->answer = whole ? copy(b, query->answer, query->answer_count, sizeof *query->answer) : NULL;
@@ -145,7 +146,8 @@ static bool copy_about(batch *b, const octreel_tick_info *about)
             ids->ids = whole ? copy(b, ids->ids, ids->count, sizeof *ids->ids) : NULL;
             whole = whole && (ids->ids || ids->count == 0);
         }
-        /* No tree has as many points as UINT32_MAX, and the recorder's files cannot hold a larger k. */
+        /* A larger k finds no more points, because no tree holds more than UINT32_MAX. The recorder's files cannot hold
+         * a larger k. */
         if (query->k > UINT32_MAX)
             query->k = UINT32_MAX;
     }

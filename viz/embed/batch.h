@@ -9,25 +9,27 @@
 
 typedef struct change {
     octree_edit_kind kind;
-    uint32_t order; /* the order in which changes were made; used by changes_settle() only */
+    /* the change's position in the sequence in which the program made its changes; only changes_settle() uses it */
+    uint32_t order;
     uint64_t id;
     double from[3], to[3]; /* positions before and after the change; an insertion has no `from`, a removal no `to` */
 } change;
 
-/* Find the changes that turn the list `before` into the list `after`, by id. Returns the number of changes. If
- * `changes` is null, the changes are only counted. Cost: O(before + after). */
+/* Compare two lists of points by id. Find the changes that turn the list `before` into the list `after`, and return
+ * their number. If `changes` is null, the changes are only counted. Cost: O(before + after). */
 size_t changes_between(const points *before, const points *after, change *changes);
 
-/* Combine all changes of a point into one change, and sort the changes by id. The changes must be in the order in which
- * they were made. Changes that cancel each other are removed. Returns the new count. `count` may be at most UINT32_MAX.
- * Cost: O(m log m) for m changes. */
+/* Combine all changes of a point into one change, and sort the changes by id. Before the call, the changes must be in
+ * the order in which the program made them. Changes that cancel each other are removed. Returns the new number of
+ * changes. `count` may be at most UINT32_MAX. Cost: O(m log m) for m changes. */
 size_t changes_settle(change *changes, size_t count);
 
-/* Make the change of a point from position `from` to position `to`. A null `from` makes an insertion, a null `to` a
- * removal. Returns false if the two positions are equal, so nothing changes. */
+/* Set *made to the change of a point from position `from` to position `to`. If `from` is null, the change is an
+ * insertion; if `to` is null, it is a removal. Returns false if the two positions are equal, because then nothing
+ * changes. */
 bool change_make(uint64_t id, const double *from, const double *to, change *made);
 
-/* Apply a change to a table of points, or revert it. The table must have room for one more point. */
+/* Apply a change to a table of points, or revert the change. The table must have room for one more point. */
 void change_apply(const change *c, point_table *table);
 void change_revert(const change *c, point_table *table);
 
@@ -37,8 +39,8 @@ typedef struct gap_run {
     char why[OCTREE_GAP_TEXT];
 } gap_run;
 
-/* All ticks that were refused since the last accepted tick, as runs. When the list has MOST_GAP_RUNS runs, further
- * ticks are added to the last run, whatever their reason. */
+/* The ticks that were refused since the last accepted tick. Consecutive ticks with the same reason form one run. When
+ * the list has MOST_GAP_RUNS runs, further ticks are added to the last run, whatever their reason. */
 #define MOST_GAP_RUNS 32
 typedef struct gap_list {
     gap_run runs[MOST_GAP_RUNS];
@@ -48,28 +50,31 @@ typedef struct gap_list {
 void gap_list_add(gap_list *list, const char *why);
 uint64_t gap_list_ticks(const gap_run *runs, size_t count);
 
-/* One accepted tick with the gaps before it; or gaps without a tick. */
+/* An accepted tick, and the ticks that were refused before it, called gaps. If is_gap is true, the batch has only
+ * gaps. */
 typedef struct batch {
     struct batch *next;
-    gap_run *gaps; /* the gaps before the tick */
+    gap_run *gaps; /* the refused ticks before the accepted tick */
     size_t gap_count;
-    bool is_gap;     /* true: the batch has gaps but no tick */
-    change *changes; /* in the order in which they were made; batch_settle() sorts them by id */
+    bool is_gap; /* true: the batch has gaps but no tick */
+    /* the point changes of the tick, in the order in which the program made them; batch_settle() sorts them by id */
+    change *changes;
     size_t change_count;
     octree_query *queries;
     size_t query_count;
     octree_shape *shapes;
     size_t shape_count;
-    bool has_foreign; /* true: the tick has new foreign nodes; false: the foreign nodes of the tick before stay valid */
+    /* true: the tick has new foreign nodes; false: the foreign nodes of the previous tick stay valid */
+    bool has_foreign;
     octree_foreign_tree foreign;
     size_t bytes; /* memory that the batch uses, in bytes */
 } batch;
 
-/* Make a batch with a tick that has no changes yet. The gaps, queries, shapes and foreign nodes are copied. `about` and
- * `foreign` may be null. Returns null if memory runs out. Cost: O(gaps + queries + shapes + nodes). */
+/* Make a batch with an accepted tick that has no changes yet. The gaps, queries, shapes and foreign nodes are copied.
+ * `about` and `foreign` may be null. Returns null if memory runs out. Cost: O(gaps + queries + shapes + nodes). */
 batch *batch_make(const gap_list *gaps, const octreel_tick_info *about, const octree_foreign_tree *foreign);
 
-/* Combine all changes of a point into one change, and sort the changes by id. */
+/* Combine all changes of a point in the batch into one change, and sort the changes by id. */
 void batch_settle(batch *b);
 
 /* Make a batch that has gaps but no tick. Returns null if memory runs out. */

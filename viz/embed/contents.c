@@ -57,8 +57,8 @@ static octreel_status check_tree(const octree_def *own, const octree *tree, octr
 
 /* ---- The changes of a tick ---------------------------------------------------------------------------------- */
 
-/* Combine the pending changes when their number has doubled since the last time. This removes changes that cancel each
- * other, and so bounds memory while no tick is accepted. */
+/* Combine the pending changes of each point when the number of changes has doubled since the previous call that
+ * combined them. Changes that cancel each other disappear, which limits memory while no tick is accepted. */
 static void settle_pending(contents *c)
 {
     enum { FEW = 1024 };
@@ -109,13 +109,13 @@ static bool start_table(contents *c)
     return true;
 }
 
-/* Switch from the table back to sorted lists: `now` becomes the points before the tick that is being read. Returns
- * false if memory runs out. */
+/* Switch from the table back to sorted lists: `now` becomes the list of points before the tick that is being read.
+ * Returns false if memory runs out. */
 static bool start_lists(contents *c)
 {
     if (!c->tabled)
         return true;
-    revert_tick(c); /* a part of this tick may already have been read from the change log */
+    revert_tick(c); /* read_log() may already have applied some changes of this tick */
     if (!point_table_list(&c->table, &c->now, &c->spare))
         return false;
     point_table_release(&c->table);
@@ -197,7 +197,7 @@ static octreel_status read_list(contents *c, const octree_point *list, size_t co
 
 /* ---- Changes from a tree's log ------------------------------------------------------------------------------ */
 
-/* Returns a name for a cursor into a tree's change log that was not used before. It is never 0. */
+/* Returns a new name for a cursor into a tree's change log. The name was not used before and is never 0. */
 static size_t make_log_name(contents *c)
 {
     struct timespec now = {0};
@@ -222,13 +222,13 @@ static void apply_logged(const octree_change *logged, void *context)
                                        logged->kind == OCTREE_REMOVED ? NULL : logged->to);
 }
 
-/* Apply the changes of a tree since the last read, from the tree's log. Returns false if the log does not reach back
- * that far, or if the table now has fewer points than the tree. The table lacks a point if another point has the same
- * id, or if the id is too large for the recorder's files. */
+/* Read the changes since the last read from the tree's change log, and apply them to the table. Returns false if the
+ * log no longer has all these changes, or if the table then has fewer points than the tree. The table lacks a point if
+ * another point has the same id, or if the id is too large for the recorder's files. */
 static bool read_log(contents *c, const octree *tree)
 {
     c->log_incomplete = false;
-    if (c->many_changes) /* a cursor of 0 lets the tree stop its log */
+    if (c->many_changes) /* A zero cursor does not ask for the tree's change log, so the tree may stop keeping a log. */
         c->mark = (octree_cursor){0};
     if (c->many_changes || (c->mark.log != 0 && !start_table(c)))
         return false;
@@ -247,8 +247,8 @@ static octreel_status read_tree(contents *c, const octree_def *def, const octree
 
 /* ---- A tick ------------------------------------------------------------------------------------------------- */
 
-/* Find the source of this tick's points: tree, list or changes. If the program passes no points, the source of the tick
- * before is used: a list is then empty, and changes are none. */
+/* Find the source of this tick's points: tree, list or changes. If the program passes no points at this tick, the
+ * source is the source of the previous tick: an empty list if it was a list, or no changes if it was changes. */
 static octreel_status find_source(contents *c, const octree *tree, const octreel_tick_info *about, octreel_error *error)
 {
     const bool list = about && (about->points || about->point_count);
@@ -291,7 +291,7 @@ void contents_give_changes(contents *c, batch *b)
 
 void contents_take_changes(contents *c, batch *b)
 {
-    if (b->change_count == 0) /* contents_give_changes() left the list here */
+    if (b->change_count == 0) /* the batch has no changes, because contents_give_changes() had none to move */
         return;
     c->changes = b->changes;
     c->change_count = c->change_room = b->change_count;
@@ -303,7 +303,7 @@ void contents_accept(contents *c)
     c->source = c->read_source;
     c->settled = 0;
     if (!c->tabled)
-        points_swap(&c->now, &c->next); /* the next list is compared with this one */
+        points_swap(&c->now, &c->next); /* the next tick's list will be compared with this tick's list */
 }
 
 void contents_refuse(contents *c, octreel_status status)

@@ -13,25 +13,28 @@ typedef enum points_source { FROM_NOTHING, FROM_TREE, FROM_LIST, FROM_CHANGES } 
  * accepted tick. There are two ways:
  *
  * - Lists. All points are read into `next` and compared with `now`, in O(n). This is used for lists, and for trees in
- *   which many points change. It takes a third of the time of looking up each point in a table.
+ *   which many points change. Comparing sorted lists takes a third of the time of looking up each point in a table.
  * - The table. Changes that the program passes, or that the tree's change log has, are applied to `table`, in
  *   O(changes). The table has the points of the tick that was read last.
  *
- * Only one of the two is in use at a time; `tabled` is true for the table. A change of the source may switch between
- * them. A zero-initialized struct has no points. */
+ * Only the lists or the table are in use at a time; `tabled` is true for the table. When the source of the points
+ * changes, the other way may be used from then on. A zero-initialized struct has no points. */
 typedef struct contents {
-    /* Source of the last accepted tick with points; source of the tick that was read last. */
+    /* `source`: where the points of the last accepted tick with points came from. `read_source`: where the points of
+     * the tick that was read last came from. */
     points_source source, read_source;
-    points now, next, spare; /* points before the tick that was read last; points of that tick; scratch */
+    /* `now`: the points before the tick that was read last; `next`: the points of that tick; `spare`: scratch memory */
+    points now, next, spare;
     bool tabled;
     point_table table;
     change *changes; /* changes since the last accepted tick, in the order in which they were made */
     size_t change_count, change_room;
-    size_t settled;     /* number of changes when they were last combined to one change per point */
-    size_t kept;        /* number of changes before the tick that was read last */
-    octree_cursor mark; /* cursor into the tree's change log: all changes before it are read */
+    size_t settled;     /* the value of change_count after all changes of a point were last combined into one change */
+    size_t kept;        /* the value of change_count before the tick that was read last */
+    octree_cursor mark; /* cursor into the tree's change log; all earlier changes in the log have been read */
     uint64_t names;     /* counter for the names of log cursors; starts at a random number */
-    /* True: the tree had so many changes at the last tick that reading all points is faster than its log. */
+    /* True: the tree had so many changes at the last tick that reading all its points is faster than reading its
+     * log. */
     bool many_changes;
     bool log_incomplete; /* true: memory ran out while changes of the log were applied */
 } contents;
@@ -49,8 +52,9 @@ octreel_status contents_read(contents *c, const octree_def *def, const octree *t
 void contents_give_changes(contents *c, batch *b);
 void contents_take_changes(contents *c, batch *b);
 
-/* Accept or refuse the tick that was read last. `status` is the reason for the refusal. A refused tick's list or whole
- * tree is forgotten. Its edits and logged changes are kept for the next accepted tick, except after NO_MEMORY. */
+/* Accept or refuse the tick that was read last. `status` is the reason for a refusal. If the points of a refused tick
+ * came as a list or a whole tree, they are forgotten. If they came as edits or as changes from the tree's log, these
+ * changes are kept for the next accepted tick, except after NO_MEMORY. */
 void contents_accept(contents *c);
 void contents_refuse(contents *c, octreel_status status);
 

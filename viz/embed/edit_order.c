@@ -31,7 +31,7 @@ void edit_order_release(edit_order *o)
     *o = (edit_order){0};
 }
 
-/* Make room for two edits per change, because a change becomes at most a removal and an insertion. */
+/* Make room for two edits per change, because a move may become a removal and an insertion. */
 static bool reserve_edits(edit_order *o, size_t changes)
 {
     if (changes <= o->room)
@@ -64,8 +64,8 @@ static bool needs_edit(const edit_order *o, const change *c, octree_edit_kind ki
     return from && to == (kind == OCTREE_EDIT_MOVE);
 }
 
-/* Try to make a change by an edit of this kind. *made becomes false if the edit finds no room in a full leaf. Returns
- * false if memory runs out. */
+/* Try to make a change by an edit of the kind `kind`. *made becomes false if a full leaf has no room for the point.
+ * Returns false if memory runs out. */
 static bool try_change(edit_order *o, uint64_t tick, octree_edit_kind kind, const change *c, bool *made)
 {
     octree_status status = OCTREE_OK;
@@ -85,9 +85,9 @@ static bool try_change(edit_order *o, uint64_t tick, octree_edit_kind kind, cons
     return status != OCTREE_NO_MEMORY;
 }
 
-/* Make edits of one kind. Without `again`, try all changes that need an edit of this kind; with `again`, try the
- * waiting changes. A change waits if its edit found no room in a full leaf, or if its point was removed here to be
- * inserted by a later pass. Returns false if memory runs out. */
+/* Make the edits of the kind `kind`. If `again` is false, try all changes that need an edit of this kind. If it is
+ * true, try the waiting changes. A change waits if a full leaf had no room for its point, or if this pass removed its
+ * point so that a later pass inserts the point elsewhere. Returns false if memory runs out. */
 static bool make_edits(edit_order *o, const batch *b, uint64_t tick, octree_edit_kind kind, bool again)
 {
     const size_t count = again ? o->waiting_count : b->change_count;

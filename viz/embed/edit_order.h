@@ -13,19 +13,20 @@
  * is swept from its new position.
  *
  * A point outside the world is in no tree. A move across the world's bounds becomes a removal and an insertion, and the
- * game refuses the one that is outside. */
+ * game refuses whichever of the two is outside the world. */
 typedef struct edit_order {
     octree_box world;
-    octree *tree; /* under OCTREE_REFUSE, a tree to which the edits so far were applied; else null */
+    /* if full leaves refuse points (OCTREE_REFUSE), a tree to which all edits made so far were applied; else null */
+    octree *tree;
     octree_edit *edits;
     size_t count;
-    size_t *waiting; /* indices of changes that found no room in a full leaf */
+    size_t *waiting; /* indices of changes for whose points a full leaf had no room */
     size_t waiting_count;
-    size_t room; /* number of changes for which the arrays have room */
+    size_t room; /* number of changes for which `edits` and `waiting` have room */
 } edit_order;
 
-/* Initialize *o. Under OCTREE_REFUSE a tree is made, and the points that the batch inserts are inserted into it.
- * Returns false if memory runs out. */
+/* Initialize *o. If full leaves refuse points (OCTREE_REFUSE), make a tree and insert the points that the batch `first`
+ * inserts. Returns false if memory runs out. */
 bool edit_order_init(edit_order *o, const octree_def *def, const batch *first);
 void edit_order_release(edit_order *o);
 

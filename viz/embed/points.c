@@ -171,8 +171,9 @@ void point_table_put(point_table *t, const octree_point *point)
     *at = *point;
 }
 
-/* Remove a point and close the hole that it leaves. Each later point of the cluster moves into the hole, unless the
- * hole lies before the slot to which the point's id hashes. */
+/* Remove a point from the hash table, which uses linear probing, and close the hole that the point leaves. Each later
+ * point of the run of used slots moves into the hole, unless the hole lies before the slot to which the point's id
+ * hashes. */
 void point_table_remove(point_table *t, uint64_t id)
 {
     const size_t mask = t->size - 1;

@@ -38,7 +38,7 @@ const octree_point *point_table_find(const point_table *t, uint64_t id);
 /* Insert a point. If the table has a point with the same id, replace that point. The table must have room. */
 void point_table_put(point_table *t, const octree_point *point);
 
-/* Remove the point with this id. The table must have it. */
+/* Remove the point with this id. The table must contain the point. */
 void point_table_remove(point_table *t, uint64_t id);
 
 /* Write all points of the table into the list `p`, sorted by id. `spare` is scratch memory. Returns false if memory

@@ -13,15 +13,15 @@ typedef struct queue {
     pthread_cond_t changed;
     batch_list list;
     size_t most, most_bytes;
-    bool borrowed; /* true: someone else owns and releases the batches */
+    bool borrowed; /* true: the ring owns the batches and releases them */
     bool ended;    /* no more batches will be added */
     bool broken;   /* recording failed: no more batches are accepted */
-    bool begun;    /* the recording's folder exists */
+    bool begun;    /* recording has begun: the recording's folder exists */
 } queue;
 
 bool queue_init(queue *q, size_t most, size_t most_bytes);
 
-/* Release the queue. No thread may be waiting on it. */
+/* Release the queue. No thread may be waiting for the queue. */
 void queue_release(queue *q);
 
 /* Add a batch. If the queue is full, wait until it has room, or return BUSY if `wait` is false. Returns BROKEN if the

@@ -30,12 +30,13 @@ struct octreel_recorder {
     contents contents;
     octree_foreign_tree kept; /* foreign nodes of a refused tick; the next accepted tick gets them */
     bool has_kept;
-    ring ring; /* ring.most is 0 if there is no ring; the members below are then used: */
+    /* the ring buffer of the last ticks; ring.most is 0 if there is no ring, and then the members below are used: */
+    ring ring;
     char *folder;
     queue queue;
     session_filmer filmer;
     uint64_t put;   /* number of ticks that were added to the queue */
-    uint64_t ticks; /* number of all ticks, accepted or refused */
+    uint64_t ticks; /* number of all accepted and refused ticks */
     losses lost;    /* summary of the refused ticks */
     gap_list gaps;  /* ticks that were refused since the last accepted tick */
     octreel_error error;
@@ -122,8 +123,8 @@ static octreel_status set_player(octreel_recorder *r, const octree_player *playe
     return OCTREEL_OK;
 }
 
-/* Set the view from the names and numbers in the definition. They are parsed by the same table of view options as the
- * command line. */
+/* Set the view from the names and numbers in the definition. The table of view options that parses them also parses the
+ * options of the command line. */
 static octreel_status set_view(octreel_recorder *r, const octreel_recorder_def *def)
 {
     view *v = &r->settings.film.view;
@@ -200,8 +201,8 @@ static octreel_status set_all(octreel_recorder *r, const octreel_recorder_def *d
 
 /* ---- Opening ------------------------------------------------------------------------------------------------ */
 
-/* Check that the recording's folder can be used. With `replace` an existing recording stays until tick 0 of the new one
- * is filmed. */
+/* Check that a recording can be written to the folder. With `replace` an existing recording stays until tick 0 of the
+ * new recording is filmed. */
 static octreel_status check_folder(octreel_recorder *r, const char *folder)
 {
     errno = 0;
@@ -266,8 +267,8 @@ static octreel_status open_recorder(const octreel_recorder_def *def, octreel_rec
 
 /* ---- A tick ------------------------------------------------------------------------------------------------- */
 
-/* If the program passes points without a tree, let full leaves grow. Nothing ensures that such points fit into a tree
- * that refuses points. */
+/* If the program passes points without a tree, let full leaves grow. If full leaves refused points, a tree of the
+ * program's points might be impossible. */
 static octreel_status let_leaves_grow(octreel_recorder *r)
 {
     const bool listed = r->contents.read_source == FROM_LIST || r->contents.read_source == FROM_CHANGES;
@@ -307,8 +308,8 @@ static octreel_status read_tick(octreel_recorder *r, const octree *tree, const o
     return read == OCTREEL_OK ? let_leaves_grow(r) : read;
 }
 
-/* Add a batch to the queue. After the first batch, wait until the recording has begun. *taken becomes false if the
- * caller still owns the batch. */
+/* Add a batch to the queue. After adding the first batch, wait until the recording has begun. *taken becomes false if
+ * the batch was not added and the caller still owns it. */
 static octreel_status queue_batch(octreel_recorder *r, batch *b, bool *taken)
 {
     const octreel_status status = queue_put(&r->queue, b, !r->never_wait);
@@ -372,7 +373,7 @@ static octreel_status accept_tick(octreel_recorder *r, const octree *tree, const
     return OCTREEL_OK;
 }
 
-/* Count a refused tick. It keeps its number and becomes a gap in the recording. */
+/* Count a refused tick. The refused tick keeps its number and becomes a gap in the recording. */
 static void add_gap(octreel_recorder *r)
 {
     gap_list_add(&r->gaps, r->error.text);
@@ -395,7 +396,8 @@ static octreel_status record_or_add_gap(octreel_recorder *r, const octree *tree,
 
 /* ---- The end ------------------------------------------------------------------------------------------------ */
 
-/* Record the ring into a folder. While it is recorded, the gaps after its last tick are a batch at its end. */
+/* Record the ring into a folder. The ticks that were refused after the ring's last tick are added to the ring as a
+ * batch of gaps, and removed again afterwards. */
 static octreel_status ring_write(octreel_recorder *r, const char *folder)
 {
     ring *all = &r->ring;
@@ -436,7 +438,7 @@ static void queue_last_gaps(octreel_recorder *r)
 {
     batch *b = r->gaps.count > 0 ? batch_make_gaps(&r->gaps) : NULL;
     if (b && queue_put(&r->queue, b, true) != OCTREEL_OK)
-        batch_release(b); /* ignore this error: the recording has failed with a more specific one */
+        batch_release(b); /* no error is reported here: the recording has already failed with a more specific error */
 }
 
 static octreel_status close_recorder(octreel_recorder *r)

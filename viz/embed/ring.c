@@ -20,8 +20,8 @@ static void clear_changes(batch *b)
     b->change_count = 0;
 }
 
-/* Make a tick the first tick of the ring: apply its changes to the start, and drop the gaps before it. Returns false if
- * memory runs out. */
+/* Make a tick the first tick of the ring: apply its changes to the points in r->start, and drop the gaps before the
+ * tick. Returns false if memory runs out. */
 static bool start_at(ring *r, batch *b)
 {
     if (!point_table_reserve(&r->start, r->start.count + b->change_count))
@@ -34,8 +34,8 @@ static bool start_at(ring *r, batch *b)
     return true;
 }
 
-/* Move foreign nodes from a tick to the next tick if that has none. Foreign nodes stay valid until a tick has new ones.
- */
+/* Move the foreign nodes of a tick to the next tick, unless the next tick has foreign nodes itself. Foreign nodes stay
+ * valid until a tick has new foreign nodes. */
 static void pass_foreign_nodes(batch *from, batch *to)
 {
     if (!from->has_foreign || to->has_foreign)
@@ -77,7 +77,8 @@ losses ring_losses(const ring *r, uint64_t *ticks)
     return lost;
 }
 
-/* Give the first tick an insertion for each point at the start, sorted by id. Returns false if memory runs out. */
+/* Give the first tick of the ring an insertion of each point in r->start, sorted by id. Returns false if memory runs
+ * out. */
 static bool add_insertions(const ring *r)
 {
     const points none = {0};

@@ -5,18 +5,18 @@
 
 #include "session_filmer.h"
 
-/* The last ticks of a program. The ring has all points at its first tick, and the changes of each later tick. */
+/* The last ticks of a program: all points at the first tick of the ring, and the changes of each later tick. */
 typedef struct ring {
     size_t most;
     batch_list list;
-    point_table start; /* all points at the first tick, whose batch therefore has no changes */
-    uint64_t dropped;  /* number of ticks that are no longer in the ring */
+    point_table start; /* all points at the ring's first tick; the batch of the first tick has no changes */
+    uint64_t dropped;  /* number of ticks that were dropped from the ring */
 } ring;
 
-/* A summary of refused ticks: how many there are, and the number and reason of the first. */
+/* A summary of refused ticks: the number of refused ticks, and the tick number and the reason of the first. */
 typedef struct losses {
     uint64_t ticks, first;
-    char why[OCTREE_GAP_TEXT]; /* reason why the first was refused */
+    char why[OCTREE_GAP_TEXT]; /* reason why the first of the refused ticks was refused */
 } losses;
 
 void ring_release(ring *r);
@@ -25,12 +25,12 @@ void ring_release(ring *r);
  * if memory runs out. Cost: O(changes). */
 bool ring_put(ring *r, batch *b);
 
-/* Summarize the gaps in the ring. Ticks are numbered from the ring's first tick. *ticks becomes the number of ticks and
+/* Summarize the gaps in the ring. The first tick of the ring counts as tick 0. *ticks becomes the number of ticks and
  * gaps in the ring. */
 losses ring_losses(const ring *r, uint64_t *ticks);
 
-/* Record the ring into a folder. A thread records; this function waits for it. Errors: those of session_filmer_join().
- */
+/* Record the ring into a folder. Another thread records, and this function waits until the thread has ended. Errors:
+ * the errors of session_filmer_join(). */
 octreel_status ring_film(const ring *r, const filmer_settings *s, const char *folder, octreel_error *error);
 
 #endif

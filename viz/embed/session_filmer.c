@@ -38,8 +38,8 @@ static octreel_status refuse_for_memory(session_filmer *f, octreel_status status
     return status;
 }
 
-/* Record tick 0. It has the points that the first batch inserts. It also has the batch's queries and shapes, or it is a
- * gap if `gap` is not null. */
+/* Record tick 0, which has the points that the first batch inserts. If `gap` is null, tick 0 also has the batch's
+ * queries and shapes. Otherwise tick 0 is a gap. */
 static octreel_status film_first_tick(session_filmer *f, const batch *first, const octree_gap *gap)
 {
     const filmer_settings *s = f->settings;
@@ -69,7 +69,7 @@ static octreel_status film_first_tick(session_filmer *f, const batch *first, con
         return OCTREEL_CANNOT_DRAW;
     if (!live_begin(f->live, &f->error))
         return OCTREEL_BAD_FOLDER;
-    /* The program need not wait longer: later errors, such as a full disk, can happen at any tick. */
+    /* The program need not wait any longer. Later errors, such as a full disk, are reported at a later tick. */
     queue_begin(f->queue);
     return live_film_first(f->live, &f->error) ? OCTREEL_OK : OCTREEL_BROKEN;
 }
@@ -79,7 +79,8 @@ static octreel_status film_input(session_filmer *f, const octree_input *input)
     return live_film_tick(f->live, input, &f->error) ? OCTREEL_OK : OCTREEL_BROKEN;
 }
 
-/* Record the tick of a batch. `changes` is false if a gap at tick 0 has already used the batch's points. */
+/* Record the tick of a batch. `changes` is false if tick 0 was a gap: tick 0 has then already used the batch's
+ * points. */
 static octreel_status film_next(session_filmer *f, const batch *b, bool changes)
 {
     f->order.count = 0;
@@ -95,7 +96,7 @@ static octreel_status film_next(session_filmer *f, const batch *b, bool changes)
                                          .foreign = b->has_foreign ? &b->foreign : NULL});
 }
 
-/* Record the gaps before the tick of a batch. */
+/* Record the ticks that were refused before the tick of a batch. */
 static octreel_status film_gaps(session_filmer *f, const batch *b)
 {
     octreel_status status = OCTREEL_OK;
@@ -113,7 +114,7 @@ static octreel_status film_gaps(session_filmer *f, const batch *b)
 static octreel_status film_batch(session_filmer *f, batch *b)
 {
     const bool begun = f->tick > 0;
-    batch_settle(b); /* done in this thread, to save time in the program's thread */
+    batch_settle(b); /* the recording thread sorts the changes, to save time in the program's thread */
     octreel_status status = film_gaps(f, b);
     if (status != OCTREEL_OK || b->is_gap)
         return status;
@@ -125,8 +126,8 @@ static octreel_status film_batch(session_filmer *f, batch *b)
 
 /* ---- The thread --------------------------------------------------------------------------------------------- */
 
-/* Record ticks until the queue ends or a tick fails. f->status is set before a waiting program is woken. After a
- * failure the program does not wait until the last files are written. */
+/* Record ticks until the queue ends or a tick fails. f->status is set before the waiting program is woken. After a
+ * failure the program need not wait until the last files are written. */
 static void film_queue(session_filmer *f)
 {
     batch *b;
@@ -140,7 +141,7 @@ static void *run(void *context)
 {
     session_filmer *f = context;
     octreel_error late;
-    fesetenv(FE_DFL_ENV); /* set the default floating-point mode; a thread inherits the mode of the program */
+    fesetenv(FE_DFL_ENV); /* set the default floating-point mode, because a new thread inherits the program's mode */
     film_queue(f);
     edit_order_release(&f->order);
     const bool whole = f->status == OCTREEL_OK;
@@ -153,7 +154,7 @@ octreel_status session_filmer_start(session_filmer *f)
 {
     sigset_t all, before;
     sigfillset(&all);
-    /* Block all signals here; the new thread inherits the signal mask. */
+    /* Block all signals in this thread now, because the new thread inherits the signal mask. */
     if (pthread_sigmask(SIG_SETMASK, &all, &before) != 0)
         return OCTREEL_NO_MEMORY;
     const bool started = pthread_create(&f->thread, NULL, run, f) == 0;

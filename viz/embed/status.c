@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* status.c - statuses with error texts. */
+/* status.c - writes an error text and returns a status: see status.h. */
 #include "status.h"
 
 #include <stdarg.h>

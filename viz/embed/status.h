@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* status.h - returns statuses together with error texts. Private to viz/embed. */
+/* status.h - functions that write an error text and return a status. Private to viz/embed. */
 #ifndef EMBED_STATUS_H
 #define EMBED_STATUS_H
 
