@@ -17,8 +17,8 @@
 
 /* ---- The scene of the close-up ------------------------------------------------------------------------------- */
 
-/* Return a box in the world that contains everything that the close-up can show. It becomes part of the view's filter,
- * so that whole branches of the tree outside the box are skipped. */
+/* Return a box in the world that contains everything that the close-up can show. The box becomes part of the view's
+ * filter, so that branches of the tree outside the box are skipped. */
 static octree_box visible_box(const camera *c, const view *v)
 {
     octree_box box;
@@ -61,7 +61,7 @@ bool closeup_begin(scene *s, const layer_source *in, const double place[3], doub
     c->view.width = (int)w.width;
     c->view.height = (int)w.height;
     c->view.diagram = DIAGRAM_NONE;
-    /* The share of the budget is the close-up's share of the picture's pixels. */
+    /* The close-up gets a part of the budget: the fraction of the picture's pixels that the close-up covers. */
     c->view.budget = s->view.budget && budget < 1 ? 1 : (uint64_t)budget;
     c->view.layers &= ~(1u << LAYER_WORLD | 1u << LAYER_TEXT);
     c->camera = camera_make_close_up(&s->camera, (camera_window){0, 0, w.width, w.height}, place, times);
@@ -83,9 +83,9 @@ enum {
     LEFT_OUT_ID = SCALE_ID + 3
 };
 
-/* Find the area of the picture that the close-up enlarges: left, top, right and bottom in pixels. The area is cut at
- * the edges of the space view, and is always large enough to be visible. Return false if it lies outside the space
- * view. */
+/* Find the area of the picture that the close-up enlarges. sides[] becomes its left, top, right and bottom in pixels.
+ * The area is cut at the edges of the space view, and is always large enough to be visible. Return false if the area
+ * lies outside the space view. */
 static bool find_enlarged_area(const scene *s, double sides[4])
 {
     const camera *c = &s->closeup->camera;
@@ -114,11 +114,12 @@ static void add_enlarged_area(scene *s, const double frame[4])
     const double left = area[0], top = area[1], right = area[2], bottom = area[3];
     const bool beside = right <= frame[0];
     const double lines[][2][2] = {
-        {{left, top}, {right, top}}, /* from here: ids from REGION_ID */
+        {{left, top}, {right, top}}, /* the outline's lines have the ids REGION_ID, REGION_ID + 1 ... */
         {{left, bottom}, {right, bottom}},
         {{left, top}, {left, bottom}},
         {{right, top}, {right, bottom}},
-        {{beside ? right : left, beside ? top : bottom}, {frame[0], frame[1]}}, /* from here: ids from LEADER_ID */
+        /* the lines to the frame have the ids LEADER_ID, LEADER_ID + 1 ... */
+        {{beside ? right : left, beside ? top : bottom}, {frame[0], frame[1]}},
         {{right, bottom}, {beside ? frame[0] : frame[2], beside ? frame[3] : frame[1]}},
     };
     for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++)
@@ -137,8 +138,8 @@ static void add_frame(scene *s)
     scene_add_rectangle(s, GROUND_ID, c->place, (int[]){width, height}, LAYER_CLOSEUP, ROLE_BACKGROUND);
 }
 
-/* Return the largest length not above `limit` that is 1, 2 or 5 times a power of ten. Return 0 if it is too small for a
- * double. */
+/* Return the largest length of the form 1, 2 or 5 times a power of ten that is not above `limit`. Return 0 if that
+ * length is too small for a double. */
 static double round_length(double limit)
 {
     double power = 1;
@@ -149,7 +150,7 @@ static double round_length(double limit)
     return limit >= 5 * power ? 5 * power : limit >= 2 * power ? 2 * power : power;
 }
 
-/* Remove the labels that a rectangle would cover completely or in part. Remove their backgrounds too. */
+/* Remove the labels that a rectangle would cover completely or in part, and the backgrounds of these labels. */
 static void drop_covered_labels(scene *s, const int corner[2], const int size[2])
 {
     size_t kept = 0;

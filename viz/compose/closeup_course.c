@@ -2,20 +2,20 @@
 /* closeup_course.c - chooses the place and the magnification of the close-up.
  *
  * The problem: the close-up should show what happens in a tick, but a viewer must be able to follow it from frame to
- * frame. It may depend only on ticks up to the shown tick.
+ * frame. The choice may depend only on ticks up to the shown tick.
  *
- * The idea: every tick has subjects, which are boxes: the player, or the requested node, the answers, or the changes of
- * the tick. Some of the subjects form a group. A first pass tries subjects that appear small in the view, a second pass
- * all others. A subject joins the group if the whole group then still fits into the close-up. The middle of the group
- * becomes the middle of the close-up.
+ * The idea: every tick has subjects. A subject is the box of something that the close-up should show: the player, the
+ * requested node, an answer, or the changes of the tick. Some of the subjects form a group. A first pass tries subjects
+ * that appear small in the view, a second pass all others. A subject joins the group if the whole group then still fits
+ * into the close-up. The middle of the group becomes the middle of the close-up.
  *
- * The first small subject fixes the magnification for all ticks, because otherwise viewers could not compare sizes from
- * tick to tick. The magnification is a round number that makes the subject about WANTED of the picture's height.
+ * The first small subject fixes the magnification of all ticks, so that viewers can compare sizes from tick to tick.
+ * The magnification is a round number that makes the subject about WANTED of the picture's height.
  *
  * The place follows the player or the queries at every tick. A close-up that stood still until its subject left it
- * would jump by its whole width. In a tick without queries the changes are the subject. They are spread over the world,
- * so the close-up moves only if it does not show all changes. The box of a moving point contains its position at the
- * next tick too, so that the point does not leave the close-up at once. */
+ * would jump by its whole width. In a tick without queries the changes are the subject. Changes are spread over the
+ * world, so the close-up moves only if it does not already show all changes of the tick. The box of a moving point
+ * contains its position at the next tick too, so that the point does not leave the close-up at once. */
 #include "closeup_course.h"
 #include "layer_type.h"
 #include "layout.h"
@@ -25,13 +25,16 @@
 #include <string.h>
 
 /* Sizes, as parts of the picture's height. */
-#define SMALL (32.0 / 720)     /* a subject of at least this size needs no close-up */
-#define WANTED (68.0 / 720)    /* the close-up enlarges the subject to about this size */
-#define STILL 0.4              /* without a game nothing moves, so the subject may fill this part of the close-up */
-#define SURROUNDED (8.0 / 720) /* margin around a query and the points it found; smaller if their leaf is small */
-#define CHANGED (31.0 / 720)   /* margin around changes; it is wide because later ticks may change other places */
-#define LEAF_PART 0.5          /* margin as a part of the leaf's half extent; the close-up then shows the whole leaf */
-#define MAX_MAGNIFICATION 1e6  /* maximum magnification, as for the option --zoom */
+#define SMALL (32.0 / 720)  /* a subject that appears at least this large in the view needs no close-up */
+#define WANTED (68.0 / 720) /* the close-up enlarges the subject to about this size */
+/* In a tree without a game nothing moves from tick to tick, so the subject may fill this part of the close-up. */
+#define STILL 0.4
+/* margin around a query and the points it found; the margin is smaller if the leaf of these points is small */
+#define SURROUNDED (8.0 / 720)
+#define CHANGED (31.0 / 720) /* margin around changes; it is wide because later ticks may change other places */
+/* margin around a subject, as a part of the half extent of its leaf; with it the close-up shows the whole leaf */
+#define LEAF_PART 0.5
+#define MAX_MAGNIFICATION 1e6 /* maximum magnification, as for the option --zoom */
 
 /* ---- Boxes -------------------------------------------------------------------------------------------------- */
 
@@ -62,8 +65,8 @@ static double half_extent(const octree_box *box)
 
 /* ---- Subjects ------------------------------------------------------------------------------------------------ */
 
-/* Return the box of an answer. It is the region of the query. A query for neighbours has no region; its box contains
- * the target and the neighbours found. */
+/* Return the box of an answer: the region of the query. A query for neighbours has no region; its box contains the
+ * target and the neighbours found. */
 static octree_box answer_box(const octree_answer *answer)
 {
     octree_box box = nothing;
@@ -100,8 +103,8 @@ static octree_box changes_box(const layer_source *in)
 }
 
 /* The scale of a view: the height of the picture in pixels, and the length of a pixel in world units at the position
- * that the camera looks at. The scale is that of tick 0, because an orbiting camera shows the same thing at different
- * sizes at different ticks. */
+ * that the camera looks at. The scale is computed for the camera of tick 0, because the distance of an orbiting camera
+ * changes from tick to tick. */
 typedef struct view_scale {
     double height, pixel;
 } view_scale;
@@ -121,8 +124,8 @@ static double part_of_height(const view_scale *m, double reach)
     return 2 * reach / m->pixel / m->height;
 }
 
-/* Return whether the subjects are queries, or the scene shows a tree without a game. If not, the subjects are the
- * changes of the tick. */
+/* Return true if the subjects of the close-up are queries, or if the scene shows a tree without a game. Return false if
+ * the subjects are the changes of the tick. */
 static bool has_queries(const layer_source *in)
 {
     return in->answer_count > 0 || !in->tick;
@@ -144,7 +147,7 @@ static double round_down(double limit)
     return power;
 }
 
-/* Return the height of the area that a close-up shows at a magnification, as a part of the picture's height. */
+/* Return the height of the area that a close-up enlarges `times` times, as a part of the picture's height. */
 static double visible_part(const layer_source *in, const view_scale *m, double times)
 {
     const camera_window w = layout_closeup_area(in->view);
@@ -166,8 +169,8 @@ double closeup_magnification(const closeup_course *course, const layer_source *i
     return in->view->closeup && layout_closeup_area(in->view).width > 0 ? magnification_for(course->reach, in, &m) : 0;
 }
 
-/* Return the half extent of a subject with a margin. Without a margin, the leaf of neighbours at nearly the same place
- * would not be visible. */
+/* Return the half extent of a subject with a margin around it. The margin keeps the leaf visible when neighbours lie at
+ * nearly the same place. */
 static double half_extent_with_leaf(const layer_source *in, const octree_box *seen, const view_scale *m)
 {
     double middle[3];
@@ -184,13 +187,14 @@ static double half_extent_with_leaf(const layer_source *in, const octree_box *se
 typedef struct group_search {
     const layer_source *in;
     view_scale m;
-    double size_limit; /* larger subjects are ignored; as a part of the picture's height */
+    double size_limit; /* size above which subjects are ignored, as a part of the picture's height */
     double reach;      /* half extent of the first small subject, in world units; 0: none found yet */
     octree_box group;
 } group_search;
 
 /* Add a subject to the group if the whole group then still fits into the close-up. The first subject sets g->reach.
- * `is_sized` is true if the user chose the size of the subject; any other subject gets a margin that shows its leaf. */
+ * `is_sized` is true if the user chose the size of the subject; a subject of any other size gets a margin that shows
+ * its leaf. */
 static void add_to_group(group_search *g, const octree_box *more, bool is_sized)
 {
     octree_box both = g->group;
@@ -247,8 +251,8 @@ static bool shows_group(const group_search *g, const double place[3])
     return part_of_height(&g->m, reach) < visible_part(g->in, &g->m, magnification_for(g->reach, g->in, &g->m));
 }
 
-/* Move the close-up to the queries of the tick. If there are none, move it to the changes, but only if it does not show
- * all of them already. */
+/* Move the close-up to the queries of the tick. If the tick has no queries, move the close-up to the tick's changes,
+ * but only if the close-up does not show all changes already. */
 static void follow_queries_or_changes(closeup_course *course, const layer_source *in)
 {
     const group_search g = find_group(course, in);
@@ -265,7 +269,7 @@ void closeup_follow(closeup_course *course, const layer_source *in)
 {
     const octree_player *player = in->session ? &in->session->player : NULL;
     if (player && player->kind != OCTREE_PLAYER_NONE) {
-        /* At least half a step, so that a step does not leave the close-up. */
+        /* The half extent is at least half a step of the player, so that one step does not leave the close-up. */
         course->reach = fmax(player->box_size, player->step / 2);
         memcpy(course->place, in->tick->player, sizeof course->place);
     } else if (layout_closeup_area(in->view).width > 0) {

@@ -29,9 +29,9 @@
 
 /* Sizes in picture units. */
 #define NODE 6      /* side of an inner node; the side of a leaf is half as long */
-#define RING 2      /* how much wider the ring around a node on the path is than the node, both sides together */
+#define RING 2      /* width of the ring around a node on the path: how many units wider the ring is than the node */
 #define EDGE 8      /* margin of a diagram without text */
-#define NARROWEST 2 /* minimum width of a share */
+#define NARROWEST 2 /* minimum width of one share of a node's slot */
 #define BAR 2       /* width of a bar */
 
 /* The margins for text: left and right in characters, above and below in lines. WORDS_WIDTH and WORDS_HEIGHT are the
@@ -42,14 +42,15 @@ enum { WORDS_LEFT = 4, WORDS_RIGHT = 8, WORDS_ABOVE = 2, WORDS_BELOW = 2, WORDS_
 #define ROWS_AT_ONCE 4     /* in a game the number of rows is a multiple of this, so that rows seldom move */
 #define MOST_DIGITS 999999 /* a number larger than this is rounded to three digits */
 
-/* The ids of rectangles. The rectangle of a node has the node's address. Other ids have a highest bit that no address
- * has. */
+/* The ids of rectangles. The rectangle of a node has the node's address as its id. The highest set bit of any other id
+ * is a bit that cannot be the highest set bit of an address. */
 #define GROUND_ID UINT64_C(0)
-#define BAR_ID (UINT64_C(1) << 61)  /* plus (depth << 32) plus the column */
-#define PATH_ID (UINT64_C(1) << 62) /* plus the depth; plus 32 for the dark gap between a node and its ring */
+#define BAR_ID (UINT64_C(1) << 61) /* id of a bar: BAR_ID + (depth << 32) + column */
+/* id of a path node's ring: PATH_ID + depth; of the dark gap between node and ring: PATH_ID + depth + 32 */
+#define PATH_ID (UINT64_C(1) << 62)
 
-/* The pixels at which lines meet a node: at (x, head) the line from its parent, at (x, foot) the lines to its children.
- */
+/* The pixels at which lines meet a node: the line from the parent ends at (x, head), and the lines to the children
+ * begin at (x, foot). */
 typedef struct anchor {
     double x, head, foot;
 } anchor;
@@ -65,13 +66,13 @@ typedef struct diagram {
     unsigned rows;
     uint64_t next_label;
     bool has_text;                        /* true: there is room for text */
-    octree_address path;                  /* address of the node at the end of the path; 0: no path */
+    octree_address path;                  /* the path: address of the node at its end, or 0 if there is no path */
     octree_node end;                      /* the node at the end of the path */
     anchor anchors[OCTREE_MAX_DEPTH + 1]; /* anchors[d]: the anchor of the path's node at depth d */
 } diagram;
 
-/* Return the number of rows. For a tree without a game it is the number of levels; in a game it is rounded up to a
- * multiple of ROWS_AT_ONCE. */
+/* Return the number of rows of the diagram. For a tree without a game, this is the number of levels. In a game, the
+ * number of levels is rounded up to a multiple of ROWS_AT_ONCE. */
 static unsigned count_rows(const diagram *d, unsigned depth)
 {
     const octree *tree = d->in->tree;
@@ -140,8 +141,8 @@ static void fill_centered(const diagram *d, uint64_t id, double x, double y, dou
 
 /* ---- Nodes -------------------------------------------------------------------------------------------------- */
 
-/* Compare the address of a node with a visit, in the order of a walk: each node comes before its children. A comparison
- * function for bsearch(). */
+/* Compare a node's address with the address of a visit, in the order of a walk: each node comes before its children. A
+ * comparison function for bsearch(). */
 static int compare_in_walk_order(const void *node, const void *visit)
 {
     const octree_address a = *(const octree_address *)node, b = ((const octree_visit *)visit)->node;
@@ -151,7 +152,8 @@ static int compare_in_walk_order(const void *node, const void *visit)
     return p != q ? (p < q ? -1 : 1) : (depth_a > depth_b) - (depth_a < depth_b);
 }
 
-/* Return the style of the line from a node to its parent: bold if visited, dashed if pruned, as in the space view. */
+/* Return the style of the line from a node to its parent. As in the space view, the line is bold if a query visited the
+ * node, and dashed if a query pruned the node. */
 static scene_style edge_style(const diagram *d, octree_address node, unsigned role)
 {
     const octree_tick *tick = d->in->tick;
@@ -166,7 +168,7 @@ static scene_style edge_style(const diagram *d, octree_address node, unsigned ro
     return make_role_style(LAYER_DIAGRAM, role, pruned ? STROKE_DASHED : STROKE_SOLID, visited ? 2 : 1);
 }
 
-/* Compute the width and height of a node. They are limited by its slot and its row. A leaf is half as large as an inner
+/* Compute the width and height of a node. The node's slot and row limit both. A leaf is half as large as an inner
  * node. */
 static void measure_node(const diagram *d, const diagram_node *node, double size[2])
 {
@@ -201,11 +203,12 @@ static void add_ring(const diagram *d, unsigned depth, double x, const double si
     }
 }
 
-/* Draw the nodes that are not folded, and their lines. `on_path` selects either the nodes on the path, which are drawn
- * last, or the other nodes. */
+/* Draw the nodes that are not folded, and the lines to their parents. If `on_path` is true, draw only the nodes on the
+ * path; otherwise draw only the other nodes. The nodes on the path are drawn last. */
 static void add_nodes(diagram *d, bool on_path)
 {
-    /* anchors[d]: the current ancestor at depth d; parents come before their children. */
+    /* anchors[d] is the anchor of the current node's ancestor at depth d. Parents come before their children in the
+     * list. */
     anchor anchors[OCTREE_MAX_DEPTH + 1];
     for (size_t i = 0; i < d->slots.count; i++) {
         const diagram_node *node = &d->slots.nodes[i];
@@ -247,13 +250,13 @@ static void add_path(const diagram *d)
 /* The nodes of one level in one column of the diagram. */
 typedef struct bar {
     size_t nodes, leaves;
-    size_t points; /* number of points in these leaves */
+    size_t points; /* number of points in the leaves of the bar */
     bool shown;    /* true: the view's filter shows at least one of the nodes */
 } bar;
 
 typedef struct folding {
     diagram *d;
-    bar *bars; /* bars of the first folded level, then of the next level ...; `columns` bars per level */
+    bar *bars; /* all bars, row after row, beginning with the first folded level; a row has `columns` bars */
     size_t columns;
 } folding;
 

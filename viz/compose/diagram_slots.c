@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /* diagram_slots.c - arranges the nodes of a tree across the diagram (diagram_slots.h explains the layout).
  *
- * The tree's statistics contain the number of nodes at each depth. From these numbers follows the deepest level that
- * can fit. One walk copies the nodes down to this level, in pre-order. A pass from the last node to the first adds up
- * the shares, because children come after their parent. Shares are rounded up, so their sum may be larger than the
- * room. The deepest level is then dropped and the shares are added up again. A pass from the first node to the last
- * assigns the slots. It has one record for each depth, with the part of the ancestor's slot that is already assigned.
+ * The tree's statistics contain the number of nodes at each depth. These numbers determine the deepest level that can
+ * fit. One walk copies the nodes down to this level, in pre-order. A pass from the last node to the first adds up the
+ * shares, because children come after their parent. Shares are rounded up, so their sum may be larger than the room.
+ * The deepest level is then dropped and the shares are added up again. A pass from the first node to the last assigns
+ * the slots. This pass keeps one record for each depth: the part of the current ancestor's slot that is already
+ * assigned.
  *
- * All of this is first tried with room for empty octants. If the whole tree does not fit in this way, it is repeated
- * without room for them. Each pass is O(nodes copied), and there is at most one pair of passes for each of the 21
+ * The passes first reserve room for empty octants. If the whole tree does not fit with this room, the passes are
+ * repeated without it. Each pass is O(nodes copied), and there is at most one pair of passes for each of the 21
  * levels. */
 #include "diagram_slots.h"
 #include "octree/octree.h"
@@ -97,7 +98,7 @@ static unsigned empty_octants(const diagram_node *node)
 /* Add up the shares, from the last node to the first. Return the sum of the shares of the root's octants. */
 static uint64_t add_shares(diagram_slots *slots)
 {
-    /* below[d]: sum of the shares of nodes at depth d since the last parent. */
+    /* below[d]: sum of the shares of the nodes at depth d that the pass has met since the last node at depth d - 1. */
     uint64_t below[OCTREE_MAX_DEPTH + 2] = {0};
     for (size_t i = slots->count; i-- > 0;) {
         diagram_node *node = &slots->nodes[i];
@@ -111,14 +112,15 @@ static uint64_t add_shares(diagram_slots *slots)
 
 /* ---- Slots -------------------------------------------------------------------------------------------------- */
 
-/* Which part of a node's slot is already assigned to its octants. */
+/* The part of a node's slot that is already assigned to the node's octants. */
 typedef struct slot_progress {
     const diagram_node *node;
     unsigned octant; /* the next octant to which a slot is assigned */
     uint64_t assigned;
 } slot_progress;
 
-/* Assign the slot of the child at `octant`. All octants between the child before and this child are empty. */
+/* Assign the slot of the child at `octant`. All octants between the previously assigned child and this child are
+ * empty. */
 static void assign_slot(slot_progress *d, unsigned empty, unsigned octant, uint64_t share, diagram_node *child)
 {
     const double left = d->node->left, width = d->node->right - left, all = (double)d->node->child_shares;
@@ -184,7 +186,7 @@ void diagram_slots_release(diagram_slots *slots)
 typedef struct folding {
     const diagram_slots *slots;
     size_t next;               /* index of the next node in slots->nodes; the walk visits nodes in the same order */
-    const diagram_node *above; /* the last visited node that is not folded */
+    const diagram_node *above; /* the last visited node that is drawn one by one */
     size_t before;             /* number of points of `above` that the walk has already passed */
     diagram_visitor visit;
     void *context;

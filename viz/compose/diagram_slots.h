@@ -5,15 +5,16 @@
  * split would move the whole diagram. If every octant had an eighth of its parent's width, deep nodes would have no
  * width.
  *
- * The idea: each node has a slot, an interval within 0 to 1. It divides its slot among its octants in Morton order, in
- * proportion to their shares. The share of a leaf is 1. The share of an inner node is the sum of its octants' shares,
- * rounded up to 1, 2, 3, 4, 6, 8, 12, 16, 24 ... A split or merge moves the siblings of the node. It moves the siblings
- * of an ancestor only if the ancestor's rounded sum changes. If the whole tree then still fits, an empty octant has the
- * share 1 too, so that nothing moves when a point enters it; otherwise its share is 0.
+ * The idea: each node has a slot, an interval within 0 to 1. A node divides its slot among its octants in Morton order,
+ * in proportion to the octants' shares. The share of a leaf is 1. The share of an inner node is the sum of its octants'
+ * shares, rounded up to 1, 2, 3, 4, 6, 8, 12, 16, 24 ... A split or merge moves the siblings of the node. It moves the
+ * siblings of an ancestor only if the ancestor's rounded sum changes. An empty octant also has the share 1 if the whole
+ * tree then still fits, so that nothing moves when a point enters the octant. Otherwise the share of an empty octant is
+ * 0.
  *
  * Nodes are drawn one by one down to the deepest level at which every share is wide enough. Deeper nodes are folded.
- * The position of a folded node lies within the slot of its ancestor at that level. It corresponds to the place of the
- * node's points among the ancestor's points in Morton order. */
+ * The position of a folded node lies within the slot of its ancestor at that level. Within that slot, it corresponds to
+ * the place of the node's points among the ancestor's points in Morton order. */
 #ifndef COMPOSE_DIAGRAM_SLOTS_H
 #define COMPOSE_DIAGRAM_SLOTS_H
 
@@ -37,8 +38,8 @@ typedef struct diagram_slots {
     octree_stats stats; /* statistics of the whole tree */
 } diagram_slots;
 
-/* Arrange a tree so that the sum of its shares is at most `room`, which must be at least 1. Return false if memory runs
- * out. Cost: O(nodes). */
+/* Arrange a tree so that the sum of the root's shares is at most `room`, which must be at least 1. Return false if
+ * memory runs out. Cost: O(nodes). */
 bool diagram_arrange(diagram_slots *slots, const octree *tree, size_t room);
 void diagram_slots_release(diagram_slots *slots);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* panel.c - the text layer. It is the column at the left of the picture that describes the tick, or the tree.
+/* panel.c - the text layer: the column of text at the left of the picture, which describes the tick, or the tree.
  *
  * Readers compare frames, so a fact should stand at the same place in every frame. The rows have a fixed order: title
  * and key press, events, key presses, player, statistics, elements that the view leaves out, collision hits, wrong
@@ -39,10 +39,10 @@ static int decimals_of(double value)
     return strchr(text, 'e') ? MOST_DECIMALS + 1 : point ? (int)strlen(point + 1) : 0;
 }
 
-/* Return the number of decimals of the player's coordinates. It is the same at every tick, so that digits keep their
- * place. For a player that is moved by key presses, it suits every position that key presses can reach; it is greater
- * than MOST_DECIMALS if such a position needs an exponent. For any other player, it gives the world's largest
- * coordinate six digits. */
+/* Return the number of decimals of the player's coordinates. The number is the same at every tick, so that digits keep
+ * their place. If key presses move the player, the decimals suit every position that key presses can reach; the result
+ * is greater than MOST_DECIMALS if such a position needs an exponent. For any other player, the world's largest
+ * coordinate gets six digits. */
 static int decimals_of_player(const layer_source *in)
 {
     const octree_player *player = &in->session->player;
@@ -92,7 +92,7 @@ static void write_box_rows(pen *p, const char *name, const octree_box *box)
 
 /* ---- The tick ------------------------------------------------------------------------------------------------ */
 
-/* Write the statistics of the trees that the view shows. */
+/* Write the statistics of the trees that the view shows: Octreel's own tree, the foreign tree, or both. */
 static void write_statistics(pen *p, const layer_source *in, const octree_stats *stats)
 {
     const octree_def definition = octree_definition(in->tree);
@@ -110,7 +110,7 @@ static void write_statistics(pen *p, const layer_source *in, const octree_stats 
     write_row(p, "leaf capacity", "", "%zu", definition.leaf_capacity);
 }
 
-/* Return whether the player is moved by key presses. */
+/* Return whether key presses move the player. */
 static bool has_keys(const layer_source *in)
 {
     return in->session->player.kind == OCTREE_PLAYER_KEYS;
@@ -133,8 +133,8 @@ static const char *no_event_text(const layer_source *in)
     return !in->tick->number ? "start" : has_keys(in) ? "waited" : "no event";
 }
 
-/* Write the names of the tick's events. Splits and merges are left out if their tree is not shown. The most urgent
- * event decides the colour. */
+/* Write the names of the tick's events. Splits and merges belong to Octreel's own tree, and are left out if the view
+ * does not show that tree. The most urgent event decides the colour. */
 static void write_events(pen *p, const layer_source *in)
 {
     const octree_tick *tick = in->tick;
@@ -151,7 +151,7 @@ static void write_events(pen *p, const layer_source *in)
     write_wrapped(p, role, words[0] ? words : no_event_text(in));
 }
 
-/* Write the answers, each in the colour of its layer. */
+/* Write a row for each answer, in the colour of the layer that shows the answer. */
 static void write_answers(pen *p, const layer_source *in)
 {
     for (size_t i = 0; i < in->answer_count; i++) {
@@ -162,7 +162,7 @@ static void write_answers(pen *p, const layer_source *in)
     p->name = ROLE_FAINT;
 }
 
-/* Write the number of wrong foreign answers, and the query kind and the error of the worst one. */
+/* Write the number of wrong foreign answers, and the query kind and the error of the worst wrong answer. */
 static void write_wrong_answers(pen *p, const layer_source *in)
 {
     char words[JUDGEMENT_TEXT];
@@ -178,7 +178,7 @@ static void write_wrong_answers(pen *p, const layer_source *in)
     p->name = ROLE_FAINT;
 }
 
-/* Write the number of wrong foreign nodes, and the error of the first one. */
+/* Write the number of wrong foreign nodes, and the error of the first wrong node. */
 static void write_wrong_nodes(pen *p, const layer_source *in)
 {
     char text[WRONG_NODE_TEXT];
@@ -216,7 +216,8 @@ static void write_keys(pen *p, const layer_source *in)
     if (!count)
         return;
     for (uint64_t i = 0; i <= KEYS_BEHIND + KEYS_AHEAD; i++) {
-        /* Ticks count from 1; a tick before 1 wraps around to a huge number, and a space is written. */
+        /* Tick 1 has the first key press. For a tick before tick 1, `tick - 1` wraps around to a huge number, and a
+         * space is written. */
         const uint64_t tick = now + i - KEYS_BEHIND;
         const char key = tick - 1 < count ? keys[tick - 1] : ' ';
         used += (size_t)snprintf(text + used, sizeof text - used,
@@ -241,8 +242,8 @@ static void write_broken(pen *p, const layer_source *in)
     write_wrapped(p, ROLE_WARNING, in->broken);
 }
 
-/* Write a title. It has large characters if these leave room for `beside` small characters at the right; otherwise it
- * has small characters. Return the height of the characters in pixels. */
+/* Write a title. Its characters are large if the large title leaves room for `beside` small characters at the right,
+ * and small otherwise. Return the height of the characters in pixels. */
 static int write_title(pen *p, const char *text, size_t beside)
 {
     const scene *s = p->scene;
@@ -255,7 +256,7 @@ static int write_title(pen *p, const char *text, size_t beside)
     return fits ? s->title.height : s->text.height;
 }
 
-/* Write the number of the tick and, at the right, the key that was pressed and its meaning. */
+/* Write the number of the tick. At the right, write the key that was pressed and the meaning of this key. */
 static void write_tick_title(pen *p, const layer_source *in, const char *title)
 {
     const char key = in->tick->key;
@@ -310,7 +311,8 @@ static void write_folded_depths(pen *p, const scene_tally *tally)
         write_row(p, "drawn as bars", "", "depths %u to %u", tally->folded_from, tally->folded_to);
 }
 
-/* Write a row for each kind of element of which some are left out because they are smaller than the view's lod. */
+/* Write a row for each kind of element of which the view leaves out some elements because they are smaller than the
+ * view's lod. */
 static void write_small_counts(pen *p, const scene_tally *tally)
 {
     const size_t counts[] = {tally->small, tally->small_marked, tally->arrows.small};
@@ -339,8 +341,8 @@ static void write_shown_counts(pen *p, const scene_tally *tally)
                   plural_ending(tally->points));
 }
 
-/* Write a row for each rule by which elements are left out or folded, and how many elements are shown. If there is no
- * such row, the thin line above these rows is left out too. */
+/* Write a row for each rule of the view that leaves out or folds elements, and rows with the numbers of shown elements.
+ * If there is no such row, also omit the thin line above the rows. */
 static void write_view_limits(pen *p)
 {
     const scene_tally *tally = &p->scene->tally;
@@ -367,7 +369,7 @@ static void write_view_limits(pen *p)
 
 /* ---- The column --------------------------------------------------------------------------------------------- */
 
-/* Remove the thin lines between rows of the column that begin at pixel row `from` or below it. */
+/* Remove the thin lines between rows of the column whose y is at least `from` pixels. */
 static void drop_rules(scene *s, int from)
 {
     size_t kept = 0;
@@ -382,7 +384,7 @@ static void cut_rows(pen *p)
 {
     scene *s = p->scene;
     const int last = s->view.height - s->text.height,
-              line = s->text.line; /* `last`: greatest y at which a row may begin, in pixels */
+              line = s->text.line; /* `last`: the greatest y at which a row may begin, in pixels */
     size_t kept = 0, rows = 0;
     double at = -1, first = 0;
     if (p->y - line <= last)
@@ -404,8 +406,8 @@ static void cut_rows(pen *p)
     p->y += line;
 }
 
-/* If the session has a player, write its rows. If the player is missing at this tick, leave the rows empty, so that the
- * rows below stay where they are. */
+/* If the session has a player, write the player's rows. If the player is missing at this tick, leave its rows empty, so
+ * that the rows below stay where they are. */
 static void write_player(pen *p, const layer_source *in)
 {
     const int end = p->y + 3 * p->scene->text.line;

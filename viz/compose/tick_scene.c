@@ -21,10 +21,10 @@ view_layer layer_of_query(octree_query_kind kind)
     return layers[kind];
 }
 
-/* Return whether a query of a layer's kind was made at some tick so far, or is known to come. In a session whose player
- * is moved by key presses, a key press may ask for the nearest point, and the queries that are made at every tick are
- * known. In other sessions a query counts only once it is made, because a session that is filmed while it is written
- * does not contain later queries yet. */
+/* Return whether a query of a layer's kind was made at some tick so far, or is certain to come. If key presses move the
+ * player, a key press may ask for the nearest point, and the queries that are made at every tick are known in advance.
+ * In other sessions a query counts only once it is made: a session that is filmed while it is written does not contain
+ * later queries yet. */
 static bool has_query_of(const layer_source *in, view_layer layer)
 {
     const bool known = in->game && in->session->player.kind == OCTREE_PLAYER_KEYS;

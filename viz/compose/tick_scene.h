@@ -12,9 +12,9 @@
 /* The panel shows the key presses of this many ticks before and after its own tick. */
 enum { KEYS_BEHIND = 5, KEYS_AHEAD = 6 };
 
-/* The state that a scene needs from all ticks up to its own tick. All members are 0 before tick 0. */
+/* What a scene needs from all ticks up to its own tick. All members are 0 before tick 0. */
 typedef struct tick_history {
-    heat heat; /* empty if the view shows no heat layer */
+    heat heat; /* number of visits and points of leaves so far; empty if the view shows no heat layer */
     closeup_course closeup;
 } tick_history;
 
@@ -23,7 +23,7 @@ void tick_history_release(tick_history *h);
 /* Add the game's last tick to the history, unless it is a gap. Return false if memory runs out. */
 bool tick_history_add(tick_history *h, const view *v, const octree_game *game);
 
-/* Build the scene of the last tick of a game. `h` is the history up to this tick or up to the tick before; if it is
+/* Build the scene of the last tick of a game. `h` is the history up to that tick or up to the previous tick; if `h` is
  * null, the heat layers have no elements. `values` may be null. Return false if memory runs out. */
 bool tick_scene_build(scene *s, const view *v, const octree_game *game, const tick_history *h,
                       const point_values *values);
@@ -31,7 +31,7 @@ bool tick_scene_build(scene *s, const view *v, const octree_game *game, const ti
 /* What a scene of a tree shows in addition to the tree's nodes and points. */
 typedef struct tree_subject {
     const char *title;
-    octree_address node; /* the node to mark, to which the diagram shows the path; 0: none */
+    octree_address node; /* the node that is marked in the scene, and to which the diagram shows the path; 0: none */
     const octree_answer *answers;
     size_t answer_count;
     const point_values *values; /* colours, classes and intensities of the tree's points; may be null */

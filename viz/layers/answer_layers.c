@@ -19,14 +19,14 @@
 /* ---- All kinds of queries ----------------------------------------------------------------------------------- */
 
 /* Return the element id of a part of an answer, such as the line to a neighbour. `place` is the answer's index in the
- * tick. Only markers have other ids: those of their points. */
+ * tick. Markers do not use these ids: the id of a marker is the id of its point. */
 static uint64_t part_id(size_t place, size_t part)
 {
     return (uint64_t)place << 32 | (uint64_t)part;
 }
 
-/* Mark the points of an answer. `half` is half the size of a marker, in halves of a picture unit. An answer with many
- * points gets smaller markers, because large ones would hide more. */
+/* Mark the points of an answer. `half` is half the size of a marker, in halves of a picture unit. The markers of an
+ * answer with many points are smaller, because large markers would hide more of the picture. */
 static void mark_answer_points(scene *s, const octree_answer *answer, view_layer layer, scene_shape shape,
                                unsigned half)
 {
@@ -143,7 +143,7 @@ const layer_type layer_RADIUS = {
 
 /* ---- Queries for k nearest points --------------------------------------------------------------------------- */
 
-/* Return whether the number at pixels[earlier] would cover one of the numbers at pixels[0] to pixels[earlier - 1]. */
+/* Return whether the number at pixels[earlier] would overlap one of the numbers at pixels[0] to pixels[earlier - 1]. */
 static bool is_crowded(const scene *s, double pixels[][2], size_t earlier)
 {
     bool crowded = false;

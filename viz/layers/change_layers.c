@@ -9,10 +9,10 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Draw three lines through the middle of a node that split or merged, where the planes between its octants cross. This
- * middle is the lowest corner of the node's last octant. The id of a line is the node's address shifted left, plus the
- * line's axis. The shift loses no bits: only nodes at the greatest depth have addresses of 64 bits, and such nodes
- * never split. */
+/* Draw three lines through the middle of a node that split or merged: the lines in which the planes between the node's
+ * octants cross. The middle of the node is the lowest corner of the node's last octant. The id of a line is the node's
+ * address shifted left, plus the line's axis. The shift loses no bits: only nodes at the greatest depth have addresses
+ * of 64 bits, and such nodes never split. */
 static void add_planes(scene *s, const layer_source *in, octree_address address, scene_style style)
 {
     octree_node node;

@@ -14,7 +14,7 @@
 typedef struct element_subject {
     bool has_node, has_point;
     octree_node node;   /* the node that the element shows; if `gone` is true, the empty cell where the node was */
-    bool gone;          /* the tree no longer has the node */
+    bool gone;          /* true: the tree no longer has the node */
     octree_point point; /* the point that the element shows */
     const octree_foreign_place
         *foreign; /* the foreign node that the element shows; null: none. Valid until the next tick */
@@ -36,7 +36,7 @@ typedef struct description {
     size_t length; /* length of subject.text in bytes */
 } description;
 
-/* The facts about an element that the function `describe` of its layer uses. */
+/* The facts about an element that a layer's function `describe` uses. */
 typedef struct described_element {
     scene_kind kind;
     scene_style style;
@@ -55,9 +55,9 @@ void append_position(description *d, const char *before, const double position[3
 /* Appends such as "(0, 0, 0) to (5, 5, 5)". */
 void append_box(description *d, const char *before, const octree_box *box);
 
-/* Append the text `before`, and then a phrase about a node or a point. The node or point is also stored in the
- * description's subject. The id of an element that shows a node is the node's address; foreign_nodes.h explains the ids
- * of foreign nodes. */
+/* Append the text `before`, and then a phrase about a node or a point. Also store the node or point in the
+ * description's subject. The id of an element that shows a node of Octreel's own tree is the node's address.
+ * foreign_nodes.h explains the ids of foreign nodes. */
 void describe_node(description *d, const char *before, uint64_t id);
 void describe_point(description *d, const char *before, uint64_t id, const double position[3]);
 

@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: MIT */
 /* foreign_nodes.c - draws the nodes of a foreign index in the same way as the nodes of Octreel's own tree.
  *
- * A foreign index passes its nodes as a list of boxes with ids, parents and kinds. Its tree may be a k-d tree, an
- * R-tree or any other. So this file does not rely on addresses, on a leaf capacity, or on boxes that lie inside their
- * parents' boxes.
+ * A foreign index passes its nodes as a list of boxes with ids, parents and kinds. The index may be a k-d tree, an
+ * R-tree or any other tree. So this file does not rely on addresses, on a leaf capacity, or on boxes that lie inside
+ * their parents' boxes.
  *
  * Filter and lod test one node at a time. The budget works by whole levels, as for Octreel's own nodes: a level of
  * which only a part is drawn would look like a tree with holes. A first pass counts the nodes at each depth that pass
  * filter and lod. A second pass draws the levels from the root down, as many as fit into the budget together. Each pass
  * is O(nodes).
  *
- * The element id of a foreign node is the node's own id with one more bit set. No address of Octreel has this bit set
- * there (foreign_nodes.h), so `octreel pick` can distinguish the two trees. */
+ * The element id of a foreign node is the node's own id with bit 62 set. In an address of Octreel, bit 62 is never the
+ * highest set bit (foreign_nodes.h), so `octreel pick` can distinguish the two trees. */
 #include "foreign_nodes.h"
 #include "node_boxes.h"
 #include "text.h"
@@ -56,7 +56,7 @@ static bool passes_filter(const scene *s, const octree_foreign_place *place)
     return filter_shows_box(&s->view.filter, &place->node->box, place->depth, place->leaf);
 }
 
-/* Return whether a node is smaller than the view's lod and has an ancestor that may be shown. */
+/* Return whether a node is smaller than the view's lod and has an ancestor that the view may show. */
 static bool is_small(const scene *s, const octree_foreign_place *place)
 {
     return place->parent != SIZE_MAX && is_small_below_shown(s, &place->node->box, place->depth);
@@ -103,8 +103,8 @@ void add_foreign_nodes(scene *s, const layer_source *in)
 
 /* ---- Visited nodes ------------------------------------------------------------------------------------------- */
 
-/* Return whether a layer shows a node. If one query pruned the node and another visited it, only the layer of visited
- * nodes shows it. */
+/* Return whether the layer `layer` shows a node. If one query pruned the node and another query visited it, only the
+ * layer of visited nodes shows the node. */
 static bool matches_layer(const octree_foreign_place *place, unsigned layer)
 {
     const unsigned visited = 1u << OCTREE_NODE_VISITED, pruned = 1u << OCTREE_NODE_PRUNED, hit = 1u << OCTREE_NODE_HIT;
@@ -131,9 +131,11 @@ void add_visited_foreign_nodes(scene *s, const layer_source *in, scene_style sty
 
 /* ---- Wrong nodes --------------------------------------------------------------------------------------------- */
 
-/* The bits in the id of a marker for a point. No other element of this layer has both of these bits set. */
+/* The marker of a point that no foreign node lists has both of these bits set in its id. No other element of this layer
+ * has both. */
 #define LOST_ELEMENT (FOREIGN_ELEMENT | UINT64_C(1) << 61)
-#define LOST_MARK 6 /* half the size of a marker for a point, in halves of a picture unit */
+/* Half the size of the marker of a point that no foreign node lists, in halves of a picture unit. */
+#define LOST_MARK 6
 
 wrong_marks find_wrong_marks(const layer_source *in)
 {

@@ -5,8 +5,8 @@
 
 #include "layer_type.h"
 
-/* The element id of a foreign node is the node's own id with bit 62 set. An address of Octreel cannot have bit 62 as
- * its highest bit: the highest set bit of an address is always at a multiple of 3, and 62 is not one. */
+/* The element id of a foreign node is the node's own id with bit 62 set. In an address of Octreel's tree, the highest
+ * set bit is always a multiple of 3. Since 62 is not a multiple of 3, no address can be mistaken for such an id. */
 #define FOREIGN_ELEMENT (UINT64_C(1) << 62)
 
 static inline uint64_t foreign_element(uint64_t node)
@@ -30,7 +30,7 @@ bool shows_own_tree(const layer_source *in);
 bool shows_foreign_tree(const layer_source *in);
 
 /* add_foreign_nodes() adds all foreign nodes that pass the view's filter, lod and budget. add_visited_foreign_nodes()
- * adds only the foreign nodes that queries visited, pruned or hit: the layer of `style` decides which of the three. */
+ * adds only the foreign nodes that queries visited, pruned or hit: `style.layer` selects which of the three. */
 void add_foreign_nodes(scene *s, const layer_source *in);
 void add_visited_foreign_nodes(scene *s, const layer_source *in, scene_style style);
 
@@ -39,21 +39,21 @@ typedef struct wrong_mark {
     uint64_t id;
     const octree_foreign_place *node; /* the wrong node; null: the marker is for a point */
     octree_wrong_node_kind kind;      /* the first error of the node */
-    double at[3];                     /* the position of the text: the point, or the node's upper corner */
+    double at[3];                     /* where the error text begins: at the point, or at the node's upper corner */
 } wrong_mark;
 
-/* The markers of a tick: at most OCTREE_LISTED_WRONG_NODES nodes, and as many points. */
+/* The markers of a tick: at most OCTREE_LISTED_WRONG_NODES nodes and OCTREE_LISTED_WRONG_NODES points. */
 typedef struct wrong_marks {
     wrong_mark items[2 * OCTREE_LISTED_WRONG_NODES];
     size_t count;
 } wrong_marks;
 
-/* Return the markers of a tick; none if the frame does not show the foreign nodes. */
+/* Return the markers of a tick. The result is empty if the view does not show the foreign nodes. */
 wrong_marks find_wrong_marks(const layer_source *in);
 
-/* mark_wrong_foreign_nodes() adds markers for the wrong foreign nodes, and for the points that no foreign node lists.
- * label_wrong_foreign_nodes() writes the error beside each marker where there is room, and returns the number of texts
- * without room. `occupied` is the part of the picture that markers and texts already cover. */
+/* mark_wrong_foreign_nodes() adds a marker for each wrong foreign node and for each point that no foreign node lists.
+ * label_wrong_foreign_nodes() writes an error text beside each marker where there is room, and returns the number of
+ * texts that found no room. `occupied` is the part of the picture that markers and texts already cover. */
 void mark_wrong_foreign_nodes(scene *s, const wrong_marks *marks, text_space *occupied);
 size_t label_wrong_foreign_nodes(scene *s, const wrong_marks *marks, text_space *occupied);
 
@@ -61,7 +61,7 @@ size_t label_wrong_foreign_nodes(scene *s, const wrong_marks *marks, text_space 
  * points listed, box ...", and the node's error if it is wrong. */
 void describe_foreign_node(description *d, const char *before, uint64_t element);
 
-/* Describe an element that mark_wrong_foreign_nodes or label_wrong_foreign_nodes added. */
+/* Describe an element that mark_wrong_foreign_nodes() or label_wrong_foreign_nodes() added. */
 void describe_wrong_foreign_node(description *d, const described_element *element);
 
 /* Write the first error in the tick's foreign nodes to `text`, or an empty string if there is no error. Return `text`.

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* heat_layers.c - the heat layers: a marker in the middle of each leaf. The more visits or points the leaf has had
- * since tick 0, the larger and lighter is its marker. */
+/* heat_layers.c - the heat layers: a marker in the middle of each leaf. The marker's size and brightness grow with the
+ * number of visits or points that the leaf has had since tick 0. */
 #include "heat_layers.h"
 #include "layer_type.h"
 #include "octree/octree.h"
@@ -13,7 +13,7 @@ unsigned heat_step(uint64_t amount, unsigned shift)
     return theme_doubling_step(amount >> shift, shift);
 }
 
-/* The context of the walk over the leaves. */
+/* The context of the walk that adds a marker to each leaf. */
 typedef struct heat_walk {
     scene *scene;
     const layer_source *in;

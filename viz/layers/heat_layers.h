@@ -7,17 +7,18 @@
 
 #include <stdint.h>
 
-/* Both scales have HEAT_STEPS steps and are the same in every session. Step 0 begins at 1. Each further step begins at
- * twice the number of visits, or four times the number of points, of the step before. So a number is shifted right by
- * HEAT_VISITS_SHIFT or HEAT_POINTS_SHIFT bits per step. */
+/* The scale of visits and the scale of points have HEAT_STEPS steps each, and are the same in every session. Step 0
+ * begins at 1. Each further step begins at twice the number of visits, or at four times the number of points, of the
+ * previous step. So each step corresponds to a right shift of the number by HEAT_VISITS_SHIFT or HEAT_POINTS_SHIFT
+ * bits. */
 #define HEAT_STEPS THEME_NODE_DEPTHS
 #define HEAT_VISITS_SHIFT 1
 #define HEAT_POINTS_SHIFT 2
 
-/* The smallest number in the last step. */
+/* The smallest number of visits or points in the last step. */
 #define HEAT_LAST(shift) (UINT64_C(1) << (HEAT_STEPS - 1) * (shift))
 
-/* Return the step of a number of visits or points, which must not be 0. */
+/* Return the step of a number of visits or points. `amount` must not be 0. */
 unsigned heat_step(uint64_t amount, unsigned shift);
 
 #endif

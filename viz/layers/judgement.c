@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* judgement.c - texts about wrong foreign answers, and their ranking. */
+/* judgement.c - texts about wrong foreign answers, and the order from bad to worse: see judgement.h. */
 #include "judgement.h"
 #include "number.h"
 

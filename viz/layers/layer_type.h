@@ -12,7 +12,7 @@
 
 /* The input of a scene: a tick of a game, or a tree without a game. */
 typedef struct layer_source {
-    const view *view; /* the view as requested; with DIAGRAM_ONLY the view of the scene itself has fewer layers */
+    const view *view; /* the view as the user requested it; with DIAGRAM_ONLY the scene's own view has fewer layers */
     const octree *tree;
     octree_box world;
     const octree_answer *answers;
@@ -26,8 +26,9 @@ typedef struct layer_source {
     const octree_tick *tick;
     const heat *heat; /* null: the heat layers have no elements */
 
-    const char *title;        /* the title; only for a tree without a game */
-    octree_address requested; /* the node to mark (octreel inspect --node), or 0; only for a tree without a game */
+    const char *title; /* the title; only for a tree without a game */
+    /* the node that the user asked to mark (octreel inspect --node), or 0; only for a tree without a game */
+    octree_address requested;
 } layer_source;
 
 /* A layer's lines in the legend: either one line with `sign` and `text`, or the lines that add_lines() adds. */
@@ -42,27 +43,28 @@ typedef struct legend_entry {
 /* The functions and data of a layer. A layer that does not need a member leaves it null or 0. The argument `layer` is
  * the layer itself, because some files define several layers. */
 typedef struct layer_type {
-    /* Return whether the layer can have elements in this frame or in another frame of its recording. The legend lists
-     * the layer in this case. Null means always. For a layer of answers, null means that a query of its kind was made
-     * at some tick so far, or is made at every tick. */
+    /* Return whether the layer can have elements in this frame or in another frame of the same recording. If so, the
+     * legend explains the layer. A null `applies` means: always. For a layer of answers, null means: if a query of the
+     * layer's kind was made at some tick so far, or is made at every tick. */
     bool (*applies)(const layer_source *in);
 
-    /* Return whether a session can have elements for the layer. Null means that every session can. `octreel diff`
-     * ignores that one recording shows a layer and the other does not, if the layer is empty in both. */
+    /* Return whether a session can have elements for the layer. Null means that every session can. If neither of two
+     * compared sessions can, `octreel diff` ignores that one recording shows the layer and the other does not. */
     bool (*in_session)(const octree_session *session);
 
-    /* add() adds the layer's elements; add_answer() adds the elements of one answer. They need not check whether the
-     * layer is hidden: scene_add_*() drops the elements of hidden layers. */
+    /* add() adds the layer's elements. add_answer() adds the elements of one answer. These functions need not check
+     * whether the view hides the layer: scene_add_*() drops the elements of hidden layers. */
     void (*add)(scene *s, const layer_source *in, view_layer layer);
     void (*add_answer)(scene *s, const octree_answer *answer, size_t place, view_layer layer);
 
-    /* Write an answer's row in the panel. */
+    /* Write the row of an answer in the text column. */
     void (*write_answer)(pen *p, const octree_answer *answer);
 
     legend_entry legend;
 
-    /* Describe an element. If this is null, the element is described by its id: the id of a box is a node address, and
-     * the id of a marker is a point id. In a layer of answers the id of a marker is always a point id. */
+    /* Describe an element. If `describe` is null, the element's id alone describes the element: the id of a box is a
+     * node address, and the id of a marker is a point id. In a layer of answers the id of a marker is always a point
+     * id. */
     void (*describe)(description *d, const described_element *element);
 } layer_type;
 
@@ -72,7 +74,7 @@ LAYER_MAP(LAYER_TYPE_DECLARE)
 
 extern const layer_type *const layer_types[LAYER_ALL];
 
-/* A function for the member `applies` of layers that exist only in scenes of a game. */
+/* The member `applies` of layers whose elements exist only in scenes of a game, not in scenes of a tree. */
 bool layer_in_games(const layer_source *in);
 
 bool layer_applies(const layer_source *in, view_layer layer);

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /* legend.c - collects the lines of the legend, drops lines that do not fit, and draws the other lines.
  *
- * The legend stands at the bottom of the text column, below rows whose number changes from tick to tick. So the room
- * for the legend changes too. Three rules keep the legend steady:
- *    - Lines are sorted by legend_entry.order. A layer keeps its line as long as it can have elements in the
- *      recording, also in frames in which it has none. So lines do not come and go.
- *    - If there are too many lines, whole groups are dropped; a group is a line with its continuation lines. First
- *      dropped are the groups of layers without elements in this frame, then groups that are nearly self-explanatory,
- *      then groups of layers whose answer the panel shows. If that is not enough, lines are dropped from the end. A
- *      final line counts the dropped lines.
+ * The legend stands at the bottom of the text column. The number of rows above the legend changes from tick to tick,
+ * and with it the room for the legend. Three rules keep the legend steady:
+ *    - Lines are sorted by legend_entry.order. A layer that can have elements in the recording keeps its line in all
+ *      frames, also in frames without such elements. So lines do not come and go.
+ *    - If there are too many lines, whole groups are dropped; a group is a line with its continuation lines. The groups
+ *      of layers without elements in this frame are dropped first. Next are groups that readers understand without the
+ *      legend, and then groups of layers whose answer the panel shows. If that is not enough, lines are dropped from
+ *      the end. A final line counts the dropped lines.
  *    - The legend is aligned with the bottom of the picture.
  * The signs are drawn in whole dots from tables of rectangles, so they are sharp at every font size. */
 #include "legend.h"
@@ -70,7 +70,8 @@ static void add_layer_line(legend *l, const layer_source *in, view_layer layer)
         legend_add(l, entry->sign, "%s", entry->text);
 }
 
-/* Return whether a line belongs to the line before it: both are dropped or kept together. */
+/* Return whether a line continues the line before it. Such a line is dropped or kept together with the line before
+ * it. */
 static bool is_continuation(const legend_line *line)
 {
     return line->sign == SIGN_NONE || line->sign == SIGN_SCALE;
@@ -86,8 +87,8 @@ static void remove_line(legend *l, size_t place)
     l->count -= end - place;
 }
 
-/* Remove lines until the others fit into `room` lines, together with a final line that counts the removed lines. Return
- * the number of removed lines; 0 if all lines fit. */
+/* Remove lines until the other lines fit into `room` lines, together with a final line that counts the removed lines.
+ * Return the number of removed lines, which is 0 if all lines fit. */
 static size_t fit_lines(legend *l, size_t room)
 {
     const size_t needed = l->count, left = room ? room - 1 : 0;

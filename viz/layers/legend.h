@@ -25,15 +25,15 @@ typedef enum legend_sign {
     SIGN_RING,
     SIGN_TRIANGLE,
     SIGN_WEDGE,
-    SIGN_RAMP, /* the first `steps` node colours, side by side */
+    SIGN_RAMP, /* a bar of the first `steps` node colours, side by side */
     SIGN_GROWING_RAMP,
-    SIGN_NODES, /* an inner node and a leaf of the diagram */
+    SIGN_NODES, /* the diagram's symbols: an inner node and a leaf */
     SIGN_BARS,
     SIGN_NODE,
     SIGN_SWATCH, /* a square in the line's `color` */
     SIGN_CHECKS,
-    /* A colour bar across the column, for the line's `scale`; numbers follow in the next line. Continues the line
-     * before it. */
+    /* A colour bar across the column, for the line's `scale`. The next line has the numbers of the bar. SIGN_SCALE
+     * continues the line before it. */
     SIGN_SCALE,
 } legend_sign;
 
@@ -45,11 +45,11 @@ typedef struct legend_scale {
     bool pointed; /* true: both ends taper to a point; numbers outside low to high have the colours of the ends */
 } legend_scale;
 
-/* Which lines are dropped if not all lines fit. Lines with the greatest value are dropped first. */
+/* The order in which lines are dropped if not all lines fit: lines with the greatest value are dropped first. */
 typedef enum legend_drop_order {
     DROP_LAST,
     DROP_LATE,  /* the panel shows the layer's answer in the layer's colour */
-    DROP_EARLY, /* readers understand the layer without the legend */
+    DROP_EARLY, /* readers understand the layer without its legend line */
     DROP_FIRST, /* the layer has no elements in this frame */
 } legend_drop_order;
 
@@ -70,20 +70,21 @@ typedef struct legend_line {
 typedef struct legend {
     const scene *scene;
     unsigned in_frame; /* bit i: layer i has elements in this frame */
-    legend_line next;  /* the line that legend_add() copies and then changes */
+    legend_line next;  /* the line that legend_add() will add next: a copy of it becomes the new line */
     legend_line lines[LEGEND_MOST_LINES];
     size_t count;
 } legend;
 
-/* The number of characters that fit into a line behind its sign, and the column, counted in characters, at which the
- * text begins. */
+/* LEGEND_WORDS: the column at which the text of a line begins, behind the line's sign. LEGEND_LETTERS: the number of
+ * characters of text in a line. */
 #define LEGEND_LETTERS (LAYOUT_LETTERS - LEGEND_WORDS)
 #define LEGEND_WORDS 4
 
 /* Add a line in the layer's colour. Return the line, so that the caller can change its role, steps or colour. */
 legend_line *legend_add(legend *l, legend_sign sign, const char *format, ...);
 
-/* Add a colour bar. It has two lines, which are kept or dropped together with the line before them. */
+/* Add a colour bar and its numbers, which are two lines. They are kept or dropped together with the line before
+ * them. */
 void legend_add_scale(legend *l, legend_scale scale);
 
 /* Add a line that explains the colours of depths, such as "nodes, depth 0-9+". All depths beyond the last colour share
@@ -94,7 +95,7 @@ void legend_add_depths(legend *l, const char *what, size_t deepest);
 void write_scale(pen *p, const legend_scale *scale);
 
 /* Write the legend of the view's layers below the pen. If not all lines fit, lines are dropped by their drop order and
- * then from the end, and a final line counts them. */
+ * then from the end. A final line counts the dropped lines. */
 void write_legend(pen *p, const layer_source *in);
 
 #endif

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /* legend_scale.c - draws a colour bar across the text column, with round numbers below it.
  *
- * The numbers must be round, stand below their place on the bar, and not touch each other. How many numbers fit depends
- * on their length when printed, and the length depends on the step between them. So the code tries sets of about five,
- * four, three, two numbers and one number. For each set it takes the next round step (1, 2 or 5 times a power of ten)
- * and prints the numbers. It keeps the first set with room for a character between all numbers. A logarithmic bar has
- * fixed numbers: every second power of two. A bar whose ends are equal or not finite has one number in the middle.
+ * The problem: the numbers must be round, stand below their place on the bar, and not touch each other. How many
+ * numbers fit depends on their length when printed, and the length depends on the step between them. So the code tries
+ * sets of about five, four, three and two numbers, and finally a single number. For each set it takes the next round
+ * step (1, 2 or 5 times a power of ten) and prints the numbers. It keeps the first set with room for a character
+ * between all numbers. A logarithmic bar has fixed numbers: every second power of two. A bar whose ends are equal or
+ * not finite has one number in the middle.
  *
  * If numbers outside the bar have the colours of its ends, the bar tapers to a point at both ends. */
 #include "legend.h"
@@ -35,8 +36,8 @@ static void add_number(scale_numbers *m, double part, double value)
     }
 }
 
-/* Number a logarithmic bar at every second power of two: low, 4 low, 16 low ... The last number gets a "+", because
- * larger numbers have the same colour. */
+/* Place numbers at every second power of two below a logarithmic bar: low, 4 low, 16 low ... The last number gets a
+ * "+", because larger numbers have the same colour. */
 static scale_numbers number_powers(const legend_scale *scale)
 {
     scale_numbers m = {.count = 0};

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* marked_node_layers.c - the layers that mark a single node. Layer "asked" marks the node of `octreel inspect --node`.
- * The other layer marks the node in which the validator finds a broken invariant of the tree. */
+/* marked_node_layers.c - the two layers that mark a single node. Layer "asked" marks the node that the user requested
+ * with `octreel inspect --node`. Layer "broken" marks the node in which the validator finds a broken invariant of the
+ * tree. */
 #include "layer_type.h"
 #include "node_boxes.h"
 #include "octree/octree.h"
@@ -16,8 +17,8 @@ static bool is_requested(const layer_source *in)
     return in->requested != 0;
 }
 
-/* Draw the node with bold lines, in the colour of its path in the diagram. If the node is small on screen, add a
- * marker. */
+/* Draw the requested node with bold lines, in the colour of the path to this node in the diagram. If the node is small
+ * on screen, add a marker. */
 static void add_requested_node(scene *s, const layer_source *in, view_layer layer)
 {
     octree_node node;
@@ -49,7 +50,7 @@ const layer_type layer_ASKED = {.applies = is_requested,
 
 /* ---- The node with a broken invariant ------------------------------------------------------------------------ */
 
-/* Draw the node with crossed faces, and the word "broken" beside it. */
+/* Draw the node with the broken invariant: its box with crossed faces, and the word "broken" beside it. */
 static void add_broken_node(scene *s, const layer_source *in, view_layer layer)
 {
     if (!in->broken)

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* node_boxes.h - adds boxes of nodes, for the layers that show nodes, and drops points beyond the budget. */
+/* node_boxes.h - adds boxes of nodes, for the layers that show nodes, and selects the points to drop if there are more
+ * points than the budget. */
 #ifndef LAYERS_NODE_BOXES_H
 #define LAYERS_NODE_BOXES_H
 
@@ -14,16 +15,17 @@ typedef struct node_traits {
     bool leaf;
 } node_traits;
 
-/* Return the colour role of a node. Under COLORING_OCCUPANCY the inner nodes of a tree with a capacity are grey. All of
- * them hold more points than the capacity, so a colour would say nothing, and their coloured boxes would hide the
- * leaves. */
+/* Return the colour role of a node. Under COLORING_OCCUPANCY the inner nodes of a tree with a capacity are grey. Every
+ * inner node holds more points than the capacity, so its colour would say nothing, and coloured boxes of inner nodes
+ * would hide the leaves. */
 theme_role node_role(const view *v, node_traits node);
 
 /* Add the box of a node. The element's id is the node's address. */
 void add_node_box(scene *s, const octree_node *node, scene_style style);
 
 /* Return whether a box is smaller than the view's lod and belongs to a node with an ancestor that the filter shows.
- * Queries that visit a node also visit its ancestors, so the layer of visited nodes shows such an ancestor too. */
+ * Every query that visits a node also visits the node's ancestors. So if the layer of visited nodes leaves out the
+ * node, it still shows such an ancestor. */
 bool is_small_below_shown(const scene *s, const octree_box *box, unsigned depth);
 
 /* Find the node at an address. If the tree no longer has the node, *node becomes its empty cell. Return false if the
@@ -31,15 +33,15 @@ bool is_small_below_shown(const scene *s, const octree_box *box, unsigned depth)
  * shown. Nodes that are too small are counted in tally.small_marked. */
 bool find_shown_node(scene *s, const octree *tree, octree_address address, octree_node *node);
 
-/* Add the diagonals of a box's six faces, as lines with the ids 0 to CROSS_LINES - 1. Readers recognize these crosses
- * without colour. */
+/* Add the diagonals of a box's six faces, as lines with the ids 0 to CROSS_LINES - 1. Readers recognize a box with
+ * crossed faces even without colour. */
 void add_crossed_faces(scene *s, const octree_box *box, scene_style style);
 #define CROSS_LINES 12
 
 /* Return whether a sieve drops an id. A sieve is a bit mask that decides which points are dropped if there are more
  * points than the budget. The decision depends only on the point's id. So a moving point does not flicker, and its
- * velocity arrow is dropped together with it. A sieve whose n lowest bits are set keeps about one id in 2^n. A finer
- * sieve keeps a subset of the ids that a coarser sieve keeps. */
+ * velocity arrow is dropped together with it. A sieve whose n lowest bits are set keeps about one id in 2^n. A sieve
+ * with more bits, called finer, keeps a subset of the ids that a coarser sieve keeps. */
 static inline bool sieve_drops(uint64_t sieve, uint64_t id)
 {
     return octree_digest_word(OCTREE_DIGEST_START, id) & sieve;

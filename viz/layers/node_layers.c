@@ -2,7 +2,8 @@
 /* node_layers.c - the layers of a tree's nodes and points, within the view's filter, lod and budget.
  *
  * One walk over the tree in pre-order adds both layers. Three rules limit the number of elements:
- *    - Filter: nodes and points that the view's filter hides are left out. Branches without a shown node are skipped.
+ *    - Filter: nodes and points that the view's filter hides are left out. Branches of the tree in which the filter
+ *      shows no node are skipped.
  *    - Lod: a box that appears smaller than `lod` pixels is left out if the box of an ancestor is drawn. Boxes inside
  *      a small box are small too, so they are not measured.
  *    - Budget: at most `budget` boxes and at most `budget` points are added. Boxes are dropped by whole levels, the
@@ -10,9 +11,9 @@
  *      hash of their ids (node_boxes.h). Each finer sieve drops about half of the remaining points.
  *
  * Counting first and drawing afterwards would need two walks. Instead, the walk adds boxes and points until the budget
- * is exceeded. Then it removes the deepest level, or about every other point, from the scene, and continues with this
- * limit. The result is the same, because levels and sieves are nested. The extra cost is at most one pass over the
- * scene for each of the 21 levels and for each bit of the sieve.
+ * is exceeded. Then it removes the deepest level, or about every other point, from the scene, and continues without
+ * that level or with that sieve. The result is the same, because levels and sieves are nested. The extra cost is at
+ * most one pass over the scene for each of the 21 levels and for each bit of the sieve.
  *
  * Kept subtrees: in a large game most of the tree is the same as at the last tick. kept_tree.h stores the boxes and
  * markers of subtrees with few points. The walk copies an unchanged subtree from the store and does not visit its
@@ -44,13 +45,15 @@ typedef struct tree_walk {
     const point_values *values;
     uint8_t point_width;
     size_t capacity;
-    /* True: Octreel's nodes are shown; its points may be shown without its nodes. */
+    /* True: Octreel's nodes are shown. If false, the nodes are hidden, but the points of Octreel's tree may still be
+     * shown. */
     bool shows_nodes;
     view_filter filter;                    /* the filter that points must pass */
     size_t at_depth[OCTREE_MAX_DEPTH + 1]; /* at_depth[d]: number of boxes in the scene at depth d */
     int deepest;                           /* boxes deeper than this are beyond the budget */
     uint64_t sieve;                        /* points that this sieve drops are beyond the budget */
-    /* drawn[d + 1]: on the path from the root, a box at depth d or at a smaller depth is drawn. */
+    /* drawn[d + 1]: the box at depth d or one of its ancestors is drawn; on the path from the root to the current
+     * node. */
     bool drawn[OCTREE_MAX_DEPTH + 2];
     bool small[OCTREE_MAX_DEPTH + 2]; /* small[d + 1]: the box at depth d on the path is smaller than the view's lod */
     kept_tree *kept;                  /* the store of unchanged subtrees; null: not in use */
@@ -68,7 +71,8 @@ static void stop_keeping(tree_walk *w)
 
 /* ---- Points ------------------------------------------------------------------------------------------------- */
 
-/* Use the next finer sieve, and remove the points that it drops from the scene. These are about half of the points. */
+/* Switch to the next finer sieve. Remove from the scene the points that this sieve drops, which are about half of the
+ * points. */
 static void thin_points(tree_walk *w)
 {
     scene *s = w->scene;
@@ -107,8 +111,8 @@ static bool select_point(tree_walk *w, const octree_point *point)
     return !out;
 }
 
-/* Sort points by octree_compare_points(). They are often sorted already. If not, few points are sorted by insertion,
- * and many by qsort(). */
+/* Sort points by octree_compare_points(). If the points are not already sorted, an insertion sort handles few points,
+ * and qsort() many. */
 static void sort_points(octree_point *points, size_t count)
 {
     size_t sorted = 1;
@@ -127,8 +131,8 @@ static void sort_points(octree_point *points, size_t count)
     }
 }
 
-/* Add the points of a leaf, sorted by id. A leaf stores its points in an order that depends on the tree's history, and
- * a scene must not depend on it. */
+/* Add the points of a leaf, sorted by id. The order in which a leaf stores its points depends on the tree's history,
+ * and a scene must not depend on that history. */
 static void add_points(tree_walk *w, const octree_node *leaf)
 {
     scene *s = w->scene;
@@ -194,8 +198,8 @@ static void add_box(tree_walk *w, const scene_box *box)
         drop_level(w);
 }
 
-/* Add a node's box if filter and lod allow it. `by_filter` is true if the filter shows the node. Return false if only
- * the lod leaves the box out. */
+/* Add a node's box if filter and lod allow it. `by_filter` is true if the filter shows the node. Return false if the
+ * filter shows the node but the lod leaves out its box. */
 static bool show_box(tree_walk *w, const scene_box *box, bool by_filter)
 {
     const scene *s = w->scene;
@@ -220,8 +224,8 @@ static void show_node(tree_walk *w, const octree_node *node)
 
 /* ---- Kept subtrees ------------------------------------------------------------------------------------------ */
 
-/* Copy a stored subtree into the scene. If the lod leaves out a node, all nodes below it are left out too. This is
- * correct because the store is used only without a filter. */
+/* Copy a stored subtree into the scene. If the lod leaves out a node, all nodes below it are left out too. No lower
+ * node needs a test of its own, because the store is used only without a filter. */
 static void add_kept_subtree(tree_walk *w, const kept_subtree *kept)
 {
     scene *s = w->scene;
@@ -255,8 +259,8 @@ static void close_kept_subtree(tree_walk *w)
     w->keeping_failed = w->keeping_failed || !kept_tree_end_subtree(w->kept, w->scene);
 }
 
-/* Copy the subtree of a node from the store and return true if the store has it. Otherwise return false. Then also
- * begin to store the subtree, unless it has too many points or lies inside a subtree that is already being stored. */
+/* If the store has the subtree of a node, copy it into the scene and return true. Otherwise return false, and begin to
+ * store the subtree, unless it has too many points or lies inside a subtree that is already being stored. */
 static bool reuse_kept_subtree(tree_walk *w, const octree_node *node)
 {
     if (kept_tree_is_collecting(w->kept, node))
@@ -288,8 +292,9 @@ static octree_walk_order add_node(const octree_node *node, void *context)
     return s->out_of_memory || w->keeping_failed ? OCTREE_WALK_STOP : OCTREE_WALK_ON;
 }
 
-/* Return the store of subtrees, or null if it must not be used. The store has only points without colours of their own
- * and nodes of a game's own tree, without a filter. A small tree does not need the store. */
+/* Return the store of subtrees, or null if the store must not be used. The store has only nodes of a game's own tree,
+ * and points without colours of their own. It is not used with a filter, or for a small tree, which does not need
+ * it. */
 static kept_tree *get_kept_tree(const tree_walk *w, const layer_source *in)
 {
     scene *s = w->scene;
@@ -316,7 +321,7 @@ static bool begin_kept_tree(tree_walk *w, const octree *tree, kept_tree *kept)
 }
 
 /* Finish a walk that used the store. Return false if the walk must be repeated without the store, because memory ran
- * out or a coarser sieve is enough. */
+ * out or because a coarser sieve is enough. */
 static bool end_kept_tree(tree_walk *w)
 {
     close_kept_subtree(w);
@@ -347,9 +352,9 @@ static void walk_tree(tree_walk *w, const octree *tree, kept_tree *kept)
 
 /* ---- Labels ------------------------------------------------------------------------------------------------- */
 
-/* Write the address of a node, or the id of a foreign node, into the middle of its box. Return false without a label if
- * the label is wider than the box on screen or would cover another label. A label wider than its box could belong to a
- * neighbouring box. */
+/* Write the address of a node, or the id of a foreign node, into the middle of the node's box. Return false, and add no
+ * label, if the label is wider than the box on screen or would cover another label. Readers could take a label wider
+ * than its box for a label of a neighbouring box. */
 static bool add_label(scene *s, text_space *words, const scene_box *box)
 {
     char address[OCTREE_ADDRESS_TEXT];
@@ -373,7 +378,8 @@ static bool add_label(scene *s, text_space *words, const scene_box *box)
  * the walk. */
 static void add_labels(scene *s)
 {
-    text_space words = text_space_make(s); /* the numbers on the axes already take room */
+    /* text_space_make() marks the room that the numbers on the axes take as occupied. */
+    text_space words = text_space_make(s);
     unsigned deepest = 0;
     for (size_t i = 0; i < s->boxes.count; i++)
         if (s->boxes.items[i].style.layer == LAYER_NODES && s->boxes.items[i].depth > deepest)
@@ -386,15 +392,16 @@ static void add_labels(scene *s)
 
 /* ---- The layers --------------------------------------------------------------------------------------------- */
 
-/* Return the factor by which the distance between points grows if one point in `one_in` is kept. The factor 1.3 is
- * there because a sieve keeps points at random, which leaves wider gaps than a regular scan. */
+/* Return the factor by which the distance between points grows if a sieve keeps one point in `one_in`. The factor
+ * contains 1.3 because a sieve keeps points at random, which leaves wider gaps than the regular points of a scan. */
 static double thinned_spacing(uint64_t one_in)
 {
     return one_in > 1 ? 1.3 * sqrt((double)one_in) : 1;
 }
 
-/* Add the layers of nodes and points in one walk. The more points there are, the smaller is each of them drawn. In a
- * game the size follows from the session's number of points, so that it does not change from tick to tick. */
+/* Add the layers of nodes and points in one walk. The more points there are, the smaller each point is drawn. In a game
+ * the size of a point follows from the number of points in the session, so that the size does not change from tick to
+ * tick. */
 static void add_nodes_and_points(scene *s, const layer_source *in, view_layer layer)
 {
     const size_t expected = in->game ? in->session->body_count : octree_count(in->tree);
@@ -404,7 +411,8 @@ static void add_nodes_and_points(scene *s, const layer_source *in, view_layer la
     w.shows_nodes = view_shows_layer(&s->view, LAYER_NODES) && shows_own_tree(in);
     w.filter = s->view.filter;
     if (!shows_own_tree(in))
-        /* The depths in the view's filter are depths of the foreign tree, so they do not apply to points. */
+        /* The depths in the view's filter are depths of the foreign tree. They do not apply to the points, which belong
+         * to Octreel's tree. */
         w.filter.by_depth = false;
     walk_tree(&w, in->tree, get_kept_tree(&w, in));
     s->tally.deepest = w.deepest;
@@ -420,7 +428,7 @@ static void add_nodes_and_points(scene *s, const layer_source *in, view_layer la
 static void add_kinds_legend(legend *l, const layer_source *in)
 {
     const size_t count = shows_foreign_tree(in) ? in->tick->foreign.kind_count : 0;
-    /* Number of kinds that have a line of their own. */
+    /* Number of kinds of foreign nodes that get a legend line of their own. */
     const size_t named = count > THEME_NODE_KINDS ? THEME_NODE_KINDS - 1 : count;
     if (shows_own_tree(in))
         legend_add(l, SIGN_BOLD, "node");
@@ -431,7 +439,8 @@ static void add_kinds_legend(legend *l, const layer_source *in)
         legend_add(l, SIGN_BOLD, "node: any other kind")->role = theme_node_kind_role((unsigned)named);
 }
 
-/* Add the legend's colour bars of occupancy. A foreign index has no leaf capacity, so it has a bar of its own. */
+/* Add the legend's colour bars of occupancy. A foreign index has no leaf capacity, so its nodes have a colour bar of
+ * their own. */
 static void add_occupancy_legend(legend *l, const layer_source *in)
 {
     const view *v = &l->scene->view;

@@ -34,7 +34,7 @@ static void cut_text(char *text, size_t room)
         memcpy(text + room - 2, "..", 2);
 }
 
-/* Write a label x pixels to the right of the pen. Its text is cut to `room` characters. */
+/* Write a label x pixels to the right of the pen. A text longer than `room` characters is cut. */
 static void add_text(pen *p, int x, theme_role role, unsigned size, size_t room, const char *text)
 {
     scene_label label =
@@ -87,7 +87,8 @@ void write_row(pen *p, const char *name, const char *detail, const char *format,
     snprintf(between, sizeof between, "%s", detail);
     cut_text(between, (size_t)detail_room(p, strlen(value)));
     const int taken = *between ? DETAIL + (int)strlen(between) : (int)strlen(name);
-    /* A value cut to 2 characters or fewer would be useless, so it is not cut and covers the name. */
+    /* A value that is cut to one or two characters would be useless. Such a value is therefore not cut, and covers the
+     * row's name. */
     if (p->letters - taken - 1 > 2)
         cut_text(value, (size_t)(p->letters - taken - 1));
     write_text(p, 0, p->name, "%s", name);

@@ -9,9 +9,9 @@
 #include "octree/types.h"
 #include "scene.h"
 
-#define DETAIL 10 /* position in a row at which its detail begins, in characters */
+#define DETAIL 10 /* position of the detail in a row: the character at which it begins */
 
-/* The position of the next line of text. */
+/* The position of the next line of text in a scene. */
 typedef struct pen {
     scene *scene;
     int left, y;            /* the top left corner of the line's first character, in pixels */
@@ -30,21 +30,21 @@ pen pen_in_corner(scene *s);
 void write_text(pen *p, int at, theme_role role, const char *format, ...);
 void write_right_aligned(pen *p, theme_role role, const char *text);
 
-/* Write a title, in characters that are twice as wide and twice as high. */
+/* Write a title in characters of twice the usual width and height. */
 void write_title_text(pen *p, theme_role role, const char *text);
 
 /* Write a line of text and move to the next line. */
 void write_line(pen *p, theme_role role, const char *text);
 
-/* Return the number of characters that a row has for its detail beside a value of this length. */
+/* Return the number of characters for a row's detail beside a value of `value_length` characters. */
 static inline int detail_room(const pen *p, size_t value_length)
 {
     const int room = p->letters - DETAIL - 1 - (int)value_length;
     return room > 0 ? room : 0;
 }
 
-/* Write a row: a name at the left, a formatted value at the right, and between them a detail, which may be empty. If
- * the value needs the room of the detail, the detail is cut. */
+/* Write a row: a name at the left, a formatted value at the right, and between them a detail, which may be empty. A
+ * long value may take room from the detail, which is then cut. */
 void write_row(pen *p, const char *name, const char *detail, const char *format, ...);
 
 /* Move down by half a line. If there is a column, write_rule() also draws a thin line in the middle of the gap. */
@@ -62,8 +62,8 @@ const char *format_number_within(double value, size_t letters, char text[NUMBER_
 /* Write a text x pixels to the right of the pen. */
 void write_text_at(pen *p, int x, theme_role role, const char *text);
 
-/* Fill a rectangle, in the colour of a role or in any other colour. Its corner x, y is relative to the pen. All numbers
- * are in pixels. */
+/* Fill a rectangle, in the colour of a role or in any other colour. The corner (x, y) of the rectangle is relative to
+ * the pen. All numbers are in pixels. */
 void fill_rectangle(pen *p, int x, int y, int width, int height, unsigned role);
 void fill_rectangle_in_color(pen *p, int x, int y, int width, int height, theme_color color);
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* player_layers.c - two layers: the player; and the player's collision box with the points that it hits. */
+/* player_layers.c - two layers. The first shows the player; the second shows the player's collision box and the points
+ * that the box hits. */
 #include "layer_type.h"
 #include "node_boxes.h"
 
@@ -38,7 +39,7 @@ const layer_type layer_PLAYER = {
 
 /* ---- The collision box -------------------------------------------------------------------------------------- */
 
-/* The id of the box that the collision test used, if it hit a point. The box around the player has the player's id
+/* The id of the box with which the collision test found a hit. The box around the player has the player's id
  * instead. */
 #define COLLISION_ID UINT64_MAX
 
@@ -77,8 +78,8 @@ static void add_swept_paths(scene *s, const octree_tick *tick, double box_size, 
         add_path_line(s, CROSS_LINES + CORNERS + i, tick->hit_from[i], tick->hits[i].position, style);
 }
 
-/* Draw the box of the collision test, crossed out, and a cross on each hit point. If the box is small on screen, also
- * draw a large cross of fixed size, because a small box is hard to see. */
+/* Draw the box of the collision test with crossed faces, and a cross on each hit point. If the box is small on screen,
+ * also draw a large cross of fixed size. */
 static void add_hit_box(scene *s, const layer_source *in, view_layer layer)
 {
     const octree_tick *tick = in->tick;

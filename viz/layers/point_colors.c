@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* point_colors.c - colours points by position, id, leaf or the values of a file, and explains the colours in the
+/* point_colors.c - colours points by position, id, leaf or the values in a point file, and explains the colours in the
  * legend. */
 #include "point_colors.h"
 #include "layer_type.h"
@@ -7,8 +7,8 @@
 
 #include <stdio.h>
 
-/* Return the position of a value between low (0) and high (1). All numbers are halved first, so that the differences do
- * not overflow. */
+/* Return where a value lies between `low` (result 0) and `high` (result 1). All numbers are halved first, so that the
+ * differences do not overflow. */
 static double fraction_between(double value, double low, double high)
 {
     const double whole = high / 2 - low / 2;
@@ -36,11 +36,12 @@ unsigned kind_of_class(unsigned class)
 
 /* How the points of one leaf are coloured. */
 typedef struct painting {
-    /* What the colour means; for POINTS_BY_LEAF this is replaced by the file's colours or the height. */
+    /* What the colour shows. POINTS_BY_LEAF has no colour of its own: points then have the colours of the file, or the
+     * colours of their height. */
     view_point_color by;
     const point_scale *scale;
     const point_values *values;
-    theme_color plain; /* the colour of points with a missing value */
+    theme_color plain; /* the colour of points whose value is missing */
 } painting;
 
 /* Return the axis whose coordinate decides the colour: x, y, z or height. */
@@ -100,7 +101,7 @@ void color_points(const view *v, const point_values *values, const octree_node *
 /* Add a legend line for each kind of LAS class that occurs among the points. */
 static void add_class_legend(legend *l, const point_values *values)
 {
-    unsigned kinds = 0; /* bit i is set if kind i occurs */
+    unsigned kinds = 0; /* bit i is set if a class of kind i occurs among the points */
     for (size_t row = 0; row < values->count; row++)
         if (values->rows[row].has[POINT_CLASS])
             kinds |= 1u << kind_of_class(values->rows[row].class);
@@ -169,7 +170,7 @@ void add_point_legend(legend *l, const layer_source *in)
         }
         legend_add(l, SIGN_DOT, "points, by %s", view_point_color_name(v->point_color));
     }
-    /* If there is no scale, no point is shown, so the legend needs no bar. */
+    /* Without a scale no point is shown, so the legend needs no colour bar. */
     if (v->point_scale.given || v->point_color == POINTS_BY_DENSITY)
         legend_add_scale(l, scale_of(&v->point_scale.of, v->point_color));
 }

@@ -8,12 +8,12 @@
 #include "scene.h"
 
 /* Set the colours of markers, by the view's point_color and its scale. All markers must show points of the same leaf. A
- * point with a missing value gets the plain colour of points. Under POINTS_BY_DENSITY the colours are set later, when
- * viz/draw counts the points of each pixel. `values` may be null. */
+ * point whose value is missing gets the plain colour of points. Under POINTS_BY_DENSITY the colours are set later, when
+ * viz/draw counts the points in each pixel. `values` may be null. */
 void color_points(const view *v, const point_values *values, const octree_node *leaf, scene_marker *markers,
                   size_t count);
 
-/* Add the legend's lines about points. */
+/* Add the legend's lines that explain the colours of points. */
 void add_point_legend(legend *l, const layer_source *in);
 
 /* Return the kind of an LAS class, for theme_kind_color(). Similar classes have the same kind; unknown classes have

@@ -24,7 +24,8 @@ static void add_box(scene *s, uint64_t id, const octree_shape *shape, scene_styl
     scene_add_outline(s, id, &box, style);
 }
 
-/* Write a label beside its position if there is room. If not, write it there all the same, over other elements. */
+/* Write the text of a label shape beside its position where there is room. If there is no room, write the text beside
+ * its position anyway, over other elements. */
 static void add_label(scene *s, text_space *words, uint64_t id, const octree_shape *shape, scene_style style)
 {
     _Static_assert(OCTREE_SHAPE_TEXT < SCENE_TEXT, "a label must hold a shape's text and one space before it");
@@ -41,7 +42,8 @@ static void add_label(scene *s, text_space *words, uint64_t id, const octree_sha
 
 static void add_shapes(scene *s, const layer_source *in, view_layer layer)
 {
-    /* Starts empty, because positions of shape labels must not depend on other layers. */
+    /* The list of occupied places starts empty, because the positions of shape labels must not depend on other
+     * layers. */
     text_space words = {.count = 0};
     for (size_t i = 0; i < in->tick->shape_count; i++) {
         const octree_shape *shape = &in->tick->shapes[i];

@@ -1,16 +1,18 @@
 /* SPDX-License-Identifier: MIT */
 /* velocity_layer.c - the layer of velocities: an arrow for each moving point that the view shows.
  *
- * An arrow starts at the point and follows the point's velocity for velocity_ticks() ticks. If it meets the world's
- * bounds before, it ends there, because the point bounces there. The number of ticks depends only on the session, so
- * readers can compare lengths from tick to tick. A point whose arrow would have no length gets no arrow.
+ * An arrow starts at the point and follows the point's velocity for velocity_ticks() ticks. If the arrow meets the
+ * world's bounds earlier, it ends at the bounds, because the point bounces there. The number of ticks depends only on
+ * the session, so readers can compare lengths from tick to tick. A point whose arrow would have no length gets no
+ * arrow.
  *
  * The arrows of a large session would cover the picture, so there is at most one arrow per thousand boxes of the view's
- * budget. Arrows are chosen with the sieve that also drops points (node_boxes.h), beginning with the last sieve of this
- * scene's points. So an arrow is never shown without its point, and the same points keep their arrows from tick to
- * tick. A first pass counts how many arrows each of the 65 sieves would keep, by the number of zero bits at the end of
- * each id's digest. A second pass adds the arrows with the first sieve that keeps few enough. The cost is O(movers),
- * whatever the budget. Arrows shorter than the view's lod are left out and counted. */
+ * budget. Arrows are chosen with the sieve that also drops points (node_boxes.h), beginning with the sieve that dropped
+ * points from this scene. So an arrow is never shown without its point, and the same points keep their arrows from tick
+ * to tick. A first pass counts how many arrows each of the 65 sieves would keep, by the number of zero bits at the end
+ * of each id's digest. A second pass uses the coarsest sieve that keeps the number of arrows within the limit, and adds
+ * the arrows that this sieve keeps. The cost is O(movers), whatever the budget. Arrows shorter than the view's lod are
+ * left out and counted. */
 #include "velocity_layer.h"
 #include "layer_type.h"
 #include "node_boxes.h"
@@ -20,8 +22,8 @@
 #include <math.h>
 #include <string.h>
 
-#define ARROW_FRACTION 10      /* the fastest arrow is at most a tenth of the world's longest side */
-#define BOXES_PER_ARROW 1000.0 /* there is one arrow per thousand boxes of the budget */
+#define ARROW_FRACTION 10      /* the longest arrow is at most a tenth of the world's longest side */
+#define BOXES_PER_ARROW 1000.0 /* at most one arrow per thousand boxes of the view's budget */
 
 unsigned velocity_ticks(const octree_game *game)
 {
@@ -44,8 +46,8 @@ static double clamp(double value, double low, double high)
     return value < high ? value : high;
 }
 
-/* Compute a body's position after a number of ticks. If the body meets the world's bounds before, compute the position
- * where it meets them. */
+/* Compute a body's position after a number of ticks. If the body meets the world's bounds earlier, compute the position
+ * where it meets the bounds. */
 static void extrapolate(const octree_body *body, const octree_box *world, double ticks, double end[3])
 {
     int stops = -1; /* the axis whose bound the body meets first; -1: it meets none */
@@ -94,8 +96,9 @@ static bool find_arrow_end(const arrow_context *a, const octree_body *body, doub
     return memcmp(body->position, end, sizeof body->position) != 0;
 }
 
-/* Return whether a body's arrow has a length and the view shows the body. The exact end of the arrow is computed only
- * if the body may leave the world's bounds, or moves so little that rounding could hide it. */
+/* Return whether a body gets an arrow: the view shows the body, and the arrow has a length. The exact end of the arrow
+ * is computed only if the body may leave the world's bounds, or moves so little that rounding could hide the
+ * movement. */
 static bool has_arrow(const arrow_context *a, const octree_body *body)
 {
     const octree_box *world = &a->in->world;
@@ -109,10 +112,10 @@ static bool has_arrow(const arrow_context *a, const octree_body *body)
     return ((within && far) || find_arrow_end(a, body, end)) && is_body_shown(a, body);
 }
 
-/* The number of sieves. Sieve i has its i lowest bits set, i from 0 to 64. */
+/* The number of sieves. Sieve i, from 0 to 64, has its i lowest bits set; more bits keep fewer arrows. */
 enum { SIEVES = 65 };
 
-/* Return the number of bits of the finest sieve that keeps an id. This is the number of zero bits at the end of the
+/* Return the number of bits of the finest sieve that keeps an id, which is the number of zero bits at the end of the
  * id's digest. */
 static unsigned count_passed_sieves(uint64_t id)
 {
@@ -122,12 +125,13 @@ static unsigned count_passed_sieves(uint64_t id)
     return passed;
 }
 
-/* Return the first sieve, from `sieve` on, that keeps few enough arrows: one per BOXES_PER_ARROW boxes of the budget,
- * and at least one, so that readers see something. Store the number of dropped arrows in the tally. */
+/* Choose how many velocity arrows are drawn. Return the coarsest sieve, at least as fine as `sieve`, that keeps at most
+ * one arrow per BOXES_PER_ARROW boxes of the view's budget; this limit is at least one arrow. Store the number of
+ * dropped arrows in the tally. */
 static uint64_t choose_sieve(scene *s, const arrow_context *a, const octree_tick *tick, uint64_t sieve)
 {
-    /* passing[i]: first the number of arrows for which sieve i is the finest that keeps them, then of all that it keeps
-     */
+    /* passing[i]: after the first loop, the number of arrows for which sieve i is the finest sieve that keeps them;
+     * after the second loop, the number of all arrows that sieve i keeps. */
     size_t passing[SIEVES] = {0}, all = 0;
     const size_t most = s->view.budget ? (size_t)ceil((double)s->view.budget / BOXES_PER_ARROW) : SIZE_MAX;
     for (size_t i = 0; i < tick->mover_count; i++)
@@ -151,7 +155,8 @@ static void add_velocities(scene *s, const layer_source *in, view_layer layer)
     const arrow_context a = {s, in, velocity_ticks(in->game)};
     if (!view_shows_layer(&s->view, layer) || tick->mover_count == 0)
         return;
-    /* The last sieve of the scene's points: a dropped point has no arrow. */
+    /* The sieve that dropped points from this scene. A dropped point gets no arrow, so the arrows use the same or a
+     * finer sieve. */
     const uint64_t points = s->tally.one_in - 1;
     const uint64_t sieve = choose_sieve(s, &a, tick, points);
     for (size_t i = 0; i < tick->mover_count; i++) {

@@ -5,9 +5,9 @@
 
 #include "octree/game.h"
 
-/* Return the number of ticks whose movement an arrow shows. It is the largest of 1, 2, 5, 10 ... 1000 for which the
- * arrow of the session's fastest body is at most a tenth of the world's longest side; it is 1 if no number is small
- * enough. It is the same at every tick. */
+/* Return the number of ticks whose movement an arrow shows. The result is the largest of 1, 2, 5, 10 ... 1000 for which
+ * the arrow of the session's fastest body is at most a tenth of the world's longest side. If even 1 is too large, the
+ * result is 1. The number is the same at every tick. */
 unsigned velocity_ticks(const octree_game *game);
 
 #endif

@@ -10,8 +10,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Return the address of the i-th node that queries reached if the layer shows it: a leaf with a found point, a pruned
- * node, or a visited node, depending on the layer. Return 0 if the layer does not show it. */
+/* Return the address of the i-th node that queries reached, or 0 if `layer` does not show this node. The layer of hits
+ * shows leaves in which a query found points; the other layers show pruned nodes or visited nodes. */
 static octree_address find_visited_node(const octree_tick *tick, view_layer layer, size_t i)
 {
     if (layer == LAYER_HIT)
@@ -20,8 +20,8 @@ static octree_address find_visited_node(const octree_tick *tick, view_layer laye
     return pruned == (layer == LAYER_PRUNED) ? tick->visits[i].node : 0;
 }
 
-/* Add the nodes of a layer. Visited and pruned nodes have the same colour as in the layer of nodes. Visited nodes have
- * bold lines, pruned nodes dashed lines. */
+/* Add the nodes of the layer `layer`. Visited and pruned nodes have the same colour as in the layer of nodes. Visited
+ * nodes have bold lines, pruned nodes dashed lines. */
 static void add_visits(scene *s, const layer_source *in, view_layer layer)
 {
     const octree_tick *tick = in->tick;
@@ -44,7 +44,7 @@ static void add_visits(scene *s, const layer_source *in, view_layer layer)
         add_visited_foreign_nodes(s, in, style);
 }
 
-/* Return how many nodes had this kind of visit, in the trees that the view shows. */
+/* Return how many nodes had a visit of the kind `visit`, in the trees that the view shows. */
 static size_t count_shown_visits(const layer_source *in, size_t octreel, octree_node_visit visit)
 {
     return (shows_own_tree(in) ? octreel : 0) + (shows_foreign_tree(in) ? in->tick->foreign.visits[visit] : 0);
@@ -56,8 +56,8 @@ static void add_pruned_legend(legend *l, const layer_source *in)
     legend_add(l, SIGN_DASHES, "%zu node%s pruned", pruned, plural_ending(pruned));
 }
 
-/* Add legend lines with the number of visited nodes and the number of nodes taken whole. A node is taken whole if all
- * its points are accepted without comparing them. The two numbers share a line if they fit. */
+/* Add legend lines with the number of visited nodes and the number of nodes taken whole: nodes whose points a query
+ * accepted without comparing them. The two numbers share a line if they fit. */
 static void add_visited_legend(legend *l, const layer_source *in)
 {
     const size_t taken = shows_own_tree(in) ? in->tick->touched[OCTREE_TRACE_TAKEN] : 0;

@@ -8,19 +8,22 @@
 #include <math.h>
 #include <string.h>
 
-#define TICK_SPACE                                                                                                     \
-    40 /* minimum distance between numbers on an axis that is horizontal in the picture, in picture units */
-#define UPRIGHT_SPACE 2   /* minimum distance between numbers on an upright axis, in lines of text */
+/* Minimum distance between numbers on an axis that is horizontal in the picture, in picture units. */
+#define TICK_SPACE 40
+#define UPRIGHT_SPACE 2   /* minimum distance between numbers on a vertical axis, in lines of text */
 #define MOST_TICKS 10     /* maximum number of intervals between numbers on an axis */
 #define TICK_LENGTH 0.012 /* length of a tick mark, as a part of the box's longest side */
-/* An axis whose length in the picture is less than this part of side_length() is seen end on. */
+/* An axis is seen end on if its length in the picture is less than this part of the length that it would have if seen
+ * from the side. */
 #define END_ON_RATIO 0.1
 #define DIGITS 9      /* significant digits of a printed number */
 #define FIRST_ID 1000 /* the id of the first tick mark of the x axis */
-#define OUTLINE 1e-3  /* pixels by which rounding may put a corner beyond the line of an edge */
-/* Weight of a low position in choose_edge(), for level axes; the weight of a position at the left is 1. */
+/* rounding tolerance: a corner may lie this many pixels beyond the line of an edge on the outline */
+#define OUTLINE 1e-3
+/* Weight of a low position when choose_edge() rates the edges for a level axis; the weight of a position at the left is
+ * 1. */
 #define LOWEST 16
-#define ROOM 40 /* weight in choose_edge() of room for a number at an end of the edge */
+#define ROOM 40 /* weight of room for a number at an end of the edge, when choose_edge() rates the edges */
 
 /* The axes of one scene. In the number of a corner, bit i is set if the corner is at the upper end of axis i. */
 typedef struct axes {
@@ -34,16 +37,17 @@ typedef struct axes {
 /* The edge of the box that an axis runs along. */
 typedef struct axis_edge {
     int axis;
-    unsigned corner; /* number of the corner at the lower end of the edge */
-    /* The unit vector in the picture that is normal to the edge and points away from the box; 0 if no edge is on
-     * the outline. */
+    /* corner of the box at the lower end of the edge: bit i is set if the corner is at the upper end of axis i */
+    unsigned corner;
+    /* The unit vector in the picture that is normal to the edge and points away from the box. 0 if no edge lies on the
+     * outline of the box. */
     double out[2];
 } axis_edge;
 
 static const scene_style axis_style = {.layer = LAYER_WORLD, .role = ROLE_FAINT, .width = 1};
 
-/* Return the length in pixels that an axis would have if seen from the side, at the distance of the box's middle. It
- * stays the same while the camera orbits. */
+/* Return the length in pixels that an axis would have if seen from the side, at the distance of the box's middle. The
+ * length stays the same while the camera orbits. */
 static double side_length(const camera *c, int axis)
 {
     double middle = 0;
@@ -52,8 +56,8 @@ static double side_length(const camera *c, int axis)
     return 2 * c->half[axis] * c->zoom / (c->perspective ? fmax(middle, c->near) : 1);
 }
 
-/* Return the distance between two numbers on an axis, in world units. Return 0 if there is no room, or if the numbers
- * would need too many digits. */
+/* Return the distance between two neighbouring numbers on an axis, in world units. Return 0 if there is no room for
+ * numbers, or if the numbers would need too many digits. */
 static double number_step(const axes *a, int axis)
 {
     const double extent = a->box->max[axis] - a->box->min[axis];
@@ -64,13 +68,14 @@ static double number_step(const axes *a, int axis)
         return 0;
     const double step = number_round_up_to_1_2_5(extent / count);
     const double largest = fmax(fabs(a->box->min[axis]), fabs(a->box->max[axis]));
-    /* With a smaller step two neighbouring numbers could print the same digits. */
+    /* With a smaller step, the printed digits of two neighbouring numbers could be the same. */
     return step > 0 && largest / step < 1e8 ? step : 0;
 }
 
 /* ---- Choosing edges ------------------------------------------------------------------------------------------ */
 
-/* Return whether no corner of the box lies beyond the line through the pixel `at`; `out` is the normal of this line. */
+/* Return whether an edge lies on the outline of the box: no corner of the box lies beyond the line through the pixel
+ * `at` with the normal `out`. */
 static bool is_outline(const axes *a, const double at[2], const double out[2])
 {
     for (int i = 0; i < 8; i++)
@@ -79,7 +84,7 @@ static bool is_outline(const axes *a, const double at[2], const double out[2])
     return true;
 }
 
-/* Return whether a number beside the end `at` of an edge lies within the space view. */
+/* Return whether a number beside the end `at` of an edge fits into the space view. */
 static bool has_room(const axes *a, const double at[2], const double out[2])
 {
     const camera_window w = layout_space_area(a->scene);
@@ -88,10 +93,10 @@ static bool has_room(const axes *a, const double at[2], const double out[2])
     return x >= 0 && y >= 0 && x <= w.width && y <= w.height;
 }
 
-/* Choose the edge along which an axis runs. It lies on the outline of the box, so that numbers stand beside the box and
- * not on its contents. Each of the four parallel edges is rated, in both directions. Room for numbers at its ends
- * counts most, then, for a level axis, a low position, then a position at the left. If the camera is inside the box, no
- * edge is on the outline, and the result is the edge at corner 0. */
+/* Choose the edge along which an axis runs. The edge lies on the outline of the box, so that numbers stand beside the
+ * box and not on its contents. Each of the four parallel edges is rated, with the numbers on either side of it. Room
+ * for numbers at the edge's ends counts most, then, for a level axis, a low position, and then a position at the left.
+ * If the camera is inside the box, no edge lies on the outline, and the result is the edge at corner 0. */
 static axis_edge choose_edge(const axes *a, int axis)
 {
     axis_edge edge = {.axis = axis};
@@ -113,8 +118,8 @@ static axis_edge choose_edge(const axes *a, int axis)
 }
 
 /* Return whether an axis gets no numbers. An axis that is seen end on gets none, because all its numbers would be at
- * the same place. An axis without an edge on the outline gets none, because its numbers would stand on the contents of
- * the box. */
+ * the same place. An axis gets none either if no edge lies on the outline, because its numbers would stand on the
+ * contents of the box. */
 static bool is_end_on(const axes *a, const axis_edge *e)
 {
     const double *from = a->corners[e->corner], *to = a->corners[e->corner | 1u << e->axis];
@@ -125,8 +130,8 @@ static bool is_end_on(const axes *a, const axis_edge *e)
 
 /* ---- Tick marks and axis names ------------------------------------------------------------------------------ */
 
-/* Place a number beyond the end of its tick mark, away from the edge. If the camera is inside the box, the number
- * continues the direction of the tick mark. Return false if there is no room. */
+/* Place a number beyond the end of its tick mark, on the side away from the edge. If the camera is inside the box, the
+ * number continues the direction of the tick mark. Return false if there is no room. */
 static bool place_number(axes *a, const axis_edge *e, double tick[2][3], scene_label *number)
 {
     double from[2], pixel[2], out[2];
@@ -148,7 +153,7 @@ static double longest_side(const scene *s)
     return s->camera.size / s->camera.scale;
 }
 
-/* Add a tick mark, which points away from the box, and a number at its end if there is room. */
+/* Add a tick mark that points away from the box. Add a number at the tick mark's end if there is room. */
 static void add_tick(axes *a, const axis_edge *e, double at, uint64_t id)
 {
     scene *s = a->scene;
@@ -193,8 +198,8 @@ static bool place_letter(axes *a, double ends[2][3], scene_label *letter)
 }
 
 /* Add the name of an axis, x, y or z, at its end, unless the axis is seen end on. Numbers do not cover the name. If
- * there is no room beyond the end, the name stands at the end itself. If `drawn` is true, also draw the axis's edge,
- * because nothing else draws it if the box is not the world's box. */
+ * there is no room beyond the end, the name stands at the end itself. `drawn` is true if the box is not the world's
+ * box: then also draw the axis's edge, because no other function draws it. */
 static void add_axis(axes *a, const axis_edge *e, bool drawn)
 {
     scene_label letter = scene_make_label((uint64_t)e->axis, axis_style, "%c", "xyz"[e->axis]);

@@ -19,7 +19,8 @@
 #define FEW_MARKS 50
 #define FEW_RINGS 3
 
-/* Return the element id of a ring. No point of a session file can have this id. (A marker has the id of its point.) */
+/* Return the element id of an answer's ring. No point of a session file can have this id. (A marker has the id of its
+ * point.) */
 static uint64_t ring_id(size_t place)
 {
     return UINT64_MAX - place;
@@ -40,8 +41,8 @@ static bool is_in_session(const octree_session *session)
     return session->foreign_count > 0;
 }
 
-/* Find the middle of an answer's ring. It is the first missing or extra point. If there is none, it is the query's
- * target or the middle of its region. */
+/* Find the middle of an answer's ring: the first missing or extra point. If there is none, the middle is the query's
+ * target or the middle of the query's region. */
 static void find_ring_position(const octree_answer *answer, double place[3])
 {
     const octree_judgement *judgement = &answer->judgement;
@@ -93,7 +94,7 @@ static bool add_answer_label(scene *s, const octree_answer *answer, size_t place
     return text_space_add_label_beside(occupied, s, label, at, RING);
 }
 
-/* Write how many texts had no room into the top right corner. */
+/* Write the number of error texts without room into the top right corner. */
 static void add_left_out_count(scene *s, size_t count, text_space *occupied)
 {
     const camera_window w = layout_space_area(s);
@@ -105,8 +106,8 @@ static void add_left_out_count(scene *s, size_t count, text_space *occupied)
         scene_add_label_on_ground(s, &label, ROLE_BACKGROUND);
 }
 
-/* Add markers, rings and texts. Markers come first, so that texts do not cover them. Texts of answers get room before
- * texts of nodes. */
+/* Add markers, rings and texts. Markers come first, so that texts do not cover them. Texts of answers are placed before
+ * texts of nodes, and so find room first. */
 static void add_wrong_answers(scene *s, const layer_source *in, view_layer layer)
 {
     (void)layer;
@@ -144,8 +145,8 @@ static bool has_point(const octree_point *points, size_t count, uint64_t id)
     return false;
 }
 
-/* Return the index of the first answer in which the point with this id is missing, or extra if `missing` is false.
- * Return answer_count if there is none. */
+/* Return the index of the first answer in which the point with this id is missing (`missing` true) or extra (`missing`
+ * false). Return answer_count if there is no such answer. */
 static size_t find_answer(const octree_tick *tick, uint64_t id, bool missing)
 {
     size_t i = 0;

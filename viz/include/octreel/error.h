@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* error.h - the error type of all functions of Octreel that can fail, except those of the octree library. */
+/* error.h - the error type of Octreel's functions. The functions of the octree library return octree_status instead. */
 #ifndef OCTREEL_ERROR_H
 #define OCTREEL_ERROR_H
 

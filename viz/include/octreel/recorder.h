@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/* recorder.h - records a program from inside. Once per tick of its loop the program passes its points and its queries.
- * The points come from an octree. A program with an index of its own passes a list of points, or the changes of its
- * points. Queries may carry the program's own answers. Octreel then compares them with the exact answers; "octreel
- * audit" prints the result.
+/* recorder.h - records a program from inside. In each tick of its loop the program passes its points and its queries. A
+ * program that uses the octree library passes its octree. A program with an index of its own passes a list of points,
+ * or the changes of its points. A query may carry the program's own answer. Octreel then compares this answer with the
+ * exact answer, and "octreel audit" prints the result.
  *
  * The recorder writes a session. Point changes since the last tick become edits; the program's queries and shapes are
- * stored beside them. The result is a recording like any other: octreel can verify, join, compare and replay it, and
- * recording its session.json again gives the same bytes. A worker thread plays and draws beside the program's loop.
- * With `ring` nothing is recorded until the program requests its last ticks, for example after a failed assertion.
+ * stored beside them. The result is an ordinary recording: octreel can verify, join, compare and replay it. Recording
+ * its session.json again gives the same bytes. A worker thread plays the session and draws the frames while the
+ * program's loop runs. With `ring` nothing is recorded until the program requests its last ticks, for example after a
+ * failed assertion.
  *
  *     octreel_recorder_def def = octreel_recorder_def_default();
  *     def.folder = "my-flight";
@@ -90,7 +91,7 @@ typedef enum octreel_status {
         OCTREEL_STATUS_COUNT
 } octreel_status;
 
-/* Returns the text of a status, without a final period. The text is never null and is static. */
+/* Returns the text of a status, without a final period. The text is static and never null. */
 const char *octreel_status_text(octreel_status status);
 
 typedef struct octreel_recorder octreel_recorder;
@@ -98,34 +99,38 @@ typedef struct octreel_recorder octreel_recorder;
 /* The options of a recording. Start from octreel_recorder_def_default() and change what you need. "octreel record
  * --help" lists the values of the options that are names. */
 typedef struct octreel_recorder_def {
-    const char *folder; /* folder for the recording: a new folder, or one without a recording. Null with a ring */
-    /* True: `folder` may hold a recording. The old recording is removed once tick 0 of the new one is filmed; if
-     * tick 0 fails, it stays. Files that do not belong to a recording always stay. BAD_FOLDER if the folder holds
-     * files that only look like a recording, or if a process is recording into it. */
+    /* folder of the recording: a new folder, or a folder without a recording. Must be null with a ring */
+    const char *folder;
+    /* True: `folder` may hold an old recording. The old recording is removed once tick 0 of the new recording is
+     * filmed; if tick 0 fails, the old recording stays. Files that do not belong to a recording always stay. The error
+     * is BAD_FOLDER if the folder holds files that only look like a recording, or if a process is recording into the
+     * folder. */
     bool replace;
-    /* The octree_definition() of the program's trees; its allocator is not used. For a program that passes lists or
-     * changes: a world that should contain all points, and the capacity and depth of the tree that Octreel builds
-     * to show them; full leaves of this tree grow. */
+    /* The octree_definition() of the program's trees; its allocator is not used. A program that passes lists or changes
+     * sets a world that should contain all points, and the capacity and depth of the tree that Octreel builds to show
+     * the points. Full leaves of Octreel's tree grow. */
     octree_def tree;
-    /* OCTREE_PLAYER_NONE, or OCTREE_PLAYER_BODY: the point with this id is the player, and its collisions are
-     * found; box_size and sweep are used too. */
+    /* `kind` is OCTREE_PLAYER_NONE or OCTREE_PLAYER_BODY. With OCTREE_PLAYER_BODY the point with the player's id is the
+     * player, and Octreel finds its collisions, with the player's box_size and sweep. */
     octree_player player;
     int width, height;    /* size of a frame in pixels, 1 to 16384 */
     const char *camera;   /* the camera: "iso", "orbit", "follow" ... */
     const char *layers;   /* the layers to draw: "default", "all", "-text", "nodes,points,shapes" ... */
     const char *color_by; /* what the colours of nodes show: "depth", "occupancy", "plain" ... */
-    /* The tree whose nodes are drawn: "own" is Octreel's, "foreign" is octreel_tick_info.foreign, "both" draws
-     * both. "auto" draws Octreel's nodes until a tick has foreign nodes, and then the foreign nodes. */
+    /* The tree whose nodes are drawn. "own": Octreel's tree. "foreign": octreel_tick_info.foreign. "both": both trees.
+     * "auto": Octreel's tree until a tick has foreign nodes, and from then on the foreign nodes. */
     const char *show_tree;
     const char *color_points; /* what the colours of points show: "plain", "height", "leaf" ... */
     const char *shade;        /* shading of points: "bands", "edl", "none" */
-    const char *diagram;      /* the tree drawn as a diagram: "none", "beside" the space, "only" the diagram */
-    bool labels;              /* write the addresses of nodes, such as 0/3/7, on nodes where there is room */
-    double lod;               /* leave out boxes smaller than this many pixels if an ancestor is drawn; 0: draw all */
-    uint64_t budget;          /* maximum number of boxes, and of points, in a frame; 0: no limit */
-    int aa;                   /* anti-aliasing: 1 (off), 2 or 4; a pixel has aa * aa samples */
-    /* Film ticks 0, every, 2 * every ...; 0: no frames, because the page can draw every tick itself. ticks.jsonl
-     * has all ticks in any case. */
+    /* where the tree is drawn as a diagram: "none": nowhere; "beside": beside the space; "only": without the space */
+    const char *diagram;
+    bool labels; /* true: write the addresses of nodes, such as 0/3/7, on nodes that have room for them */
+    double lod;  /* leave out boxes smaller than this many pixels if an ancestor is drawn; 0: draw all */
+    /* maximum number of boxes in a frame, and maximum number of points in a frame; 0: no limit */
+    uint64_t budget;
+    int aa; /* anti-aliasing: 1 (off), 2 or 4; a pixel has aa * aa samples */
+    /* Film ticks 0, every, 2 * every ... With 0, film no frames: the recording's page can draw every tick itself.
+     * ticks.jsonl contains all ticks in any case. */
     uint64_t every;
     /* The rasterizer: "integers", "checked" or "gl". All three draw the same pixels. "integers" is the cheapest,
      * because it never loads OpenGL, which takes 0.2 s of processor time and 85 MB. octreel verify can check its
@@ -137,11 +142,12 @@ typedef struct octreel_recorder_def {
      * machines. */
     bool any_renderer;
     size_t queue_ticks; /* maximum number of ticks that wait for the worker thread, at least 1 */
-    size_t queue_bytes; /* maximum memory of these ticks together, in bytes; a single tick may need more */
-    /* True: if the queue is full, return OCTREEL_BUSY and do not wait; the tick is then a gap. Tick 0 always waits. */
+    size_t queue_bytes; /* maximum memory of all waiting ticks together, in bytes; a single tick may need more */
+    /* True: if the queue is full, octreel_recorder_tick() does not wait but returns OCTREEL_BUSY, and the tick becomes
+     * a gap. Tick 0 always waits. */
     bool never_wait;
-    /* Keep the last `ring` ticks in memory, and film them only in octreel_recorder_write(); 0: film every tick.
-     * Memory: the points of the oldest tick, and the changes of the other ticks. */
+    /* Keep the last `ring` ticks in memory, and film them only when octreel_recorder_write() is called. 0: film every
+     * tick. The ring needs memory for the points of its oldest tick and the changes of its other ticks. */
     size_t ring;
 } octreel_recorder_def;
 
@@ -149,8 +155,8 @@ typedef struct octreel_recorder_def {
  * ticks or 64 MiB in the queue, no ring. */
 octreel_recorder_def octreel_recorder_def_default(void);
 
-/* The queries and shapes of a program at one tick, and its points if it has no octree. All arrays are copied. The
- * member `tick` of their items is ignored.
+/* The queries and shapes of a program at one tick, and its points if it has no octree. octreel_recorder_tick() copies
+ * all arrays. The member `tick` of an array's items is ignored.
  *
  * The recorder answers each query exactly, at the end of the tick, with the query's `skip` and `epsilon`. The program
  * gets the same answers if it makes its queries after its last change of the tick. To show a query that the program
@@ -158,25 +164,27 @@ octreel_recorder_def octreel_recorder_def_default(void);
  * answer, the answer is copied and checked.
  *
  * In one tick the points come from the tree, from `points` or from `changes`. A program may use lists at some ticks and
- * changes at others, but then it must not use trees. If a tick has none of the three, nothing has changed. The
- * exception is a program that passed a list before: then it has no points now, because the data pointer of an empty C++
- * vector may be null. A point outside the world is in no answer. The tick in which it enters or leaves the world has
- * the event "refused".
+ * changes at others, but then it must not use trees. If a program that uses changes passes none of the three at a tick,
+ * no point has changed. If a program that uses lists passes none of the three, its list is empty: the data pointer of
+ * an empty C++ vector may be null. A point outside the world is in no answer. The tick in which it enters or leaves the
+ * world has the event "refused".
  *
  * Shapes are everything in a frame that is not a point or a node, such as walls and goals. */
 typedef struct octreel_tick_info {
-    /* In any order. All numbers must be finite. at_player may be true only if the recorder has a player. */
+    /* The queries, in any order. All numbers must be finite. at_player may be true only if the recorder has a
+     * player. */
     const octree_query *queries;
     size_t query_count;
     const octree_shape *shapes;
     size_t shape_count;
     const octree_point *points; /* all points, in any order; each id occurs once */
     size_t point_count;
-    const octree_edit *changes; /* point changes since the last call, in the order in which they were made. A point
-                                   may change several times. Velocities are ignored */
+    /* Point changes since the last call, in the order in which they were made. A point may change several times.
+     * Velocities are ignored. */
+    const octree_edit *changes;
     size_t change_count;
-    /* The nodes of the program's own index, valid from this tick on. The queries' `visits` name nodes that were
-     * visited, left out or hit. Null: the nodes have not changed. */
+    /* The nodes of the program's own index, valid from this tick on. Null: the nodes are the same as at the previous
+     * tick. The queries' `visits` name the nodes that a query visited, left out or found points in. */
     const octree_foreign_tree *foreign;
 } octreel_tick_info;
 
@@ -187,13 +195,13 @@ octreel_status octreel_recorder_open(const octreel_recorder_def *def, octreel_re
                                      octreel_error *error);
 
 /* Record a tick: the current points, the queries and the shapes. The ids of the points must be unique. `about` may be
- * null. The first call is tick 0. The points are those of the tree; if `tree` is null, they are those of `about`. After
- * a tick with a tree, a null tree is the error NULL_ARGUMENT. A tree under OCTREE_AUTO that has changed its capacity is
- * the error OTHER_TREE. The arguments are not used after the call returns. The call waits for the worker thread if the
+ * null. The first call is tick 0. The points are the tree's points, or `about` has them if `tree` is null. After a tick
+ * with a tree, a null tree is the error NULL_ARGUMENT. A tree under OCTREE_AUTO that has changed its capacity is the
+ * error OTHER_TREE. The arguments are not used after the call returns. The call waits for the worker thread if the
  * queue is full, and at tick 0 until the recording has begun.
  *
- * If a tick is refused, its list of points is ignored. Its changes and foreign nodes stay valid: the next accepted tick
- * has them. Invalid changes are dropped: BAD_POINT (a NaN, an infinity, an unknown kind), BAD_ID, DUPLICATE_ID (an
+ * If a tick is refused, its list of points is ignored. Its changes and foreign nodes become part of the next accepted
+ * tick. Invalid changes are dropped: BAD_POINT (a NaN, an infinity, an unknown kind), BAD_ID, DUPLICATE_ID (an
  * insertion of an existing id) and NO_POINT (a move or removal of a missing point). The error names the first invalid
  * change. After NO_MEMORY no change is kept: pass the tick again.
  *
@@ -219,7 +227,8 @@ octreel_status octreel_recorder_write(octreel_recorder *recorder, const char *fo
 /* Record the ticks that are still in the queue, and complete the recording with session.json and the page. A ring is
  * dropped. If a tick failed, the ticks before it are complete, and octreel record --resume continues after them.
  * Errors: BROKEN, the error of tick 0, NOTHING, CLOSED. GAPS means that the recording is complete but ticks were
- * refused. The error text then has the number of refused ticks, and the number and reason of the first. */
+ * refused. The error text then has the number of refused ticks, and the tick number and the reason of the first refused
+ * tick. */
 octreel_status octreel_recorder_close(octreel_recorder *recorder);
 
 /* Close the recorder if it is open, and free it. */
