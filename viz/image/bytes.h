@@ -27,8 +27,8 @@ static inline void bytes_store_word(uint8_t *to, uint64_t word)
     to[7] = (uint8_t)(word >> 56);
 }
 
-/* Returns the number of zero bytes at the start of a little-endian word, that is, in its lowest bytes. The word must
- * not be 0. */
+/* Returns the number of zero bytes at the start of a little-endian word, that is, the number of lowest bytes that are
+ * 0. The word must not be 0. */
 static inline size_t bytes_count_zeros_at_start(uint64_t word)
 {
 #ifdef __GNUC__

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* deflate.c - finds the repeats in a picture's rows; deflate_block.c writes them.
+/* deflate.c - finds the repeats in a picture's rows; deflate_block.c writes the repeats as a compressed stream.
  *
  * Deflate (RFC 1951) describes bytes as literals and as repeats (length, distance) of bytes up to 32768 back. General
  * encoders find repeats by hashing every position, which costs most of their time. In a drawn picture nearly all useful
  * repeats lie at two known distances: one pixel back (a run of one colour) and one row back (the row above). So this
- * encoder compares with these two places first, eight bytes at a time, and skips equal bytes without examining each.
+ * encoder first compares the next bytes with the bytes at these two distances, eight bytes at a time.
  *
  * Only RGB pictures, whose pixels cost three literals, also use a small hash table, for other distances. If the repeat
  * at the next position is better than the repeat at the current position, one literal is written first (lazy matching,
@@ -23,41 +23,43 @@
 #include <string.h>
 
 enum {
-    CHUNK = 32 << 10, /* the most bytes that are collected before they are encoded: they fit the L1 cache */
-    WORD = 8,         /* bytes after the window's end that may be read; their values do not matter */
+    /* the maximum number of bytes that are collected before they are encoded; so many bytes fit the L1 cache */
+    CHUNK = 32 << 10,
+    WORD = 8, /* the number of bytes after the window's end that may be read; their values do not matter */
 
-    /* Estimated sizes in bits, used to choose among repeats: of a literal, of a repeat of the last pixel, of a repeat
-     * of the row above, and of a repeat at any other distance. */
+    /* Estimated sizes in bits, used to choose among repeats. BYTE_BITS: a literal. RUN_BITS: a repeat of the pixel
+     * before. ABOVE_BITS: a repeat of the row above. FAR_BITS: a repeat at any other distance. */
     BYTE_BITS = 3,
     RUN_BITS = 6,
     ABOVE_BITS = 14,
     FAR_BITS = 16,
-    LONG_REPEAT = 64, /* if a repeat is at least this long, no better repeat is searched */
+    LONG_REPEAT = 64, /* if a repeat has at least this many bytes, no better repeat is searched */
 
     HASH_BITS = 12,
-    HASHED = 6, /* the number of bytes that are hashed: two RGB pixels */
+    HASHED = 6, /* the number of bytes that the hash table's key covers: two RGB pixels */
     ADLER_BASE = 65521,
 };
 
 struct deflater {
     size_t stride, rows, pixel;
-    size_t kept; /* the most bytes that slide_window() keeps: the history that repeats may refer to */
+    size_t kept; /* the number of bytes that slide_window() keeps: the history that repeats may refer to */
     size_t room; /* size of the window in bytes */
     size_t end;  /* number of bytes in the window */
     size_t at;   /* index in the window of the first byte that is not encoded yet */
     bool begun;
-    bool above;            /* the row above is within deflate's largest distance */
+    bool above;            /* true: the distance to the row above is within deflate's largest distance */
     size_t block;          /* index in the window of the current block's first byte */
-    bool block_whole;      /* all bytes of the current block are still in the window */
+    bool block_whole;      /* true: all bytes of the current block are still in the window */
     size_t unsummed;       /* index in the window of the first byte that is not in the Adler-32 sums yet */
-    size_t row;            /* index in the window of the first byte of the row that contains `unsummed` */
-    size_t rows_left;      /* number of rows of the picture from this row on, this row included */
-    int64_t row_change;    /* sum of (byte - byte above) over the bytes of this row before `unsummed` */
-    int64_t row_by_column; /* sum of (byte - byte above) * column over the same bytes */
+    size_t row;            /* index in the window of the first byte of the row that contains the byte at `unsummed` */
+    size_t rows_left;      /* number of rows of the picture from the row at `row` on, that row included */
+    int64_t row_change;    /* sum of (byte - byte above) over the bytes of the row at `row` before `unsummed` */
+    int64_t row_by_column; /* sum of (byte - byte above) * column over the same bytes as row_change */
     int64_t sums[2];       /* the two sums of Adler-32, without the initial 1 of the first sum */
     deflate_blocks blocks;
-    uint32_t heads[1 << HASH_BITS]; /* RGB only: for each hash, the last position of bytes with this hash; 0: none */
-    uint8_t *window;                /* begins with a row of zeros, which stands for the row above the first row */
+    uint32_t heads[1 << HASH_BITS]; /* only for RGB: the last position of bytes with each hash; 0: no position */
+    /* the window; at first it begins with a row of zeros, which stands for the row above the first row */
+    uint8_t *window;
 };
 
 /* ---- Adler-32 ------------------------------------------------------------------------------------------------ */
@@ -95,7 +97,7 @@ static void add_span_changes(deflater *d, size_t from, size_t end)
  * are skipped, because they have no change. */
 static void add_changes(deflater *d, size_t end)
 {
-    enum { MOST = 256 }; /* the most bytes whose products can be summed in 32 bits */
+    enum { MOST = 256 }; /* the maximum number of bytes whose products can be summed in 32 bits */
     for (size_t at = d->unsummed, next; at < end; at = next) {
         while (at - d->row >= d->stride)
             add_row_to_sums(d);
@@ -109,7 +111,7 @@ static void add_changes(deflater *d, size_t end)
 static uint32_t finish_adler32(deflater *d)
 {
     add_row_to_sums(d);
-    /* the first sum begins with 1, which is added to the second sum once for each byte */
+    /* The first sum of Adler-32 begins with 1. This 1 is added to the second sum once for each byte. */
     const int64_t each = (int64_t)(d->stride * d->rows) % ADLER_BASE;
     const int64_t first = (d->sums[0] + 1 + ADLER_BASE) % ADLER_BASE;
     const int64_t second = (d->sums[1] + each + ADLER_BASE) % ADLER_BASE;
@@ -131,8 +133,8 @@ static void add_literals(deflater *d, size_t count)
     d->at += count;
 }
 
-/* True if each of the next `size` bytes equals the byte one pixel before it. A repeat of the last pixel takes the
- * fewest bits. */
+/* Returns whether each of the next `size` bytes equals the byte one pixel before it. A repeat of the pixel before takes
+ * the fewest bits. */
 static inline bool repeats_last_pixel(const deflater *d, size_t size)
 {
     const uint8_t *bytes = d->window + d->at, *before = bytes - d->pixel;
@@ -157,8 +159,8 @@ static void add_repeat(deflater *d, size_t length, size_t distance)
     }
 }
 
-/* Returns the number of bytes, at most DEFLATE_GROUP, before the next byte at which a repeat of 3 bytes may begin. They
- * become literals. */
+/* Returns the number of bytes, at most DEFLATE_GROUP, before the next byte at which a repeat of 3 bytes may begin.
+ * These bytes become literals. */
 static inline size_t count_literals(const deflater *d)
 {
     const uint8_t *at = d->window + d->at;
@@ -173,7 +175,7 @@ static inline size_t count_literals(const deflater *d)
 
 typedef struct repeat {
     size_t length, distance;
-    int64_t gain; /* estimated number of bits saved; used only if positive */
+    int64_t gain; /* estimated number of bits that the repeat saves; a repeat is used only if this is positive */
 } repeat;
 
 static inline repeat measure_repeat(const deflater *d, size_t at, size_t distance, int64_t cost)
@@ -183,8 +185,8 @@ static inline repeat measure_repeat(const deflater *d, size_t at, size_t distanc
     return (repeat){length, distance, (int64_t)length * BYTE_BITS - cost};
 }
 
-/* Returns the last position whose bytes have the same hash as the bytes at `at`, and records `at` in its place. Returns
- * `at` if there is no such position within deflate's largest distance. */
+/* Returns the last position whose bytes have the same hash as the bytes at `at`, and records `at` as the last position
+ * of this hash. Returns `at` if no such position lies within deflate's largest distance. */
 static inline size_t find_last_position(deflater *d, size_t at)
 {
     const uint64_t bytes = bytes_load_word(d->window + at) << (8 * (WORD - HASHED));
@@ -212,8 +214,8 @@ static inline repeat find_repeat(deflater *d, size_t at)
     return far.gain > best.gain ? far : best;
 }
 
-/* Encode the next literals or the next repeat. A palette index as a literal costs few bits, so searching a repeat at
- * every index does not pay: all bytes before the next possible repeat become literals together. */
+/* Encode the next literals or the next repeat. For palette indices, searching a repeat at every index does not pay,
+ * because a literal costs few bits. All bytes before the next possible repeat become literals together. */
 static void encode_next_bytes(deflater *d)
 {
     if (d->pixel == 1) {
@@ -256,7 +258,7 @@ static void slide_window(deflater *d)
     const size_t by = d->end - d->kept;
     memmove(d->window, d->window + by, d->kept);
     d->block_whole = d->block_whole && d->block >= by;
-    d->block -= by; /* may wrap around below 0: from then on only differences from `at` are used */
+    d->block -= by; /* The index may wrap around below 0. From then on, only its difference from `at` is used. */
     d->row -= by;
     d->at -= by;
     d->unsummed -= by;
@@ -300,7 +302,8 @@ deflater *deflater_open(size_t row_size, size_t rows, size_t pixel, deflate_sink
     d->end = d->at = d->block = d->unsummed = d->row = row_size;
     d->block_whole = true;
     deflate_begin_blocks(&d->blocks, sink, context);
-    deflate_write_bytes(&d->blocks, (const uint8_t[]){0x78, 0x01}, 2); /* zlib header: 32 KiB window, fastest level */
+    /* header of the zlib stream: 32 KiB window, fastest level */
+    deflate_write_bytes(&d->blocks, (const uint8_t[]){0x78, 0x01}, 2);
     return d;
 }
 

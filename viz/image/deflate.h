@@ -10,14 +10,14 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* A function that receives the next bytes of the stream. It may leave by longjmp(); then the encoder must be closed
- * without further calls. */
+/* A function that receives the next bytes of the stream. The function may leave by longjmp(); the caller must then
+ * close the encoder without using it further. */
 typedef void deflate_sink(void *context, const uint8_t *bytes, size_t size);
 
 typedef struct deflater deflater;
 
-/* Create an encoder for `rows` rows of `row_size` bytes each, with `pixel` bytes (1 or 3) per pixel. Memory: 170 KB and
- * three rows. Returns null when out of memory. */
+/* Create an encoder for `rows` rows of `row_size` bytes each, with `pixel` bytes (1 or 3) per pixel. The encoder needs
+ * memory for 170 KB and three rows. Returns null if memory runs out. */
 deflater *deflater_open(size_t row_size, size_t rows, size_t pixel, deflate_sink *sink, void *context);
 void deflater_close(deflater *d); /* `d` may be null */
 
@@ -25,7 +25,7 @@ void deflater_close(deflater *d); /* `d` may be null */
  * follow. */
 void deflater_add_row(deflater *d, const uint8_t *pixels);
 
-/* Call after the last row to pass the rest of the stream to the sink. */
+/* Pass the rest of the stream to the sink. Must be called after the last row. */
 void deflater_finish(deflater *d);
 
 #endif

@@ -11,8 +11,8 @@
  *
  * Bits are collected in a 64-bit word and moved to the output in whole bytes (output_whole_bytes()). Literals and
  * repeats are written by the same code without a branch, because a processor cannot predict the kind of the next token.
- * For this, list_token_prefixes() prepares, for each of the 512 kinds of tokens, the bits of the symbol together with
- * the extra bits of a length. */
+ * To make this possible, list_token_prefixes() prepares, for each of the 512 kinds of tokens, the bits of the symbol
+ * together with the extra bits of a length. */
 #include "deflate_block.h"
 #include "bytes.h"
 
@@ -22,8 +22,8 @@ enum {
     PRECODE_SYMBOLS = 19,
     LONGEST_PRECODE = 7,
     HEADER_ROOM = DEFLATE_LITERALS + DEFLATE_DISTANCES,
-    /* the greatest size of a block in bytes: at most 48 bits per token and 16 bits per code length, rounded up
-     * generously */
+    /* the greatest size of a block in bytes: at most 48 bits per token and 16 bits per code length, with some
+     * reserve */
     MOST_OF_BLOCK = 6 * (BLOCK_TOKENS + BLOCK_SPARE) + 2 * HEADER_ROOM + 64
 };
 
@@ -78,7 +78,7 @@ static inline void append_bits(bit_writer *w, uint32_t bits, int count)
     w->count += count;
 }
 
-/* Move all whole bytes to the output. deflate_write_block() has reserved room for the block. */
+/* Move all whole bytes from the 64-bit word to the output. deflate_write_block() has reserved room for the block. */
 static inline void output_whole_bytes(bit_writer *w)
 {
     bytes_store_word(w->to, w->bits);
@@ -112,7 +112,7 @@ void deflate_write_bytes(deflate_blocks *b, const uint8_t *bytes, size_t size)
 
 /* ---- Block headers ------------------------------------------------------------------------------------------- */
 
-/* The lengths of all code words of both codes, run-length encoded: symbols of the precode, and the extra bits of each
+/* The lengths of the code words of both codes, run-length encoded: symbols of the precode, and the extra bits of each
  * symbol. */
 typedef struct header {
     uint8_t symbols[HEADER_ROOM], extra[HEADER_ROOM];
@@ -277,7 +277,7 @@ static void list_token_prefixes(bit_string of[TOKEN_KINDS], const deflate_blocks
 static void append_tokens(deflate_blocks *b)
 {
     bit_string prefixes[TOKEN_KINDS];
-    bit_writer w = b->writer; /* a local copy, which the compiler keeps in registers */
+    bit_writer w = b->writer; /* a local copy of the writer, which the compiler keeps in registers */
     list_token_prefixes(prefixes, b);
     b->distances.lengths[DEFLATE_DISTANCES] = 0;
     b->distances.bits[DEFLATE_DISTANCES] = 0;
@@ -305,7 +305,7 @@ static void write_stored_block(deflate_blocks *b, const uint8_t *bytes, size_t s
     deflate_write_bytes(b, bytes, size);
 }
 
-/* Write the tokens with the block's own codes, which `h` describes, or with the fixed codes if `h` is null. */
+/* Write the tokens of a block. The block uses its own codes, which `h` describes, or the fixed codes if `h` is null. */
 static void write_coded_block(deflate_blocks *b, const header *h, bool last)
 {
     append_bits(&b->writer, (uint32_t)(last | (h ? DYNAMIC : FIXED) << 1), 3);

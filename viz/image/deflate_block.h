@@ -16,8 +16,8 @@ typedef struct huffman_code {
 } huffman_code;
 
 /* Build a Huffman code for `count` symbols; symbol i occurs counts[i] times. Code words have at most `longest` bits,
- * which must be enough for `count` symbols. The code is complete: if fewer than two symbols occur, two symbols still
- * get code words. Equal counts give equal codes on every machine. */
+ * which must be enough for `count` symbols. The code is always complete: if fewer than two symbols occur, two symbols
+ * still get code words. Equal counts give equal codes on every machine. */
 void huffman_build_code(huffman_code *code, const uint32_t *counts, size_t count, int longest);
 
 /* Compute the canonical code words from the lengths in code->lengths. */
@@ -33,8 +33,8 @@ enum {
     DEFLATE_DISTANCES = 30,   /* number of symbols for distances */
     DEFLATE_END = 256,        /* the symbol that ends a block */
     BLOCK_TOKENS = 4096,      /* a block with this many tokens is full */
-    BLOCK_SPARE = 16,         /* number of tokens that may be added to a full block before it is written */
-    DEFLATE_GROUP = 6,        /* the most literals that are added by one call */
+    BLOCK_SPARE = 16,         /* number of tokens that may be added to a block after it is full */
+    DEFLATE_GROUP = 6,        /* maximum number of literals that one call adds */
 };
 
 /* A literal or a repeat, packed. The lowest 9 bits hold the byte, or DEFLATE_REPEAT + (length - DEFLATE_SHORTEST). The
@@ -47,28 +47,29 @@ typedef uint32_t deflate_token;
 enum { DEFLATE_REPEAT = 256, TOKEN_KINDS = 512, DISTANCE_AT = 9, DISTANCE_EXTRA_AT = 14 };
 
 typedef struct bit_writer {
-    uint64_t bits; /* bits that are not in the output yet; the lowest bit goes first */
-    int count;     /* number of bits in `bits`; below 8 between tokens */
+    uint64_t bits; /* bits that are not in the output yet; the lowest bit is written first */
+    int count;     /* number of bits in `bits`; below 8 between two tokens */
     uint8_t *to;   /* address of the next output byte */
 } bit_writer;
 
 typedef struct deflate_blocks {
     deflate_sink *sink;
     void *context;
-    bit_writer writer; /* its `to` points into `output` */
+    bit_writer writer; /* writes into the buffer `output` */
     size_t count;      /* number of tokens in `tokens` */
-    /* how often each symbol occurs in the tokens */
+    /* number of times that each symbol occurs in the tokens */
     uint32_t literal_counts[DEFLATE_LITERALS], distance_counts[DEFLATE_DISTANCES + 1];
     huffman_code literals, distances;
-    /* symbol - 257 of each length; index: length - DEFLATE_SHORTEST */
+    /* index: length - DEFLATE_SHORTEST; value: the symbol of this length, minus 257 */
     uint8_t length_symbols[TOKEN_KINDS - DEFLATE_REPEAT];
-    /* symbol of each distance; index: distance - 1 below 256, else 256 + (distance - 1) / 128 */
+    /* index: distance - 1 for the first 256 distances, else 256 + (distance - 1) / 128; value: the symbol of the
+     * distance */
     uint8_t distance_symbols[512];
     deflate_token tokens[BLOCK_TOKENS + BLOCK_SPARE];
     uint8_t output[1 << 16];
 } deflate_blocks;
 
-/* Initialize a struct that is all zero. */
+/* Initialize a zeroed struct. */
 void deflate_begin_blocks(deflate_blocks *b, deflate_sink *sink, void *context);
 
 static inline bool deflate_is_block_full(const deflate_blocks *b)
@@ -87,11 +88,11 @@ static inline void deflate_add_literals(deflate_blocks *b, const uint8_t *bytes,
 void deflate_add_repeat(deflate_blocks *b, size_t length, size_t distance);
 
 /* Write the collected tokens as one block in its shortest form: with its own Huffman codes, with deflate's fixed codes,
- * or stored. `bytes` are the `size` bytes that the tokens encode. If they are no longer available, `bytes` is null, and
- * the block is not stored. */
+ * or stored. `bytes` are the `size` bytes that the tokens encode. If these bytes are no longer available, `bytes` is
+ * null, and the block is not stored. */
 void deflate_write_block(deflate_blocks *b, const uint8_t *bytes, size_t size, bool last);
 
-/* Pad the stream to a whole byte, and write `size` bytes outside any block. */
+/* Pad the stream to a whole byte, and write `size` bytes that are not part of a block, such as a header. */
 void deflate_write_bytes(deflate_blocks *b, const uint8_t *bytes, size_t size);
 
 /* Pass the buffered output to the sink. */

@@ -4,19 +4,21 @@
  * 1. Sort the symbols by count and compute the optimal code lengths in place (Moffat and Katajainen, 1995). The array
  * of weights is overwritten first with parent indices, then with depths, so that no tree is allocated.
  *
- * 2. Limit the lengths to the longest code word that deflate allows. Longer lengths are cut. The code words then need
- * more code space than exists. So a shorter code word is split into two code words, one level deeper, and one of the
- * longest code words takes one of them. This is repeated until the code space is used up exactly.
+ * 2. Limit the lengths to the longest code word that deflate allows. Longer lengths are cut to this limit. The code
+ * words then need more code space than exists. To gain space, a shorter code word is replaced by two code words that
+ * are one bit longer, and one of the longest code words is replaced by the second of these two. This step is repeated
+ * until the code words use the code space exactly.
  *
  * 3. Assign canonical code words by length, then by symbol, so that only the lengths need to be sent.
  *
- * The limited code is not always optimal; a code by package-merge would be. But blocks of 4096 tokens reach deflate's
- * limit of 15 bits so rarely that the difference does not matter. */
+ * The limited code is not always optimal; the package-merge algorithm would find an optimal code. But blocks of 4096
+ * tokens reach deflate's limit of 15 bits so rarely that the difference does not matter. */
 #include "deflate_block.h"
 
 #include <string.h>
 
-/* A sort key holds a count in its high bits and a symbol in its low bits: keys sort by count, then by symbol. */
+/* A sort key holds a symbol's count in its high bits and the symbol in its low bits, so that keys sort by count, then
+ * by symbol. */
 enum { SYMBOL_BITS = 9, SYMBOL_MASK = (1 << SYMBOL_BITS) - 1 };
 
 /* Sorts by Shellsort, which is short, and faster than qsort() for 288 keys. */
@@ -33,8 +35,8 @@ static void sort_keys(uint32_t *keys, size_t count)
         }
 }
 
-/* List the keys of the symbols that occur, rarest first. Returns the number of keys. If fewer than two symbols occur,
- * two keys are listed. */
+/* List the sort keys of the symbols that occur, in ascending order of their counts. Returns the number of keys. If
+ * fewer than two symbols occur, two keys are listed. */
 static size_t list_used_symbols(const uint32_t *counts, size_t count, uint32_t *keys)
 {
     size_t used = 0;
@@ -67,7 +69,8 @@ static void find_code_lengths(uint32_t *a, size_t n)
     a[n - 2] = 0;
     for (size_t i = n - 2; i-- > 0;)
         a[i] = a[a[i]] + 1;
-    size_t available = 1, used = 0, next = n, root = n - 1; /* inner nodes at indices from `root` on are counted */
+    /* the inner nodes at indices from `root` on have been counted */
+    size_t available = 1, used = 0, next = n, root = n - 1;
     for (uint32_t depth = 0; available > 0; depth++, available = 2 * used, used = 0) {
         for (; root > 0 && a[root - 1] == depth; root--)
             used++;
@@ -77,8 +80,9 @@ static void find_code_lengths(uint32_t *a, size_t n)
 }
 
 /* Count the code words of each length after limiting lengths to `longest` bits. `space` is the code space that all code
- * words need, in units of 2^-longest. While it exceeds 1, a code word is split in two: the longest code word that is
- * shorter than `longest`. One of the code words of `longest` bits takes the second half. */
+ * words need, in units of 2^-longest. While `space` exceeds the whole code space, the longest code word that is shorter
+ * than `longest` is replaced by two code words that are one bit longer. One of the code words of `longest` bits is
+ * replaced by the second of these two. */
 static void count_limited_lengths(const uint32_t *lengths, size_t count, int longest, uint32_t *of_length)
 {
     uint32_t space = 0;
@@ -106,7 +110,7 @@ static uint16_t reverse_bits(uint32_t bits, int count)
 }
 
 /* The last loop must run from the last symbol to the first. With the opposite order, GCC 12 for 64-bit Arm concludes
- * wrongly that this function writes nothing, and drops the call. */
+ * wrongly that huffman_assign_code_words() writes nothing, and drops calls of this function. */
 void huffman_assign_code_words(huffman_code *code, size_t count)
 {
     uint32_t of_length[HUFFMAN_LONGEST + 1] = {0}, ends[HUFFMAN_LONGEST + 1] = {0}, first = 0;

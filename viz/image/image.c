@@ -55,7 +55,7 @@ image_color image_color_at(const image *image, int x, int y)
 
 /* ---- Shrinking ---------------------------------------------------------------------------------------------- */
 
-/* True if all pixels of a square have the same palette colour. This is the common case, and needs no mean. */
+/* Returns whether all pixels of a square have the same palette colour. In this common case no mean must be computed. */
 static bool has_one_color(const image *of, size_t corner, int side)
 {
     const uint8_t *at = of->pixels + corner;
@@ -81,7 +81,7 @@ static image_color mean_color(const image *of, const uint8_t *own, size_t corner
 {
     const unsigned count = (unsigned)(side * side);
     unsigned sums[3] = {count / 2, count / 2,
-                        count / 2}; /* half of the divisor `count`: the division then rounds to nearest */
+                        count / 2}; /* half of the divisor `count`, so that the division rounds to nearest */
     for (int y = 0; y < side; y++) {
         for (int x = 0; x < side; x++) {
             const image_color color = pixel_color(of, own, corner + (size_t)y * (size_t)of->width + (size_t)x);

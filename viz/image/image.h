@@ -22,19 +22,20 @@ typedef struct image_color {
 } image_color;
 
 typedef struct image_palette {
-    image_color colors[256]; /* entries from index `count` on are unused and must be zero */
+    image_color colors[256]; /* entries from index `count` on are not used and must be zero */
     int count;               /* number of colours, 1 to 256 */
 } image_palette;
 
 typedef struct image {
     int width, height;
-    int channels;          /* 1: indices into the palette; 3: r, g, b */
-    bool wide;             /* samples have 16 bits in the machine's byte order; only if channels is 3 */
-    bool transparent;      /* the file had transparent pixels, which were blended with a background */
-    uint64_t color_space;  /* digest of the file's chunks for gamma, colour profile and the like, which are not applied;
-                              0: none */
+    int channels;     /* 1: a pixel is an index into the palette; 3: a pixel has the samples r, g, b */
+    bool wide;        /* true: samples have 16 bits in the machine's byte order; only if channels is 3 */
+    bool transparent; /* true: the file had transparent pixels, which were blended with a background colour */
+    /* digest of the file's chunks for gamma, colour profile and the like; 0: no such chunks. Octreel does not apply
+     * these chunks */
+    uint64_t color_space;
     image_palette palette; /* used only if channels is 1 */
-    uint8_t *pixels;       /* owned; size in bytes: width * height * image_pixel_size() */
+    uint8_t *pixels;       /* owned by the image; size in bytes: width * height * image_pixel_size() */
 } image;
 
 /* Returns the number of bytes per pixel: 1, 3 or 6. */
@@ -43,20 +44,20 @@ static inline size_t image_pixel_size(const image *image)
     return (size_t)image->channels * (image->wide ? 2 : 1);
 }
 
-/* Allocate the pixels and zero them and the palette. Returns false and a zeroed image if memory runs out, if a side is
- * outside 1..IMAGE_MAX_SIDE, or if channels is neither 1 nor 3. */
+/* Allocate the pixels. Set the pixels and the palette to zero. Returns false and a zeroed image if memory runs out, if
+ * a side is outside 1..IMAGE_MAX_SIDE, or if channels is neither 1 nor 3. */
 bool image_create(image *image, int width, int height, int channels);
-/* Free the pixels and zero the struct. It may be zeroed already. */
+/* Free the pixels and zero the struct. The struct may be zeroed already. */
 void image_release(image *image);
 
 /* Returns the colour of the pixel (x, y), which must be inside the image. Samples of 16 bits are rounded to 8. */
 image_color image_color_at(const image *image, int x, int y);
 
-/* True if every index of an indexed image is inside its palette. */
+/* Returns whether every index of an indexed image is inside its palette. */
 bool image_has_valid_indices(const image *image);
 
-/* Fill the RGB image `small` from an indexed image whose sides are `factor` (1 to 16) times as long. Each pixel becomes
- * the mean of factor * factor pixels, rounded to nearest.
+/* Fill the RGB image `small` from an indexed image whose sides are `factor` (1 to 16) times as long. Each pixel of
+ * `small` becomes the mean of factor * factor pixels, rounded to nearest.
  *
  * A pixel whose index is beyond the palette takes its colour from `own`, which holds r, g, b for each pixel of `from`.
  * `own` may be null if no index is beyond the palette. Returns false and changes nothing if the sizes or formats do not

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /* image_compare.c - counts differing pixels, decides which of them are forgiven, and draws the result.
  *
- * The common case is two equal images. If both have the same format and palette, equal bytes mean equal colours. Then
- * spans of pixels are compared by memcmp, and in a differing span the common prefix is skipped eight bytes at a time.
- * Only differing pixels are converted to r, g, b and measured. Neighbouring pixels often have the same pair of colours,
- * so the last measurement is kept. Comparing equal pictures thus costs about as much as reading them.
+ * The common case is two equal images. If both images have the same format and palette, equal bytes mean equal colours.
+ * Then spans of pixels are compared by memcmp, and in a differing span the common prefix is skipped eight bytes at a
+ * time. Only differing pixels are converted to r, g, b and measured. Neighbouring pixels often have the same pair of
+ * colours, so the last measurement is kept. Comparing equal pictures thus costs about as much as reading them.
  *
  * Colour distances are computed with sums and products of doubles, and stay squared until the end, so that every
- * machine gets the same number. Anti-aliased edges are detected as in pixelmatch and odiff; see below. */
+ * machine gets the same number. Anti-aliased edges are detected as in pixelmatch and odiff; see is_antialiased(). */
 #include "image_compare.h"
 #include "bytes.h"
 
@@ -32,7 +32,7 @@ static int minimum(int a, int b)
 /* The largest squared distance of two colours with 8 bits per sample. */
 #define LARGEST 35215.0
 
-/* Pixels are compared in spans of this length. The samples of a span fit the stack and the L1 cache. */
+/* Pixels are compared in spans of this length. The samples of a span fit on the stack and into the L1 cache. */
 #define SPAN 128
 
 /* The red, green and blue samples of a pixel, of 8 or 16 bits each. */
@@ -40,7 +40,7 @@ typedef struct pixel_samples {
     uint16_t of[3];
 } pixel_samples;
 
-/* Returns the sample range for both images, 255 or 65535: the largest value of a scaled sample. */
+/* Returns the largest sample value after scaling both images to the same range: 255 or 65535. */
 static int common_sample_range(const image *a, const image *b)
 {
     return a->wide || b->wide ? 65535 : 255;
@@ -94,14 +94,16 @@ static double squared_color_distance(const pixel_samples *a, const pixel_samples
  * Source: V. Vysniauskas, "Anti-aliased Pixel and Intensity Slope Detector", 2009; also in pixelmatch and odiff.
  */
 
-/* The number of neighbours of the same colour that make a patch. */
+/* If this many neighbours of a pixel have the pixel's colour, the pixel belongs to a patch of one colour. */
 #define PATCH 3
 
 /* A pixel, and the bounds of the part of its 3 x 3 neighbourhood that is inside the image. */
 typedef struct window {
     int x, y;
     int left, right, top, bottom;
-    int equal_outside; /* 1 if a part of the neighbourhood is outside the image, else 0 */
+    /* 1 if a part of the neighbourhood is outside the image; this part then counts as one neighbour of the same
+     * colour */
+    int equal_outside;
 } window;
 
 static window find_window(const image *image, int x, int y)
@@ -115,7 +117,8 @@ static window find_window(const image *image, int x, int y)
     return w;
 }
 
-/* Returns the luma of a pixel in units of 1e-8 of a sample value. It is an integer, so that comparisons are exact. */
+/* Returns the luma (brightness) of a pixel, in units of 1e-8 of a sample value. The result is an integer, so that
+ * comparisons are exact. */
 static int64_t luma_at(const image *image, int x, int y)
 {
     const image_color color = image_color_at(image, x, y);
@@ -126,7 +129,7 @@ static bool is_in_patch(const image *image, int x, int y)
 {
     const window w = find_window(image, x, y);
     const image_color own = image_color_at(image, x, y);
-    int equal = w.equal_outside - 1; /* -1, because the loop also counts the pixel itself */
+    int equal = w.equal_outside - 1; /* begins with -1, because the loop also counts the pixel itself */
     for (int j = w.top; j <= w.bottom; j++) {
         for (int i = w.left; i <= w.right; i++) {
             const image_color color = image_color_at(image, i, j);
@@ -136,15 +139,15 @@ static bool is_in_patch(const image *image, int x, int y)
     return equal >= PATCH;
 }
 
-/* A neighbour of a pixel, and how much brighter than the pixel it is. */
+/* A neighbour of a pixel. `brighter` is how much brighter the neighbour is than the pixel. */
 typedef struct neighbor {
     int x, y;
     int64_t brighter;
 } neighbor;
 
-/* Find the darkest and the brightest neighbour of a pixel. Among equal neighbours take the first, column by column.
- * Returns false if no neighbour is darker, if no neighbour is brighter, or if at least PATCH neighbours are as bright
- * as the pixel. */
+/* Find the darkest and the brightest neighbour of a pixel. Of equally bright neighbours take the first, column by
+ * column. Returns false if no neighbour is darker, if no neighbour is brighter, or if at least PATCH neighbours are as
+ * bright as the pixel. */
 static bool find_slope(const image *image, int x, int y, neighbor *darkest, neighbor *brightest)
 {
     const window w = find_window(image, x, y);
@@ -172,8 +175,8 @@ static bool is_on_antialiased_edge(const image *of, const image *other, int x, i
             (is_in_patch(of, brightest.x, brightest.y) && is_in_patch(other, brightest.x, brightest.y)));
 }
 
-/* True if a pixel lies on an anti-aliased edge of either image. Both images have the same size. Reads the 5 x 5 pixels
- * around the pixel. */
+/* Returns whether a pixel lies on an anti-aliased edge of at least one of the two images. Both images have the same
+ * size. Reads the 5 x 5 pixels around the pixel. */
 static bool is_antialiased(const image *a, const image *b, int x, int y)
 {
     return is_on_antialiased_edge(a, b, x, y) || is_on_antialiased_edge(b, a, x, y);
@@ -181,14 +184,14 @@ static bool is_antialiased(const image *a, const image *b, int x, int y)
 
 /* ---- Counting ------------------------------------------------------------------------------------------------ */
 
-/* A band: some consecutive rows of both images. */
+/* A band of two images: the same consecutive rows of both images. */
 typedef struct rows {
     const image *a, *b;
-    int first; /* number of the band's first row in the images */
+    int first; /* number of the band's first row in the whole images */
 } rows;
 
-/* True if equal bytes of the two images mean equal colours. Palettes can be compared as a whole, because unused entries
- * are zero. */
+/* Returns whether equal bytes of the two images mean equal colours. Palettes can be compared as a whole, because unused
+ * entries are zero. */
 static bool have_same_storage(const image *a, const image *b)
 {
     if (a->channels != b->channels || a->wide != b->wide)
@@ -196,7 +199,7 @@ static bool have_same_storage(const image *a, const image *b)
     return a->channels == 3 || memcmp(a->palette.colors, b->palette.colors, sizeof a->palette.colors) == 0;
 }
 
-/* Measure the difference of two colours into c->last_square and c->last_channel. */
+/* Measure the difference of two colours. Store the results in c->last_square and c->last_channel. */
 static void measure_colors(image_comparison *c, const pixel_samples *a, const pixel_samples *b)
 {
     if (memcmp(a, c->last[0], sizeof *a) == 0 && memcmp(b, c->last[1], sizeof *b) == 0)
@@ -223,13 +226,13 @@ static void add_to_tally(image_tally *tally, int x, int y, const image_compariso
     tally->largest_channel = maximum(tally->largest_channel, c->last_channel);
     tally->min_x = minimum(tally->min_x, x);
     tally->max_x = maximum(tally->max_x, x);
-    tally->max_y = y; /* rows are added from the top down */
+    tally->max_y = y; /* the latest row has the largest y, because rows are added from the top down */
 }
 
 typedef enum verdict { COUNTED, IGNORED, CLOSE, ANTIALIASED } verdict;
 
-/* Decide if a differing pixel is counted, or for which reason it is ignored or forgiven. `y` is its row in the band,
- * `square` the squared distance of its colours. */
+/* Decide whether a differing pixel is counted, ignored or forgiven, and why. `y` is the pixel's row in the band,
+ * `square` the squared distance of its two colours. */
 static verdict judge_pixel(const image_tolerance *t, const rows *r, int x, int y, double square)
 {
     if (image_is_pixel_ignored(t, r->a->width, x, r->first + y))
@@ -272,7 +275,7 @@ static void count_span(image_comparison *c, const rows *r, int x, int y, int cou
         read_samples(r->a, n + (size_t)i, some, c->difference.channel_range, a);
         read_samples(r->b, n + (size_t)i, some, c->difference.channel_range, b);
         for (int j = 0; j < some; j++)
-            if (!samples_equal(&a[j], &b[j])) /* different indices may have the same colour */
+            if (!samples_equal(&a[j], &b[j])) /* the indices differ, but they may have the same colour */
                 count_pixel(c, r, x + i + j, y, &a[j], &b[j]);
     }
 }
@@ -334,13 +337,14 @@ bool image_is_within_tolerance(const image_difference *difference, const image_t
 
 /* ---- The picture of the difference --------------------------------------------------------------------------- */
 
-/* The ranges of the palette: greys, one index for forgiven pixels, one for pixels that only one image has, and colours
- * for counted differences by size. */
+/* The indices of the difference picture's palette: first greys, then one index for forgiven pixels, one for pixels that
+ * only one image has, and colours for counted pixels, which show the size of the difference. */
 enum { GREYS = 64, FORGIVEN = GREYS, OUTSIDE, HEAT, HEATS = 256 - HEAT };
 
 static const image_color FORGIVEN_COLOR = {70, 140, 255}, OUTSIDE_COLOR = {74, 46, 104};
 
-/* Colours for counted differences, darkest first. They differ from the greys even under colour blindness. */
+/* Colours for counted pixels, from small differences to large ones. These colours differ from the greys even under
+ * colour blindness. */
 static const image_color HEAT_COLORS[] = {{255, 96, 40}, {255, 190, 20}, {255, 255, 214}};
 
 static uint8_t interpolate(int from, int to, int part, int whole)
@@ -380,7 +384,8 @@ static uint8_t difference_index(const rows *r, const image_tolerance *tolerance,
 {
     if (judge_pixel(tolerance, r, x, y, square) != COUNTED)
         return FORGIVEN;
-    /* With the square root of the distance, half of the colours show barely visible differences. */
+    /* With the square root of the distance, half of the colours are left for barely visible differences. `square` is
+     * the squared distance, so two square roots are taken. */
     return (uint8_t)(HEAT + (int)((HEATS - 1) * sqrt(sqrt(square))));
 }
 

@@ -12,20 +12,20 @@
 #define IMAGE_DELTA_UNIT "YIQ"
 
 typedef struct image_rectangle {
-    int x, y, width, height; /* a rectangle that may extend beyond the image */
+    int x, y, width, height; /* a rectangle of pixels; it may extend beyond the image */
 } image_rectangle;
 
-/* The differing pixels that are forgiven or ignored. All zero: none are. */
+/* The rules by which differing pixels are forgiven or ignored. A zeroed struct forgives and ignores none. */
 typedef struct image_tolerance {
     uint64_t max_pixels; /* forgive up to this many differing pixels that no other rule forgives */
-    double max_delta;    /* forgive pixels whose colours differ by at most this distance, in IMAGE_DELTA_UNIT */
-    bool antialias;      /* forgive pixels on anti-aliased edges */
+    double max_delta;    /* forgive pixels whose two colours have at most this distance, in IMAGE_DELTA_UNIT */
+    bool antialias;      /* true: forgive pixels on anti-aliased edges */
     const image_rectangle *ignored; /* rectangles whose pixels are not compared */
     size_t ignored_count;
-    const uint8_t *ignored_mask; /* one byte per pixel; a pixel whose byte is not 0 is not compared. May be null */
+    const uint8_t *ignored_mask; /* one byte per pixel, or null; a pixel whose byte is not 0 is not compared */
 } image_tolerance;
 
-/* True if the tolerance excludes the pixel (x, y) from the comparison; `width` is the image's width. */
+/* Returns whether the tolerance excludes the pixel (x, y) from the comparison. `width` is the image's width. */
 static inline bool image_is_pixel_ignored(const image_tolerance *tolerance, int width, int x, int y)
 {
     if (tolerance->ignored_mask && tolerance->ignored_mask[(size_t)y * (size_t)width + (size_t)x])
@@ -41,9 +41,9 @@ static inline bool image_is_pixel_ignored(const image_tolerance *tolerance, int 
 /* Statistics of a set of differing pixels. Coordinates are -1 if the set is empty. */
 typedef struct image_tally {
     uint64_t pixels;      /* number of differing pixels */
-    double worst_delta;   /* the largest distance of two colours, in IMAGE_DELTA_UNIT */
-    int worst_x, worst_y; /* the first pixel in reading order with the distance worst_delta */
-    int largest_channel;  /* the largest difference of two samples of the same channel */
+    double worst_delta;   /* the largest distance between the two colours of a pixel, in IMAGE_DELTA_UNIT */
+    int worst_x, worst_y; /* the first pixel, in reading order, whose colours have the distance worst_delta */
+    int largest_channel;  /* the largest difference between two samples of the same channel and pixel */
     int min_x, min_y;     /* the bounding box of the differing pixels, both corners inclusive */
     int max_x, max_y;
 } image_tally;
@@ -53,9 +53,10 @@ typedef struct image_difference {
     int channel_range;    /* the largest possible value of largest_channel: 255, or 65535 for 16-bit samples */
     image_tally unlike;   /* all differing pixels, except those that are ignored */
     image_tally counted;  /* differing pixels that are neither ignored nor forgiven by max_delta or `antialias` */
-    uint64_t close;       /* number of pixels forgiven because they are within max_delta */
-    uint64_t antialiased; /* number of pixels beyond max_delta forgiven because of `antialias` */
-    uint64_t ignored;     /* number of differing pixels that rectangles or the mask exclude; they are in no tally */
+    uint64_t close;       /* number of pixels that are forgiven because their distance is within max_delta */
+    uint64_t antialiased; /* number of pixels that are forgiven by `antialias`, and not by max_delta */
+    /* number of differing pixels that the ignored rectangles or the mask exclude; no tally counts these pixels */
+    uint64_t ignored;
 } image_difference;
 
 /* Compare the colours of two images, each indexed or RGB. image_compare() forgives no difference;
@@ -66,31 +67,34 @@ image_difference image_compare_within(const image *a, const image *b, const imag
 /* A comparison of two images that are read in bands of rows. */
 typedef struct image_comparison {
     const image_tolerance *tolerance;
-    image_difference difference; /* its worst_delta values are squared until image_end_comparison() */
-    bool same_storage;           /* equal bytes of the two images mean equal colours */
-    int y;                       /* number of the next band's first row */
-    uint16_t last[2][3];         /* the pair of colours measured last: neighbouring pixels often have the same pair */
-    double last_square;          /* the squared distance of this pair */
-    int last_channel;            /* the largest difference of a channel in this pair */
+    /* the result so far; its worst_delta values are squared until image_end_comparison() */
+    image_difference difference;
+    bool same_storage; /* true: equal bytes of the two images mean equal colours */
+    int y;             /* number of the next band's first row */
+    /* the two colours that were measured last; neighbouring pixels often have the same two colours */
+    uint16_t last[2][3];
+    double last_square; /* the squared distance of the two colours in `last` */
+    int last_channel;   /* the largest difference of a channel between the two colours in `last` */
 } image_comparison;
 
-/* Begin a comparison of two images. Only their sizes, formats and palettes are read, not their pixels. If their sizes
- * differ, no bands may be added. The tolerance must outlive the comparison. */
+/* Begin a comparison of two images. Only the images' sizes, formats and palettes are read, not their pixels. If the
+ * sizes differ, no bands may be added. The tolerance must outlive the comparison. */
 image_comparison image_begin_comparison(const image *a, const image *b, const image_tolerance *tolerance);
 /* Add the next band of both images. Both bands must have the same number of rows. With tolerance->antialias the band
  * must be the whole image, because the test for anti-aliasing reads the rows above and below a pixel. */
 void image_compare_band(image_comparison *comparison, const image *a, const image *b);
 image_difference image_end_comparison(const image_comparison *comparison);
 
-/* True if the sizes are equal and no pixel differs, not even an ignored one. */
+/* Returns whether the sizes are equal and no pixel differs, not even an ignored pixel. */
 bool image_has_no_difference(const image_difference *difference);
 
-/* True if the sizes are equal and at most max_pixels pixels are neither ignored nor forgiven. */
+/* Returns whether the sizes are equal and at most max_pixels differing pixels are neither ignored nor forgiven by
+ * another rule. */
 bool image_is_within_tolerance(const image_difference *difference, const image_tolerance *tolerance);
 
-/* Draw row y of a picture of the difference, as indices of the palette image_make_difference_palette(). A dim grey copy
- * of `a` is the background. Counted pixels range from orange (one level) to white (the largest difference); forgiven
- * pixels are blue.
+/* Draw row y of a picture that shows the difference of two images, as indices of the palette
+ * image_make_difference_palette(). A dim grey copy of `a` is the background. Counted pixels range from orange (one
+ * level) to white (the largest difference); forgiven pixels are blue.
  *
  * If the sizes differ, pixels that only one image has are violet, and nothing is forgiven. `row` must have room for a
  * row of the wider image; y may be a row of the taller image. */

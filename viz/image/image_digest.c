@@ -7,12 +7,13 @@
  *
  * "runs", the older algorithm, hashes the length and colour of each run of equal pixels in reading order.
  *
- * "rows" cuts each row into groups of 8 pixels. Each pixel gets a hash of its place in the group and its colour. The
- * sum of these hashes is hashed with the group's place in the row and gives the group's number. A row's number is the
- * sum of the numbers of its groups. The numbers of the rows are hashed in order.
+ * "rows" cuts each row into groups of 8 pixels. Each pixel has a hash of its place in the group and its colour. The
+ * group's number is a hash of two values: the sum of its pixels' hashes, and the group's place in the row. A row's
+ * number is the sum of the numbers of its groups. The digest hashes the numbers of all rows in order.
  *
- * Sums can be updated. A group that equals the group above keeps its number and is skipped. A changed group replaces
- * its old number in the row's sum. For indexed images, the pixel hashes come from a table of 8 * 256 entries.
+ * Such sums can be updated from row to row. A group that equals the group above it has the same number and is skipped.
+ * For a changed group, its new number replaces the old number in the row's sum. For indexed images, the pixel hashes
+ * come from a table of 8 * 256 entries.
  *
  * Cost of "rows": one comparison per 64 pixels that repeat the row above, and 8 table look-ups per changed group. */
 #include "image_digest.h"
@@ -73,7 +74,7 @@ bool image_digest_parse(const char *text, image_digest_kind *kind, uint64_t *dig
 
 enum { GROUP = 8 };
 
-/* The state of a digest after some of the picture's rows. */
+/* The state of a digest after some of the picture's rows were added. */
 typedef struct digest_state {
     image_digest_kind kind;
     uint64_t digest;
@@ -118,8 +119,8 @@ static uint64_t digest_run(uint64_t digest, size_t length, uint64_t color, bool 
     return octree_digest_word(digest, (uint64_t)length << 24 | color);
 }
 
-/* Runs of different palette indices with the same colour are joined, and a run may continue in the next band. So the
- * digest depends neither on the palette nor on the height of bands. */
+/* Hash the runs of a band. Runs of different palette indices with the same colour are joined, and a run may continue in
+ * the next band. So the digest depends neither on the palette nor on the height of bands. */
 static void digest_runs(digest_state *d, const image *rows)
 {
     const size_t pixel_count = (size_t)rows->width * (size_t)rows->height;
@@ -155,7 +156,7 @@ static uint64_t sum_group_hashes(const digest_state *d, const image *rows, const
     return sum;
 }
 
-/* The same result as sum_group_hashes(), for GROUP palette indices in one word. */
+/* Returns the result of sum_group_hashes() for GROUP palette indices, which are the bytes of a word. */
 static inline uint64_t sum_index_hashes(const digest_state *d, uint64_t word)
 {
     return d->of_index[0][word & 255] + d->of_index[1][word >> 8 & 255] + d->of_index[2][word >> 16 & 255] +
@@ -175,7 +176,7 @@ static inline void set_group_sum(row_groups *g, size_t group, uint64_t sum)
     g->of_group[group] = digest;
 }
 
-enum { BLOCK = 8 }; /* the number of groups that are compared with the row above together */
+enum { BLOCK = 8 }; /* the number of groups that are compared together with the groups above them */
 
 static inline bool block_differs(const uint8_t *row, const uint8_t *above)
 {
@@ -185,9 +186,9 @@ static inline bool block_differs(const uint8_t *row, const uint8_t *above)
     return differ != 0;
 }
 
-/* List the groups that differ from the row above, and return their number. Blocks of BLOCK groups that are equal are
- * skipped. In other blocks the groups are listed without a branch, because a processor cannot predict which groups
- * differ. */
+/* List the groups that differ from the groups above them, and return their number. Blocks of BLOCK groups that all
+ * equal the row above are skipped. In other blocks the groups are listed without a branch, because a processor cannot
+ * predict which groups differ. */
 static size_t list_changed_groups(uint16_t *changed, const uint8_t *row, const uint8_t *above, size_t groups)
 {
     size_t count = 0;
@@ -203,8 +204,8 @@ static size_t list_changed_groups(uint16_t *changed, const uint8_t *row, const u
     return count;
 }
 
-/* Update the numbers of the first `groups` groups of a row of indices. `above` is the row above, null for the first
- * row. */
+/* Update the numbers of the first `groups` groups of a row of palette indices. `above` is the row above, null for the
+ * first row. */
 static void update_index_groups(const digest_state *d, row_groups *g, const uint8_t *row, const uint8_t *above,
                                 size_t groups)
 {

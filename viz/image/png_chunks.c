@@ -9,11 +9,11 @@
 #include <sys/stat.h>
 #include <zlib.h>
 
-/* The offsets in a chunk, and the size of its CRC. A chunk consists of 4 bytes with the size of its data, 4 bytes with
- * its name, the data, and a CRC-32 of the name and the data. */
+/* NAME, DATA: offsets in a chunk; CRC_SIZE: the size of its CRC. A chunk consists of 4 bytes with the size of its data,
+ * 4 bytes with its name, the data, and a CRC-32 of the name and the data. */
 enum { NAME = 4, DATA = 8, CRC_SIZE = 4 };
 
-/* The first bytes of a file. They contain chunks before the pixels. */
+/* The first bytes of a file. They contain the chunks that this file reads, which precede the pixels. */
 typedef struct page {
     uint8_t bytes[4096];
     size_t size;
@@ -21,7 +21,7 @@ typedef struct page {
 
 typedef struct chunk {
     uint8_t *at;
-    uint32_t size; /* number of bytes of data */
+    uint32_t size; /* number of bytes of the chunk's data */
 } chunk;
 
 static const uint8_t signature[8] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
@@ -47,7 +47,8 @@ static bool has_name(const chunk *c, const char *name)
     return memcmp(c->at + NAME, name, DATA - NAME) == 0;
 }
 
-/* Read the chunk at an offset in the page. Returns false if the chunk is cut short or its CRC is wrong. */
+/* Read the chunk at an offset in the page. Returns false if the page ends inside the chunk, or if the chunk's CRC is
+ * wrong. */
 static bool read_chunk(page *p, size_t offset, chunk *c)
 {
     if (offset + DATA + CRC_SIZE > p->size)
@@ -56,8 +57,8 @@ static bool read_chunk(page *p, size_t offset, chunk *c)
     return c->size <= p->size - offset - DATA - CRC_SIZE && load_big_endian(c->at + DATA + c->size) == compute_crc(c);
 }
 
-/* Read the first page of a file. Returns the file. If it is not a PNG, closes it and returns null. `file` may be
- * null. */
+/* Read the first page of a file, and return the file. If the file is not a PNG, closes the file and returns null.
+ * `file` may be null. */
 static FILE *read_first_page(FILE *file, page *p)
 {
     p->size = file ? fread(p->bytes, 1, sizeof p->bytes, file) : 0;
@@ -110,10 +111,11 @@ bool image_read_png_size(const char *path, int *width, int *height)
 
 /* ---- Texts --------------------------------------------------------------------------------------------------- */
 
-/* Find the text with this keyword; *c receives its chunk. Returns null if there is none. */
+/* Find the text with this keyword; *c receives its chunk. Returns null if there is no such text. */
 static uint8_t *find_text_chunk(page *p, const char *keyword, chunk *c)
 {
-    const size_t key = strlen(keyword) + 1; /* length of the keyword with the zero byte that ends it in the file */
+    /* length of the keyword, including the zero byte that ends the keyword in the file */
+    const size_t key = strlen(keyword) + 1;
     for (size_t at = sizeof signature; read_chunk(p, at, c) && !has_name(c, "IDAT"); at += DATA + c->size + CRC_SIZE)
         if (has_name(c, "tEXt") && key <= c->size && memcmp(c->at + DATA, keyword, key) == 0)
             return c->at + DATA + key;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* png_read.c - reads PNG files through libpng. It is strict: a damaged file gives an error, never a picture. */
+/* png_read.c - reads PNG files through libpng. A damaged file always gives an error, never a picture. */
 #include "png_read.h"
 #include "array.h"
 #include "file.h"
@@ -11,12 +11,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Limits against hostile files: the largest chunk that does not hold pixels, in bytes, and the greatest number of such
- * chunks. */
+/* Limits against hostile files. LARGEST_CHUNK: the maximum size in bytes of a chunk that does not hold pixels.
+ * MOST_TEXTS: the maximum number of such chunks. */
 #define LARGEST_CHUNK 8000000
 #define MOST_TEXTS 1000
 
-/* The highest compression ratio of deflate: 258 bytes take at least two bits. */
+/* The highest compression ratio of deflate: a repeat of 258 bytes takes at least two bits. */
 #define MOST_BYTES_A_BYTE 1032
 
 /* Compressed bytes are passed to zlib in pieces of this size. */
@@ -30,16 +30,17 @@ struct image_source {
     FILE *file;
     uint64_t file_size;
     image_color background;
-    bool whole;                 /* all rows are read together, by request or because the format requires it */
+    /* true: all rows are read together, because the caller requests it or the format requires it */
+    bool whole;
     png_byte color_type, depth; /* the colour type and the bits per sample in the file */
     size_t samples;             /* samples per pixel as libpng delivers them: 1 (index or grey), 3, or 4 with alpha */
     int passes;       /* number of passes in which libpng delivers the rows: 7 if the file is interlaced, else 1 */
     image about;      /* the image's description; it has pixels only if `whole` is set */
-    image *wanted;    /* the rows that the next decode_band() reads */
-    uint8_t *band;    /* the pixels of the last band */
+    image *wanted;    /* the image into which the next call of decode_band() reads rows */
+    uint8_t *band;    /* the pixels of the band that was read last */
     size_t band_room; /* capacity of `band` in bytes */
     int next_y;       /* number of the next band's first row */
-    bool beyond;      /* an index beyond the palette was found; it is reported after the last row */
+    bool beyond;      /* true: an index beyond the palette was found; the error is reported after the last row */
     bool failed;
 };
 
@@ -51,7 +52,7 @@ static bool fail_reading(image_source *s, const char *reason)
 
 /* ---- libpng -------------------------------------------------------------------------------------------------- */
 
-/* A step of reading, which an error of libpng aborts. */
+/* A step of reading a file. An error of libpng aborts the step. */
 typedef void step(image_source *s);
 
 static void read_bytes(png_structp png, png_bytep bytes, size_t size)
@@ -74,7 +75,7 @@ static _Noreturn void raise_error(png_structp png, png_const_charp message)
     png_longjmp(png, 1);
 }
 
-/* Run a step. Returns false if libpng fails. No local variable changes between setjmp and longjmp. */
+/* Run a step. Returns false if libpng reports an error. No local variable changes between setjmp and longjmp. */
 static bool run_png_step(image_source *s, step *task)
 {
     if (setjmp(png_jmpbuf(s->png)) != 0)
@@ -83,13 +84,14 @@ static bool run_png_step(image_source *s, step *task)
     return true;
 }
 
-/* The chunks that define the meaning of colours. libpng keeps their bytes but does not apply them. */
+/* The names of the chunks that define the meaning of colours. libpng keeps the bytes of these chunks but does not apply
+ * them. */
 static const uint8_t color_chunks[] = "gAMA\0cHRM\0sRGB\0iCCP\0cICP";
 
 /* A damaged file must not be compared as a picture, so wrong CRCs and broken zlib streams are errors. The CRCs cover
- * the same bytes as the stream's Adler-32, which takes a fifth of the reading time. The Adler-32 is therefore skipped
- * if libpng can skip it (libpng of Debian 12 can, that of Debian 13 cannot). Chunks that affect no pixel are skipped,
- * except color_chunks. */
+ * the same bytes as the stream's Adler-32 checksum, which takes a fifth of the reading time. So the Adler-32 checksum
+ * is not verified if libpng can skip it (the libpng of Debian 12 can, the libpng of Debian 13 cannot). Chunks that
+ * affect no pixel are skipped, except color_chunks. */
 static void set_reading_rules(png_structp png, FILE *file)
 {
     png_set_read_fn(png, file, read_bytes);
@@ -102,14 +104,15 @@ static void set_reading_rules(png_structp png, FILE *file)
     png_set_chunk_cache_max(png, MOST_TEXTS);
     png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, NULL, -1);
     png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_ALWAYS, color_chunks, (sizeof color_chunks) / 5);
-    /* No limit here: check_size() tests the sides and names the reason. libpng's message would only be "Invalid IHDR
-     * data". */
+    /* Remove libpng's limits of the sides: check_size() tests the sides and names the reason. libpng's message would
+     * only be "Invalid IHDR data". */
     png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
 }
 
 /* ---- Before the pixels --------------------------------------------------------------------------------------- */
 
-/* Returns a digest of the file's color_chunks. It does not depend on their order. */
+/* Returns a digest of the file's chunks that color_chunks names. The digest does not depend on the order of the
+ * chunks. */
 static uint64_t digest_color_chunks(png_structp png, png_infop info)
 {
     png_unknown_chunkp chunks = NULL;
@@ -131,8 +134,8 @@ static bool is_indexed(const image_source *s)
     return s->color_type == PNG_COLOR_TYPE_PALETTE || (s->color_type == PNG_COLOR_TYPE_GRAY && s->depth <= 8);
 }
 
-/* Make libpng deliver samples of 8 or 16 bits without loss. This file itself blends them with the background, because
- * libpng 1.6.39 turns the white of 16-bit files into 254. */
+/* Make libpng deliver samples of 8 or 16 bits without loss. blend_pixels() blends transparent pixels with the
+ * background, because libpng 1.6.39 turns the white of 16-bit files into 254. */
 static void set_conversion(image_source *s)
 {
     s->color_type = png_get_color_type(s->png, s->info);
@@ -153,7 +156,7 @@ static void set_conversion(image_source *s)
         png_set_swap(s->png);
 }
 
-/* Reject impossible sizes before memory is allocated. */
+/* Reject impossible sizes of a picture before memory is allocated. */
 static void check_size(const image_source *s)
 {
     const png_uint_32 width = png_get_image_width(s->png, s->info), height = png_get_image_height(s->png, s->info);
@@ -204,7 +207,7 @@ static void set_palette(image_source *s)
     }
 }
 
-/* Returns the number of bytes of a row as libpng delivers it. The converted row is never longer. */
+/* Returns the number of bytes of a row as libpng delivers the row. A converted row is never longer. */
 static size_t find_row_size(const image_source *s)
 {
     return (size_t)s->about.width * s->samples * (s->depth == 16 ? 2 : 1);
@@ -229,13 +232,14 @@ static void read_description(image_source *s)
         png_error(png, "libpng did not expand the pixels to 8 or 16 bits a sample");
     if (s->samples == 1)
         set_palette(s);
-    /* Interlaced rows arrive in passes. Only all rows together show whether 16 bits per sample are needed. */
+    /* An interlaced file delivers its rows in several passes. For 16-bit samples, only all rows together show whether
+     * 16 bits are needed. */
     s->whole = s->whole || s->passes > 1 || s->about.wide;
 }
 
 /* ---- Pixels -------------------------------------------------------------------------------------------------- */
 
-/* Blend pixels of r, g, b, alpha with the background. The results r, g, b overwrite them. */
+/* Blend pixels of r, g, b, alpha with the background. The results r, g, b overwrite the pixels. */
 static void blend_pixels(uint8_t *pixels, size_t count, image_color ground)
 {
     for (size_t n = 0; n < count; n++) {
@@ -245,8 +249,8 @@ static void blend_pixels(uint8_t *pixels, size_t count, image_color ground)
     }
 }
 
-/* True if all of these 16-bit samples can be stored in 8 bits without loss: each is a multiple of 257, so that its two
- * bytes are equal. */
+/* Returns whether all of these 16-bit samples can be stored in 8 bits without loss. This is so if each sample is a
+ * multiple of 257: its two bytes are then equal. */
 static bool fits_8_bits(const uint8_t *samples, size_t count)
 {
     for (size_t i = 0; i < count; i++)
@@ -255,8 +259,8 @@ static bool fits_8_bits(const uint8_t *samples, size_t count)
     return true;
 }
 
-/* Like blend_pixels(), for samples of 16 bits. Blending rounds. A pixel whose samples fit 8 bits is rounded to 8 bits,
- * so that a picture has the same colours whether its file has 8 or 16 bits per sample. */
+/* Blend 16-bit pixels of r, g, b, alpha with the background. If all samples of a pixel fit 8 bits, the blended result
+ * is rounded to 8 bits. So a picture has the same colours whether its file has 8 or 16 bits per sample. */
 static void blend_wide_pixels(uint8_t *pixels, size_t count, image_color ground)
 {
     const unsigned grounds[3] = {ground.r * 257u, ground.g * 257u, ground.b * 257u};
@@ -270,7 +274,7 @@ static void blend_wide_pixels(uint8_t *pixels, size_t count, image_color ground)
     }
 }
 
-/* Convert to 8 bits per sample if no precision is lost, so that equal pictures have the same format. */
+/* Convert an image to 8 bits per sample if no precision is lost, so that equal pictures have the same format. */
 static void narrow_to_8_bits_if_exact(image *band)
 {
     const size_t count = 3 * (size_t)band->width * (size_t)band->height;
@@ -281,18 +285,20 @@ static void narrow_to_8_bits_if_exact(image *band)
     band->wide = false;
 }
 
-/* Convert a band in place, from the samples that libpng delivers to the image's format. */
+/* Convert a band in place: from the samples that libpng delivers, to the format of the image. */
 static void convert_band(image_source *s, image *band)
 {
     const size_t count = (size_t)band->width * (size_t)band->height;
     if (s->samples == 1)
-        s->beyond = s->beyond || !image_has_valid_indices(band); /* libpng does not reject indices beyond the palette */
+        /* libpng does not reject indices beyond the palette, so they are looked for here */
+        s->beyond = s->beyond || !image_has_valid_indices(band);
     if (s->samples == 4)
         (band->wide ? blend_wide_pixels : blend_pixels)(band->pixels, count, s->background);
     narrow_to_8_bits_if_exact(band);
 }
 
-/* Read the rows of s->wanted. After the picture's last row, read on to the end of the file, to check it. */
+/* Read the rows of s->wanted. After the picture's last row, read on to the end of the file, so that libpng checks the
+ * rest. */
 static void decode_band(image_source *s)
 {
     image *band = s->wanted;
@@ -391,7 +397,7 @@ void image_source_close(image_source *s)
     image_release(&s->about);
     free(s->band);
     if (s->file)
-        fclose(s->file); /* no error to report: the file was only read */
+        fclose(s->file); /* an error of fclose() is ignored, because the file was only read */
     free(s);
 }
 

@@ -5,7 +5,7 @@
 
 #include "image.h"
 
-/* White: the background with which image_read_png() blends transparent pixels. */
+/* The background colour with which image_read_png() blends transparent pixels: white. */
 #define IMAGE_WHITE ((image_color){255, 255, 255})
 
 /* Read a PNG of any kind without loss. Files with a palette, and grey files of up to 8 bits, become indexed images. All
@@ -15,15 +15,15 @@
  * Returns false, sets *error and zeroes the image if the file is not a regular file, is truncated, fails a checksum,
  * has a side beyond IMAGE_MAX_SIDE, or claims more pixels than a file of its size can encode.
  *
- * Memory: at most 8 bytes per pixel and 8300 times the file's size, and in addition libpng's row and a chunk of at most
- * 8 MB. */
+ * Memory: at most 8 bytes per pixel, and also at most 8300 times the file's size; in addition, a row in libpng and a
+ * chunk of at most 8 MB. */
 bool image_read_png(const char *path, image *image, octreel_error *error);
 
-/* Like image_read_png(), but transparent pixels are blended with `background`. */
+/* Read a PNG under the rules of image_read_png(), but blend transparent pixels with `background`. */
 bool image_read_png_over(const char *path, image_color background, image *image, octreel_error *error);
 
-/* A PNG file whose rows are decoded on demand, so that the whole picture need not be in memory. All rows are
- * nevertheless read at opening if `whole` is set, if the file is interlaced, or if it has 16 bits per sample. Not
+/* A PNG file whose rows are decoded on demand, so that the whole picture need not be in memory. Opening the file
+ * nevertheless reads all rows if `whole` is true, if the file is interlaced, or if it has 16 bits per sample. Not
  * thread-safe. */
 typedef struct image_source image_source;
 
@@ -32,17 +32,17 @@ typedef struct image_source image_source;
 image_source *image_source_open(const char *path, image_color background, bool whole, octreel_error *error);
 void image_source_close(image_source *source); /* `source` may be null */
 
-/* Returns the description of the image. Its pixels are null unless all rows are in memory. */
+/* Returns the description of the image. The description's `pixels` are null unless all rows are in memory. */
 const image *image_source_description(const image_source *source);
 
-/* Read the next rows, at most `rows`, as an image. The source owns its pixels, which are valid until the next call, so
- * the image must not be released. Returns false after the last row. Returns false and sets *error if reading fails. The
- * end of the file is checked before the last rows are returned. */
+/* Read the next rows, at most `rows`, as an image. The source owns the image's pixels, which are valid until the next
+ * call, so the caller must not release the image. Returns false after the last row. Returns false and sets *error if
+ * reading fails. The end of the file is checked before the last rows are returned. */
 bool image_source_read_band(image_source *source, int rows, image *band);
 bool image_source_has_failed(const image_source *source);
 
-/* Returns the number of rows in a band: several bands of this height fit the L2 cache, and the cost per band is
- * small. */
+/* Returns the number of rows in a band. The number is small enough that several bands fit the L2 cache, and large
+ * enough that the cost per band is small. */
 static inline int image_find_band_height(const image *about)
 {
     enum { BAND_PIXELS = 1 << 14 };

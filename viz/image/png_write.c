@@ -10,7 +10,7 @@
 #include <string.h>
 #include <zlib.h>
 
-/* A file that is being written; libpng's error handler receives a pointer to it. */
+/* A file that is being written. libpng's error handler receives a pointer to this struct. */
 typedef struct output {
     const image_rows *rows;
     const image_text *texts;
@@ -20,7 +20,7 @@ typedef struct output {
     octreel_error *error;
 } output;
 
-/* Returns the reason why an image cannot be written, or null if it can. */
+/* Returns the reason why an image cannot be written, or null if the image can be written. */
 static const char *find_reason_to_refuse(const image *image)
 {
     if (image->wide)
@@ -73,13 +73,13 @@ static void set_texts(png_structp png, png_infop info, const image_text *texts, 
 static _Noreturn void raise_error(png_structp png, png_const_charp message)
 {
     const output *out = png_get_error_ptr(png);
-    char reason[200]; /* a printable copy of the message, which may quote a keyword */
+    char reason[200]; /* a printable copy of libpng's message, which may quote a keyword */
     snprintf(reason, sizeof reason, "%s", message);
     error_set(out->error, "%s: cannot be written: %s", out->file.path, make_printable(reason));
     png_longjmp(png, 1);
 }
 
-/* Write all chunks. Returns false if libpng fails. No local variable changes between setjmp and longjmp. */
+/* Write all chunks. Returns false if libpng reports an error. No local variable changes between setjmp and longjmp. */
 static bool write_chunks(png_structp png, png_infop info, const output *out)
 {
     if (setjmp(png_jmpbuf(png)) != 0)
@@ -108,8 +108,8 @@ static bool encode_png(output *out)
     return whole;
 }
 
-/* True if `path` is a standard stream, a regular file, a folder, or missing. For a folder, the later opening fails with
- * its own error. Anything else is refused, because opening a pipe would block. */
+/* Returns whether `path` is a standard stream, a regular file, a folder, or missing. For a folder, opening the file
+ * later fails with its own error. Anything else is refused, because opening a pipe would block. */
 static bool is_replaceable(const char *path)
 {
     struct stat status;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* camera.c - computes cameras and projects positions; see camera.h. The only functions of libm in use are sqrt, fabs,
- * floor, fmod and fmax. Their results are exact or correctly rounded, so that every machine computes the same
- * camera. */
+ * floor, fmod and fmax. The results of these functions are exact or correctly rounded, so every machine computes the
+ * same camera. */
 #include "camera.h"
 #include "filter.h"
 #include "octree/octree.h"
@@ -10,14 +10,17 @@
 #include <math.h>
 #include <string.h>
 
-/* The size of the window divided by the size of the world in the picture. The difference is room for labels. */
+/* The camera zooms so that the window is this many times as large as the framed box in the picture. The margin is room
+ * for labels. */
 #define MARGIN 1.1
-#define THINNEST 1e-3   /* the least extent of the world on screen for which the camera still zooms in */
+/* the least extent of the framed box, in unit coordinates, that find_zoom() and find_orbit_zoom() assume; it limits the
+ * zoom */
+#define THINNEST 1e-3
 #define ORBIT_TICKS 480 /* the number of ticks in which the orbiting camera turns once */
-#define FOCAL 1.6       /* the focal length of the camera that follows the player, in halves of the window */
+#define FOCAL 1.6       /* the focal length of the camera that follows the player, in units of half the window's size */
 
-/* Limits of the fast path of is_small_box_below(): the greatest distance of a box from the view axis, relative to its
- * depth, and the greatest depth. Within them, rounding errors stay below ROUNDING pixels. */
+/* Limits of the fast path of is_small_box_below(). ASIDE: the greatest distance of a box from the view axis, divided by
+ * the box's depth. FARTHEST: the greatest depth. Within these limits, rounding errors stay below ROUNDING pixels. */
 #define ASIDE 1e3
 #define FARTHEST 1e100
 #define ROUNDING 1e-6
@@ -38,19 +41,19 @@ static void compute_octant_turn(double angle, double *cosine, double *sine)
 
 void camera_compute_cosine_sine(double turns, double *cosine, double *sine)
 {
-    const double whole = floor(turns * 4 + 0.5); /* the number of quarter turns, rounded */
+    const double whole = floor(turns * 4 + 0.5); /* the number of quarter turns, rounded to an integer */
     double c, s;
     compute_octant_turn(fabs(turns * 4 - whole) * 1.5707963267948966, &c, &s);
     s = turns * 4 < whole ? -s : s;
-    /* the cosine after 0 to 3 quarter turns; the sine equals the cosine one quarter turn earlier */
+    /* The cosine after 0, 1, 2 and 3 quarter turns. The sine equals the cosine one quarter turn earlier. */
     const double cosines[4] = {c, -s, -c, s};
     const int quarter = (int)fmod(whole, 4) + 4;
     *cosine = cosines[quarter % 4];
     *sine = cosines[(quarter + 3) % 4];
 }
 
-/* Set the camera's axes. The azimuth is the direction of view: 0 is +y, and it grows to the left. The elevation is that
- * of the eye above the horizon. Both are in turns. */
+/* Set the camera's axes from two angles in turns. The azimuth is the direction of view: 0 is +y, and the angle grows to
+ * the left. The elevation is the angle of the eye above the horizon. */
 static void set_axes(camera *c, double azimuth, double elevation)
 {
     double ca, sa, ce, se;
@@ -61,14 +64,15 @@ static void set_axes(camera *c, double azimuth, double elevation)
     memcpy(c->forward, (double[3]){-sa * ce, ca * ce, -se}, sizeof c->forward);
 }
 
-/* Place the eye at a distance behind a target. Both are in unit coordinates. */
+/* Place the eye behind a target, at a distance from it. Target and distance are in unit coordinates. */
 static void place_eye(camera *c, const double target[3], double distance)
 {
     for (int i = 0; i < 3; i++)
         c->eye[i] = target[i] - distance * c->forward[i];
 }
 
-/* Half the extent, along an axis of the camera, of a box whose half sizes are `half`. */
+/* Returns half the extent of a box along an axis of the camera. `half` has the box's half sizes along the world's
+ * axes. */
 static double find_half_span(const double axis[3], const double half[3])
 {
     return (fabs(axis[0]) * half[0] + fabs(axis[1]) * half[1]) + fabs(axis[2]) * half[2];
@@ -78,7 +82,7 @@ static const struct {
     double azimuth, elevation; /* angles in turns */
     bool perspective;
 } cameras[CAMERA_COUNT] = {
-    /* not the true isometric view, in which a cube's nearest corner hides its farthest corner */
+    /* This is not the true isometric view, in which a cube's nearest corner hides its farthest corner. */
     [CAMERA_ISO] = {30.0 / 360, 22.0 / 360, false},
     [CAMERA_TOP] = {0, 0.25, false},
     [CAMERA_FRONT] = {0, 0, false},
@@ -88,16 +92,17 @@ static const struct {
 };
 
 /* Returns the zoom of the orbiting camera. The box turns about its vertical axis, and the zoom must be the same in
- * every tick. So the vertical cylinder around the box is fitted into the window.
+ * every tick. So this function fits the vertical cylinder around the box into the window.
  *
- * A rim of the cylinder appears widest where the line of sight touches it. It reaches highest and lowest at its nearest
- * and farthest points. In perspective the cylinder reaches farther down than up from the view axis: *lift is the shift
- * in pixels that centres it. */
+ * A rim of the cylinder appears widest where a line of sight touches the rim. The highest and lowest points of a rim in
+ * the picture are its nearest and farthest points. In perspective the cylinder reaches farther down than up from the
+ * view axis: *lift becomes the shift in pixels that centres the cylinder. */
 static double find_orbit_zoom(const camera *c, camera_window window, double *lift)
 {
     const double radius = sqrt(c->half[0] * c->half[0] + c->half[1] * c->half[1]), rise = c->up[2];
     const double fall = -c->forward[2];
-    double across = THINNEST, up = THINNEST, down = THINNEST; /* extents from the axis of view, at distance 1 */
+    /* extents of the cylinder from the view axis: to both sides, up and down, at distance 1 */
+    double across = THINNEST, up = THINNEST, down = THINNEST;
     for (int top = -1; top <= 1; top += 2) {
         const double height = top * c->half[2], depth = c->distance - height * fall;
         across = fmax(across, radius / sqrt(depth * depth - radius * radius * rise * rise));
@@ -168,7 +173,7 @@ camera camera_make(const view *v, camera_window window, const octree_box *world,
     return c;
 }
 
-/* Pixels per unit of length (unit coordinates) at the camera's center. */
+/* Returns the number of pixels per unit of length in unit coordinates, at the camera's center. */
 static double zoom_at_center(const camera *c)
 {
     return c->perspective ? c->zoom / c->distance : c->zoom;
@@ -206,7 +211,7 @@ bool camera_find_pixel(const camera *c, const double position[3], double pixel[2
     return isfinite(pixel[0]) && isfinite(pixel[1]);
 }
 
-/* Under orthographic projection a box has the same size on screen everywhere. */
+/* Returns the size of a box on screen under orthographic projection, where the size does not depend on the position. */
 static double parallel_box_pixels(const camera *c, const octree_box *box)
 {
     double half[3];
@@ -235,14 +240,15 @@ double camera_box_size_in_pixels(const camera *c, const octree_box *box)
     return fmax(high[0] - low[0], high[1] - low[1]);
 }
 
-/* Let (x, y, depth) be the camera coordinates of the box's middle. A corner at offset d from the middle is projected at
- * this distance in x from the middle's pixel, and likewise in y:
+/* Returns whether a box appears smaller than `pixels`, under perspective. Let (x, y, depth) be the camera coordinates
+ * of the box's middle. A corner at offset d from the middle is projected at this distance in x from the middle's pixel,
+ * and likewise in y:
  *
  *   zoom (d.right - x / depth d.forward) / (depth + d.forward)
  *
  * The absolute value of the numerator is largest at two opposite corners. The denominator lies between the depths of
- * the nearest and the farthest corner. Together they give a lower and an upper bound of the box's size on screen. For a
- * small box the ratio of the bounds is nearly 1, so that one of them usually decides.
+ * the nearest and the farthest corner. Numerator and denominator give a lower and an upper bound of the box's size on
+ * screen. For a small box the two bounds are nearly equal, so that one of the bounds usually decides.
  *
  * Rounding errors are far below ROUNDING if no corner is beside or behind the eye. */
 static bool is_small_box_below(const camera *c, const octree_box *box, double pixels)
@@ -277,8 +283,8 @@ bool camera_is_box_below(const camera *c, const octree_box *box, double pixels)
 
 /* ---- Framing points ------------------------------------------------------------------------------------------ */
 
-/* The least extent of a fitted box relative to its longest side. Points on a line or a plane are thus shown with some
- * space around them. */
+/* The least extent of a fitted box on an axis, as a part of its longest side. If all points lie on a line or a plane,
+ * the picture thus shows some space around them. */
 #define THINNEST_FIT (1.0 / 16)
 
 typedef struct bounds {
@@ -309,7 +315,7 @@ static octree_walk_order include_shown_points(const octree_node *node, void *con
     return OCTREE_WALK_ON;
 }
 
-/* Half of a box's extent on an axis: the whole extent can overflow. */
+/* Returns half of a box's extent on an axis. The whole extent could overflow. */
 static double half_extent(const octree_box *box, int axis)
 {
     return box->max[axis] / 2 - box->min[axis] / 2;

@@ -12,7 +12,7 @@
  *
  * 3. camera_project(): pixels. Multiply by the zoom; under perspective, divide by the depth; y points down.
  *
- * The functions of libm that differ between machines are not used. */
+ * The camera uses no function of libm whose results differ between machines. */
 #ifndef SCENE_CAMERA_H
 #define SCENE_CAMERA_H
 
@@ -25,32 +25,34 @@ typedef struct camera_window {
 } camera_window;
 
 typedef struct camera {
-    double origin[3]; /* the framed box's lowest corner, multiplied by `scale` */
-    double scale;     /* 1; 1/2 if the framed box's extent overflows a double */
-    double size;      /* the framed box's largest extent, multiplied by `scale` */
-    double half[3];   /* half the box's extent on each axis, in unit coordinates: 1 on the longest axis */
-    double right[3], up[3], forward[3]; /* an orthonormal basis; forward points away from the eye */
-    double eye[3];                      /* the position of the eye in unit coordinates */
+    double origin[3]; /* the lowest corner of the framed box, multiplied by `scale` */
+    double scale;     /* usually 1; 1/2 if the extent of the framed box overflows a double */
+    double size;      /* the largest extent of the framed box, multiplied by `scale` */
+    double half[3];   /* half the framed box's extent on each axis, in unit coordinates; 1 on the box's longest axis */
+    /* an orthonormal basis of the camera; `forward` points from the eye into the scene */
+    double right[3], up[3], forward[3];
+    double eye[3]; /* the position of the eye in unit coordinates */
     bool perspective;
-    double zoom;                  /* pixels per unit of length in unit coordinates; under perspective, at distance 1 */
-    double middle[2];             /* the pixel at which the axis of view meets the picture */
-    double center[3];             /* the world position that the camera looks at; `middle` shows it */
+    /* pixels per unit of length in unit coordinates; under perspective, for a length at distance 1 from the eye */
+    double zoom;
+    double middle[2];             /* the pixel at which the view axis meets the picture */
+    double center[3];             /* the world position that the camera looks at; it appears at the pixel `middle` */
     double distance;              /* the distance from the eye to the center, in unit coordinates */
     double near;                  /* geometry at a depth less than this is clipped */
     double near_depth, far_depth; /* the range of depths of the framed box; the depth bands divide it */
     bool clips_depth;             /* geometry outside near_depth to far_depth is clipped */
 } camera;
 
-/* Returns the camera of a tick. The view's look, center and zoom, if given, replace the values of view.camera. The
- * result depends only on the view, the world, the player's position and the number of the tick. */
+/* Returns the camera of a tick. The view's `look`, `center` and `zoom`, if given, override the camera kind view.camera.
+ * The result depends only on the view, the world, the player's position and the number of the tick. */
 camera camera_make(const view *v, camera_window window, const octree_box *world, const double player[3], uint64_t tick);
 
-/* Returns the camera of a close-up. It looks in the direction of `c` at the world position `place`, which appears in
- * the middle of `window`, magnified `times` as much as the center of `c`. It clips geometry whose distance from
- * `place`, along the direction of view, is larger than the window's reach to the side. */
+/* Returns the camera of a close-up. The new camera looks in the same direction as `c`, at the world position `place`.
+ * `place` appears in the middle of `window`, magnified `times` as much as the center of `c`. The new camera clips
+ * geometry that is farther in front of or behind `place` than the window reaches to its sides. */
 camera camera_make_close_up(const camera *c, camera_window window, const double place[3], double times);
 
-/* Returns the length of a pixel in world units, at the camera's center. */
+/* Returns the side of a pixel in world units, at the camera's center. */
 double camera_world_length_of_pixel(const camera *c);
 
 static inline double dot_product(const double a[3], const double b[3])
@@ -58,7 +60,8 @@ static inline double dot_product(const double a[3], const double b[3])
     return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
 }
 
-/* Convert a world position to unit coordinates: 2 (p - origin) / size - half. The first function converts one axis. */
+/* Convert a world position to unit coordinates: 2 (p - origin) / size - half. camera_to_unit_coordinate() converts one
+ * coordinate. */
 static inline double camera_to_unit_coordinate(const camera *c, int axis, double at)
 {
     return 2 * ((at * c->scale - c->origin[axis]) / c->size) - c->half[axis];
@@ -83,7 +86,8 @@ static inline void camera_transform(const camera *c, const double position[3], d
     result[2] = dot_product(from_eye, c->forward);
 }
 
-/* Convert camera coordinates to pixels, y down. Under perspective the depth must be at least `near`. */
+/* Convert camera coordinates to a pixel; the picture's y axis points down. Under perspective the depth must be at least
+ * `near`. */
 static inline void camera_project(const camera *c, const double seen[3], double pixel[2])
 {
     const double scale = c->perspective ? c->zoom / seen[2] : c->zoom;
@@ -91,21 +95,21 @@ static inline void camera_project(const camera *c, const double seen[3], double 
     pixel[1] = c->middle[1] - seen[1] * scale;
 }
 
-/* Find the pixel of a world position. False if the position is not in front of the camera. */
+/* Find the pixel of a world position. Returns false if the position is not in front of the camera. */
 bool camera_find_pixel(const camera *c, const double position[3], double pixel[2]);
 
-/* Returns the size of a box on screen in pixels: the longer side of the axis-aligned rectangle around its projection.
- * Infinite if a part of the box is nearer than `near`. Nothing inside the box appears larger. */
+/* Returns the size of a box on screen in pixels: the longer side of the axis-aligned rectangle around the box's
+ * projection. Infinite if a part of the box is nearer than `near`. Nothing inside the box appears larger. */
 double camera_box_size_in_pixels(const camera *c, const octree_box *box);
 
-/* True if camera_box_size_in_pixels() is below `pixels`. Faster than computing the size, unless it is close to
- * `pixels`. */
+/* Returns whether camera_box_size_in_pixels() is below `pixels`. This function is faster than computing the size,
+ * unless the size is close to `pixels`. */
 bool camera_is_box_below(const camera *c, const octree_box *box, double pixels);
 
-/* If the view has FIT_POINTS, replace it by FIT_BOX with the box of the points that the view shows in the tree of tick
- * 0. If these points are all equal, take the box of their leaf; if there are none, set FIT_WORLD. All ticks use the box
- * of tick 0, so that the camera does not move between ticks. A view without FIT_POINTS is not changed. Cost:
- * O(points). */
+/* If the view has FIT_POINTS, replace FIT_POINTS by FIT_BOX with the box of the points that the view shows in the tree
+ * of tick 0. If all these points are equal, use the box of their leaf; if there are no such points, set FIT_WORLD. All
+ * ticks use the box of tick 0, so that the camera does not move between ticks. A view without FIT_POINTS is not
+ * changed. Cost: O(points). */
 void camera_fit_points(view *v, const octree *tree);
 
 /* Compute the cosine and sine of an angle in turns, from polynomials, so that every machine gets the same bits. */

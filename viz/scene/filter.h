@@ -21,26 +21,27 @@
 
 #include <stdbool.h>
 
-/* Which nodes and points a view shows. All zero: the whole tree. */
+/* Selects the nodes and points that a view shows. A zeroed filter selects the whole tree. */
 typedef struct view_filter {
-    char slice;      /* 'x', 'y' or 'z': show only nodes that a plane across this axis cuts; 0: no plane */
+    char slice;      /* 'x', 'y' or 'z': show only nodes that a plane normal to this axis cuts; 0: no plane */
     double slice_at; /* the plane's coordinate on the axis `slice` */
-    bool by_depth;   /* show only nodes from min_depth to max_depth */
-    unsigned min_depth, max_depth; /* each from 0 to OCTREE_MAX_DEPTH */
-    bool leaves;                   /* show only leaves */
-    bool by_region;                /* show only nodes and points that meet the region */
+    bool by_depth;   /* true: show only nodes whose depth is from min_depth to max_depth */
+    unsigned min_depth, max_depth; /* limits of the range of depths, each from 0 to OCTREE_MAX_DEPTH */
+    bool leaves;                   /* true: show only leaves */
+    bool by_region;                /* true: show only nodes and points that meet the box `region` */
     octree_box region;
 } view_filter;
 
-/* True if the view shows a node's box. `world` is the tree's box. */
+/* Returns whether the view shows a node's box. `world` is the tree's box. */
 bool filter_shows_node(const view_filter *f, const octree_box *world, const octree_node *node);
 
-/* True if the view may show a node or any of its descendants. The slice and the region exclude whole subtrees. */
+/* Returns whether the view may show a node or any of its descendants. The slice and the region exclude whole
+ * subtrees. */
 bool filter_shows_subtree(const view_filter *f, const octree_box *world, const octree_node *node);
 
-/* True if the view shows a foreign node's box. Unlike a node of Octreel's tree, a foreign node has a closed box, which
- * may be flat: the box is shown if the slice's plane meets it, boundary included. A range of depths that ends at
- * OCTREE_MAX_DEPTH includes all greater depths. */
+/* Returns whether the view shows a foreign node's box. Unlike a node of Octreel's tree, a foreign node has a closed
+ * box, which may be flat: the view shows the box if the slice's plane meets the box or its boundary. A range of depths
+ * that ends at OCTREE_MAX_DEPTH includes all greater depths. */
 bool filter_shows_box(const view_filter *f, const octree_box *box, unsigned depth, bool leaf);
 
 /* The view shows a point if both functions return true: filter_shows_points_of() for the point's leaf, and
@@ -48,11 +49,11 @@ bool filter_shows_box(const view_filter *f, const octree_box *box, unsigned dept
 bool filter_shows_points_of(const view_filter *f, const octree_box *world, const octree_node *leaf);
 bool filter_shows_point(const view_filter *f, const double position[3]);
 
-/* True if the filter has a slice, a range of depths, `leaves` or a region. */
+/* Returns whether the filter has a slice, a range of depths, `leaves` or a region. */
 bool filter_is_set(const view_filter *f);
 
-/* Returns null if the filter can show some node of a tree with this world and depth. Otherwise returns `text`, with a
- * sentence that explains why the filter shows no node. */
+/* Returns null if the filter can show some node of a tree with this world and maximum depth. Otherwise returns `text`,
+ * which then explains in a sentence why the filter shows no node. */
 #define FILTER_TEXT 256
 const char *filter_find_problem(const view_filter *f, const octree_def *tree, char text[FILTER_TEXT]);
 

@@ -13,14 +13,14 @@ void heat_release(heat *h)
     *h = (heat){0};
 }
 
-/* Returns the cell of a node's address, or null. */
+/* Returns the cell of the node at an address, or null if there is no cell. */
 static heat_cell *find_cell(const heat *h, octree_address node)
 {
     const uint32_t place = hash_map_find(&h->places, &by_node, h->cells, &node);
     return place == HASH_MAP_NONE ? NULL : &h->cells[place];
 }
 
-/* Find the cell of a node's address, or add one. Null when out of memory. */
+/* Find the cell of the node at an address, or add a cell. Returns null if memory runs out. */
 static heat_cell *find_or_add_cell(heat *h, octree_address node)
 {
     heat_cell *cell = find_cell(h, node);
@@ -49,7 +49,7 @@ static octree_walk_order add_subtree_points(const octree_node *node, void *conte
     return cell ? OCTREE_WALK_ON : OCTREE_WALK_STOP;
 }
 
-/* True if `address` is `node` or one of its descendants. */
+/* Returns whether `address` is the address `node` or the address of one of its descendants. */
 static bool is_descendant_or_self(octree_address address, octree_address node)
 {
     while (address > node)
@@ -57,8 +57,8 @@ static bool is_descendant_or_self(octree_address address, octree_address node)
     return address == node;
 }
 
-/* Count a visit of a node and, if `below` is set, of all its descendants. Every node of the tree already has a cell. A
- * node that was removed after the visit is skipped. */
+/* Count a visit of a node. If `below` is true, also count a visit of each of its descendants. Every node of the tree
+ * already has a cell. A node that was removed after the visit is skipped. */
 static void add_visit(heat *h, const octree *tree, octree_address address, bool below)
 {
     octree_node node;
@@ -75,7 +75,8 @@ bool heat_add_tick(heat *h, const octree_game *game)
     const octree_tick *tick = octree_game_tick(game);
     const octree *tree = octree_game_tree(game);
     octree_walk(tree, add_subtree_points, h);
-    /* the last node that a query took whole: visits are in pre-order, so visits of its descendants come next */
+    /* The last node that a query took whole. Visits are listed in pre-order, so visits of this node's descendants come
+     * next. */
     octree_address taken = 0;
     for (size_t i = 0; !h->incomplete && i < tick->visit_count; i++) {
         const octree_visit *visit = &tick->visits[i];

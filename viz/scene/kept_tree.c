@@ -9,8 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The greatest number of changes for which the cache is used: each change may cost a walk of the subtree that it
- * changes. */
+/* Returns the greatest number of changes for which the cache is used. Each change may cost a walk of the kept subtree
+ * that contains it. */
 static size_t find_change_limit(const octree *tree)
 {
     return 16 + octree_count(tree) / 1024;
@@ -52,8 +52,8 @@ void kept_tree_release(kept_tree *k)
 
 /* ---- Changes ------------------------------------------------------------------------------------------------ */
 
-/* A key is the address of a cell at the greatest depth. Keys ascend in the order of the walk. The cell of an address
- * contains the cells with the keys from first_key() to first_key() + key_count() - 1. */
+/* A key is the address of a cell at the greatest depth. Keys ascend in the order of the walk. The cell at `address`
+ * contains the smallest cells with the keys from first_key() to first_key() + key_count() - 1. */
 static uint64_t first_key(octree_address address)
 {
     return address << 3 * (OCTREE_MAX_DEPTH - octree_address_depth(address));
@@ -86,7 +86,7 @@ static void add_change(const octree_change *change, void *context)
         add_key(k, change->to);
 }
 
-/* Returns a name that no other change log of this process has had. */
+/* Returns a name for a change log. No other change log of this process has had this name. */
 static size_t make_unique_log_name(void)
 {
     static atomic_size_t names;
@@ -102,10 +102,11 @@ static bool read_changes(kept_tree *k, const octree *tree)
     return octree_changes_since(tree, make_unique_log_name(), &k->cursor, add_change, k) && !k->lost;
 }
 
-/* Read the changes since the last walk. False if they are not known, or if there are too many.
+/* Read the changes since the last walk from the tree's change log. Returns false if the log does not have all of these
+ * changes, or if there are too many.
  *
- * Reading makes the tree log its next changes. The log is wasted work if there are too many changes, so each failure
- * suspends reading for more ticks than the failure before. */
+ * Reading the log makes the tree keep logging. Logging is wasted work if there are too many changes to use. So after
+ * each failure, the log is not read for a number of ticks, which grows with each further failure. */
 static bool update_changes(kept_tree *k, const octree *tree)
 {
     enum { LONGEST_WAIT = 63 };
@@ -197,8 +198,8 @@ bool kept_tree_is_collecting(const kept_tree *k, const octree_node *node)
     return node->depth >= above && node->address >> 3 * (node->depth - above) == k->open.address;
 }
 
-/* Set the count of each node, from the last node to the first, so that the counts of a node's children are known before
- * its own. */
+/* Set the subtree size (`count`) of each node. The nodes are visited from the last to the first, so that the counts of
+ * a node's children are known before the node's own count. */
 static void count_nodes(kept_subtree *subtree)
 {
     for (uint32_t i = subtree->node_count; i-- > 0;) {
@@ -219,7 +220,7 @@ static digest_run digest_markers(const digest_names *names, const scene_marker *
     return run;
 }
 
-/* If memory runs out, the run is not recorded, and scene_digest() hashes its elements one by one. */
+/* If memory runs out, the run is not recorded, and scene_digest() hashes the run's elements one by one. */
 void kept_tree_add_run(digest_runs *runs, size_t first, digest_run run)
 {
     if (run.end == 0 || !ARRAY_GROW(runs, 1))

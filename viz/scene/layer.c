@@ -7,7 +7,7 @@
 #define LAYER_ROW(layer, name, words, help, role, fades, shown) {name, words, help, role, fades},
 const layer_row layer_rows[LAYER_ALL] = {LAYER_MAP(LAYER_ROW)};
 
-/* Find the layer bits of a name, given by its start and length. False if the name is unknown. */
+/* Find the layer bits of a name, given by its start and length. Returns false if the name is unknown. */
 static bool find_layers(const char *name, size_t length, unsigned *bits)
 {
     static const struct {

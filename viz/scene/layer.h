@@ -18,9 +18,9 @@
 #include "query_looks.h"
 #include "scene.h"
 
-/* One row for each layer, in painter's order: later rows lie on top. The columns: its name; a phrase for it in
- * sentences; its description in --help; its colour (theme.h), or the main one if it has several; whether it fades with
- * distance as much as the tree does; whether it is shown by default. Scene digests hash the names. */
+/* One row for each layer, in painter's order: later rows lie on top. The columns of a row: the layer's name; a phrase
+ * for the layer in sentences; its description in --help; its main colour (theme.h); whether the layer fades with
+ * distance as much as the tree does; whether the layer is shown by default. Scene digests hash the names. */
 #define LAYER_MAP(X)                                                                                                   \
     X(WORLD, "world", "the world", "the world's box, the slice and the region, and axes with numbers", ROLE_WORLD,     \
       true, true)                                                                                                      \
@@ -59,7 +59,7 @@ typedef enum view_layer {
 } view_layer;
 
 typedef struct layer_row {
-    /* such as "visit-heat", "pruned nodes" and "nodes that the tick's queries pruned" */
+    /* examples of name, words and help: "pruned", "pruned nodes", "nodes that the tick's queries pruned" */
     const char *name, *words, *help;
     uint8_t role; /* the layer's colour, a theme_role */
     bool fades;
@@ -73,9 +73,9 @@ extern const layer_row layer_rows[LAYER_ALL];
 #define LAYER_DEFAULT_BIT(layer, name, words, help, role, fades, shown) | (shown ? 1u << LAYER_##layer : 0)
 #define VIEW_DEFAULT_LAYERS ((0u LAYER_MAP(LAYER_DEFAULT_BIT)) & VIEW_ALL_LAYERS)
 
-/* Parse a list of layer names separated by commas. The names "all", "default" and "none" are allowed too. A name after
- * "-", as in "-text", removes a layer; a list that begins with "-" starts from the default layers. On failure returns
- * false, and *bad points at the unknown name. */
+/* Parse a list of layer names separated by commas. The list may contain "all", "default" and "none". A name after "-",
+ * as in "-text", removes a layer; a list that begins with "-" starts from the default layers. If a name is unknown,
+ * returns false and sets *bad to this name. */
 bool view_layers_parse(const char *list, unsigned *layers, const char **bad);
 
 static inline bool view_shows_layer(const view *v, view_layer layer)
@@ -85,7 +85,8 @@ static inline bool view_shows_layer(const view *v, view_layer layer)
                                     : v->layers >> layer & 1;
 }
 
-/* Returns the style of an element: in the colour of a role, or in the colour of its layer. */
+/* Returns the style of an element: make_role_style() with the colour of a role, make_layer_style() with the colour of
+ * the element's layer. */
 static inline scene_style make_role_style(view_layer layer, unsigned role, scene_stroke stroke, unsigned width)
 {
     return (scene_style){(uint8_t)layer, (uint8_t)role, (uint8_t)stroke, (uint8_t)width};

@@ -6,12 +6,15 @@
 #include <math.h>
 #include <string.h>
 
-#define CLOSEUP_PART 0.32    /* the part of the space view's longer side that a close-up takes */
-#define CLOSEUP_RATIO 1.3333 /* the ratio of the close-up's sides; the longer side runs along the strip */
-#define CLOSEUP_MARGIN 8     /* the margin around the close-up, in units of the frame */
-#define CLOSEUP_LEAST 90     /* the least length of a side, in units: a smaller close-up has no room for letters */
-#define CAMERA_MARGIN 0.045  /* the part of the area's width that the camera leaves free at each side of the world */
-#define MOST_NUMBERS 0.1     /* the largest part of the area's width for the numbers at one side */
+#define CLOSEUP_PART 0.32 /* the size of the close-up's strip, as a part of the longer side of the space view */
+/* the ratio of the close-up's longer side to its shorter side; the longer side runs along the strip */
+#define CLOSEUP_RATIO 1.3333
+#define CLOSEUP_MARGIN 8 /* the margin around the close-up, in picture units */
+#define CLOSEUP_LEAST 90 /* the least length of a side, in picture units: a smaller close-up has no room for text */
+/* the part of the space view's width that the camera always leaves free at each side of the world */
+#define CAMERA_MARGIN 0.045
+/* the largest part of the space view's width that is reserved for the numbers at one side */
+#define MOST_NUMBERS 0.1
 
 int layout_panel_width(const view *v)
 {
@@ -57,7 +60,7 @@ camera_window layout_space_area(const scene *s)
 
 int layout_count_number_letters(const octree_box *box)
 {
-    /* MORE: the letters for a sign or a margin, and for the tick mark */
+    /* MORE: the characters for a sign or a margin, and for the tick mark */
     enum { FEW_DIGITS = 4, LEAST = 6, MOST = 9, MORE = 3 };
     double most = 0;
     int digits = 1;
@@ -85,7 +88,8 @@ camera_window layout_closeup_area(const view *v)
     const camera_window space = find_world_area(v);
     const int margin = CLOSEUP_MARGIN * view_pixels_per_unit(v), least = CLOSEUP_LEAST * view_pixels_per_unit(v);
     const bool beside = space.width >= space.height;
-    const double across = find_closeup_strip_size(&space) - 2 * margin; /* the size of the close-up across the strip */
+    /* the size of the close-up across its strip, in pixels */
+    const double across = find_closeup_strip_size(&space) - 2 * margin;
     const double along = fmin((beside ? space.height : space.width) - 2 * margin, floor(across * CLOSEUP_RATIO));
     camera_window w = {.width = beside ? across : along, .height = beside ? along : across};
     w.x = beside ? space.x + space.width - margin - w.width : space.x + floor((space.width - w.width) / 2);
@@ -108,7 +112,8 @@ camera_window layout_diagram_area(const view *v)
     return w;
 }
 
-/* Compute the rectangle of a text with its margin: left, top, right, bottom. `corner` is the text's top left corner. */
+/* Compute the rectangle of a text with its margin: left, top, right and bottom in pixels. `corner` is the text's top
+ * left corner. */
 static void find_text_box(const scene *s, const char *text, const double corner[2], double box[4])
 {
     const double width = (double)strlen(text) * s->text.width;

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* lettering.c - chooses a face (bitmap font) for a picture; see lettering.h. */
+/* lettering.c - chooses a face (bitmap font) for the height of a picture; see lettering.h. */
 #include "lettering.h"
 
 #include <stddef.h>
 
-/* One row for each range of picture heights, as view_height_at_16_9() returns them. The space between lines grows with
- * the face. */
+/* One row for each range of picture heights, as view_height_at_16_9() returns them. Larger faces have more space
+ * between lines. */
 static const struct lettering_row {
-    int from; /* the least height of the range */
+    int from; /* the least picture height of the row's range */
     text_face text;
     int leading;
     text_face title;
@@ -17,8 +17,8 @@ static const struct lettering_row {
     {900, FACE_12X24, 4, FACE_12X24, 2}, {1280, FACE_16X32, 6, FACE_16X32, 2},
 };
 
-/* From a height of MULTIPLIED pixels on, face 12x24 is used. It is enlarged by one multiple for each 1080 pixels of
- * height, rounded to nearest. */
+/* At a picture height of MULTIPLIED pixels or more, face 12x24 is used. It is enlarged by the picture height divided by
+ * 1080, rounded to the nearest integer. */
 enum { MULTIPLIED = 1700, LINES_A_MULTIPLE = 1080, MULTIPLE_LEADING = 4 };
 
 static lettering make_lettering(text_face face, int multiple, int leading)

@@ -6,7 +6,7 @@
 
 #include "view.h"
 
-/* The width and height of every letter of a face, in pixels. */
+/* The faces: the width and height of each character, in pixels of the face. */
 #define FACE_MAP(X) X(5, 8) X(6, 12) X(8, 16) X(12, 24) X(16, 32)
 
 typedef enum text_face {
@@ -19,11 +19,11 @@ typedef enum text_face {
 typedef struct lettering {
     text_face face;
     int multiple;      /* the width and height, in pixels of the picture, of one pixel of the face */
-    int width, height; /* the width and height of a letter's cell, in pixels of the picture */
+    int width, height; /* the width and height of a character's cell, in pixels of the picture */
     int line;          /* the distance from one line of text to the next, in pixels of the picture */
 } lettering;
 
-/* Returns the lettering for text or, if `title` is set, for titles, which are about twice as large. */
+/* Returns the lettering for text, or, if `title` is true, for titles. Titles are about twice as large as text. */
 lettering lettering_choose(const view *v, bool title);
 
 #endif

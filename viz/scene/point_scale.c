@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* point_scale.c - measures the ranges for colours and the spacing for sizes, in one walk over the points of tick 0.
+/* point_scale.c - measures the ranges of values for the colours of points, and the spacing of points for their sizes,
+ * in one walk over the points of tick 0.
  *
  * Ranges: with the full range of values, a single outlier would take most colours from all other points. So a range
- * reaches from the 1st to the 99th percentile.
+ * extends from the 1st to the 99th percentile.
  *
  * The sample: sorting all points would need memory for all of them, and a sample of at most MOST_SAMPLES points is
  * enough. A point is in the sample if the lowest bits of a hash of its id and position are zero. When the sample is
@@ -22,13 +23,14 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* At each end of a range, one of OUTLIERS points is cut off. */
+/* One of OUTLIERS points is cut off at each end of a range: the lowest and the highest 1 %. */
 #define OUTLIERS 100
 
-/* The spacing of a leaf with fewer points is not measured. */
+/* The spacing is not measured in a leaf with fewer points than this. */
 #define FEWEST 4
 
-/* The most points in the sample. With this number, the rank of a percentile is accurate to about a tenth. */
+/* The maximum number of points in the sample. With this number, the rank of a percentile is accurate to about a
+ * tenth. */
 #define MOST_SAMPLES ((size_t)1 << 16)
 
 /* The spacing of the visible points of one leaf, and their number. */
@@ -39,14 +41,14 @@ typedef struct leaf_spacing {
 
 typedef struct sample {
     uint64_t hash;
-    double values[4]; /* x, y, z and the intensity, which is NaN if the point has none */
+    double values[4]; /* x, y, z and the intensity; NaN is a missing intensity */
 } sample;
 
-/* A sample of the points: those with (hash & mask) == 0. */
+/* A sample of the points: the points whose hash has no bit in common with `mask`. */
 typedef struct samples {
     sample *items;
     size_t count, room;
-    uint64_t mask; /* the low bits that are 0 in the hashes of the sample; grows when the sample is full */
+    uint64_t mask; /* the low bits that must be 0 in the hash of each sampled point; grows when the sample is full */
 } samples;
 
 typedef struct gathering {
@@ -56,7 +58,7 @@ typedef struct gathering {
     size_t count, room, points;
     samples samples;
     double ids[2];
-    const point_values *values; /* null: intensities are not needed */
+    const point_values *values; /* the values of points; null if intensities are not needed */
     bool out_of_memory;
 } gathering;
 
@@ -87,7 +89,7 @@ static uint64_t hash_point(const octree_point *point)
     return hash;
 }
 
-/* Extend the mask and drop samples until at most MOST_SAMPLES are left. */
+/* Add bits to the mask and drop samples until at most MOST_SAMPLES samples are left. */
 static void discard_samples(samples *s)
 {
     while (s->count > MOST_SAMPLES) {
@@ -169,8 +171,8 @@ static void swap_values(weighted *a, weighted *b)
     *b = kept;
 }
 
-/* Partition the values: those below the pivot move to [0, *low), those above it to [*high, count). Returns the weight
- * of the values below the pivot, and adds the weight of the values equal to the pivot to *equal. */
+/* Partition the values: values below the pivot move to [0, *low), values above the pivot to [*high, count). Returns the
+ * total weight of the values below the pivot, and adds the weight of the values equal to the pivot to *equal. */
 static size_t partition(weighted *values, size_t count, double pivot, size_t *low, size_t *high, size_t *equal)
 {
     size_t below = 0;
@@ -189,8 +191,8 @@ static size_t partition(weighted *values, size_t count, double pivot, size_t *lo
     return below;
 }
 
-/* Quickselect: returns the value at a rank, where a value of weight w takes w ranks, from the smallest value on.
- * Returns the largest value if the rank is beyond the total weight. Reorders the values. Cost: O(count) on average. */
+/* Quickselect: returns the value at a rank, counted from the smallest value. A value of weight w takes w ranks. Returns
+ * the largest value if the rank is beyond the total weight. Reorders the values. Cost: O(count) on average. */
 static double select_value(weighted *values, size_t count, size_t rank)
 {
     uint64_t state = 1;
@@ -211,7 +213,8 @@ static double select_value(weighted *values, size_t count, size_t rank)
     }
 }
 
-/* Find the two percentiles that bound the range of values[which]. `room` has space for all samples. */
+/* Find the two percentiles of values[which] that are the ends of its range. `room` is scratch memory for all
+ * samples. */
 static void find_percentiles(const samples *s, int which, weighted *room, double *low, double *high)
 {
     size_t count = 0;

@@ -68,8 +68,8 @@ bool point_values_insert_empty_row(point_values *v, size_t at)
     return true;
 }
 
-/* Build a table from entries in ascending order of their ids. If there are few gaps between ids, the missing ids get
- * rows without values. */
+/* Build a table from entries in ascending order of their ids. If there are few gaps between the ids, the table also has
+ * rows without values for the missing ids. */
 static bool build_table(point_values *v, const point_entry *entries, size_t count)
 {
     const uint64_t span = entries[count - 1].id - entries[0].id;
@@ -87,7 +87,8 @@ static bool build_table(point_values *v, const point_entry *entries, size_t coun
     return ok;
 }
 
-/* True if the ids of the entries continue the ids of the rows without a gap, as in a stream of points. */
+/* Returns whether the ids of the entries continue the ids of the table's rows without a gap, as in a stream of
+ * points. */
 static bool follow_last_row(const point_values *v, const point_entry *entries, size_t count)
 {
     bool next = v->count > 0 && !v->ids;

@@ -5,12 +5,12 @@
 #ifndef SCENE_QUERY_LOOKS_H
 #define SCENE_QUERY_LOOKS_H
 
-/* One row for each kind of query, in painter's order. The columns of its layer: the name, the phrase for it in
- * sentences, the description in --help, and the colour (a row of theme.h, which kinds may share).
+/* One row for each kind of query, in painter's order. The first columns describe the layer of the query kind: its name,
+ * a phrase for it in sentences, its description in --help, and its colour (a row of theme.h; kinds may share a colour).
  *
- * The columns of its option of octreel inspect: the option's value in --help (null: the kind has no option of its own),
- * the kind of query if the value has one more number, the description in --help, and the expected value, for error
- * messages.
+ * The next columns describe the option of octreel inspect that makes such a query. They are: the option's value in
+ * --help (null: the kind has no option of its own); the query kind that the option makes if its value has the optional
+ * last number; the option's description in --help; and a phrase for the expected value, for error messages.
  *
  * Each row calls Y(X, row...): the tables of layers and of options pass a Y that selects their columns. */
 #define QUERY_LOOKS(Y, X)                                                                                              \

@@ -56,8 +56,8 @@ static bool are_all_finite(const double *values, size_t count)
     return true;
 }
 
-/* True if the scene accepts an element: the view shows its layer, and its geometry is finite. Elements that are not
- * finite are counted in s->refused. */
+/* Returns whether the scene accepts an element: the view shows the element's layer, and the element's geometry is
+ * finite. Elements that are not finite are counted in s->refused. */
 static bool accept_element(scene *s, scene_style style, bool finite)
 {
     if (!view_shows_layer(&s->view, style.layer))
@@ -122,8 +122,8 @@ static bool grow_markers(scene *s, size_t count)
     return grown;
 }
 
-/* Room for all points is reserved once. Calling scene_add_marker() for each point took 2 % more instructions to draw
- * the picture of a point cloud. */
+/* Reserve room for all points once. Calling scene_add_marker() for each point took 2 % more instructions to draw the
+ * picture of a point cloud. */
 void scene_add_points(scene *s, const octree_point *points, size_t count, scene_shape shape, scene_style style)
 {
     if (!view_shows_layer(&s->view, style.layer) || !grow_markers(s, count))

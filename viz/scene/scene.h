@@ -17,21 +17,23 @@
 typedef enum scene_stroke {
     STROKE_SOLID,
     STROKE_DASHED,
-    STROKE_CUT,   /* dashes with gaps in the background colour, so that a solid line beneath looks dashed; letters get a
-                     rim of this colour */
+    /* dashes with gaps in the background colour, so that a solid line beneath looks dashed; text gets a rim of the
+     * background colour */
+    STROKE_CUT,
     STROKE_ARROW, /* solid, with an arrow head at the second end if the line is long enough to show it */
 } scene_stroke;
 
-/* How an element appears. The width is in half units of the frame (view_pixels_per_unit), which are pixels at 1280 x
- * 720. */
+/* How an element appears. Widths are in half picture units; view_pixels_per_unit() is the size of a unit. At 1280 x
+ * 720, a half unit is one pixel. */
 typedef struct scene_style {
-    uint8_t layer;  /* a view_layer: layer.h */
+    uint8_t layer;  /* a view_layer, as in layer.h */
     uint8_t role;   /* a theme_role: the colour */
     uint8_t stroke; /* a scene_stroke */
-    uint8_t width;  /* of lines; half the side of markers; the size of text: 1 is 12 units per line of text */
+    /* the width of a line; half the side of a marker; the size of a text, where 1 means 12 units per line of text */
+    uint8_t width;
 } scene_style;
 
-/* The members with which every element begins. */
+/* The members with which every kind of element begins. */
 typedef struct scene_head {
     uint64_t id;
     scene_style style;
@@ -73,12 +75,12 @@ typedef struct scene_marker {
 
 #define SCENE_TEXT 48
 
-/* A text at a pixel, or beside the pixel of a world position. A label of width 2 is a title. */
+/* A text at a pixel, or beside the pixel of a world position. A label whose style has the width 2 is a title. */
 typedef struct scene_label {
     uint64_t id;
     scene_style style;
     bool in_world;
-    double at[3]; /* a world position if in_world is set, else x and y of the text's top left corner in pixels */
+    double at[3]; /* the world position if in_world is true; else x and y of the text's top left corner in pixels */
     char text[SCENE_TEXT];
 } scene_label;
 
@@ -93,31 +95,36 @@ typedef struct scene_panel {
 /* Counts of velocity arrows that a scene leaves out. */
 typedef struct scene_arrows {
     size_t thinned;  /* the number of arrows left out because of the view's budget */
-    uint64_t one_in; /* about one arrow in `one_in` is kept */
-    size_t small;    /* arrows within the budget that are left out because they are shorter than the view's lod */
+    uint64_t one_in; /* one in `one_in` arrows is kept, on average */
+    /* the number of arrows left out because they are shorter than the view's lod, not because of the budget */
+    size_t small;
 } scene_arrows;
 
-/* Counts of the nodes and points that a scene shows and leaves out. */
+/* Counts of the nodes and points that a scene shows or leaves out. */
 typedef struct scene_tally {
     size_t nodes, points; /* the numbers of nodes and points that are shown */
-    size_t labels;        /* the number of nodes that are labelled with their path */
+    size_t labels;        /* the number of nodes that are labelled with their address */
     size_t small;         /* the number of nodes left out because they are smaller than the view's lod */
-    size_t small_marked;  /* boxes and planes of visited, split or merged nodes left out because of the lod */
+    /* the number of boxes and planes of visited, split or merged nodes left out because of the lod */
+    size_t small_marked;
     size_t beyond;   /* the number of nodes left out because of the view's budget: all nodes below depth `deepest` */
     int deepest;     /* the greatest depth whose nodes fit the budget */
-    size_t thinned;  /* the number of points left out because of the budget */
-    uint64_t one_in; /* about one point in `one_in` is kept */
+    size_t thinned;  /* the number of points left out because of the view's budget */
+    uint64_t one_in; /* one in `one_in` points is kept, on average */
     scene_arrows arrows;
-    size_t drawn, folded;                 /* the numbers of nodes that the diagram shows one by one, and in bars */
-    unsigned folded_from, folded_to;      /* the range of depths that the diagram shows as bars */
-    size_t path;                          /* the number of nodes on the path that the diagram shows */
-    size_t marked_visited, marked_pruned; /* the numbers of nodes that the diagram marks as visited, and as pruned */
+    /* the number of nodes that the diagram shows one by one; the number of nodes that it shows in bars */
+    size_t drawn, folded;
+    unsigned folded_from, folded_to; /* the range of depths that the diagram shows as bars */
+    size_t path;                     /* the number of nodes on the diagram's path from the root */
+    /* the number of nodes that the diagram marks as visited; the number that it marks as pruned */
+    size_t marked_visited, marked_pruned;
 } scene_tally;
 
 /* Kinds of elements that a frame can leave out, as bits. */
 enum { LEFT_OUT_NODES = 1, LEFT_OUT_POINTS = 2, LEFT_OUT_ARROWS = 4 };
 
-/* The first function returns the kinds that the view's budget leaves out, the second those that its lod leaves out. */
+/* scene_kinds_beyond_budget() returns the kinds of elements that the view's budget leaves out. scene_kinds_below_lod()
+ * returns the kinds that the view's lod leaves out. */
 static inline unsigned scene_kinds_beyond_budget(const scene_tally *tally)
 {
     return (tally->beyond ? LEFT_OUT_NODES : 0u) | (tally->thinned ? LEFT_OUT_POINTS : 0u) |
@@ -132,25 +139,27 @@ static inline unsigned scene_kinds_below_lod(const scene_tally *tally)
 typedef struct scene {
     view view;
     camera camera;
-    int unit;              /* the size of one unit of the widths of lines and markers, in whole pixels */
-    lettering text, title; /* the letters of labels; see scene_label_lettering() */
-    double spacing;        /* if points are painted: the spacing of the shown points, in world units; 0: unknown */
+    /* the size of a picture unit, in which widths of lines and markers are measured, in whole pixels */
+    int unit;
+    lettering text, title; /* the bitmap fonts of text and of titles; see scene_label_lettering() */
+    double spacing;        /* the spacing of the shown points in world units, if points are painted; 0: unknown */
     ARRAY(scene_box) boxes;
     ARRAY(scene_segment) segments;
     ARRAY(scene_marker) markers;
     ARRAY(scene_label) labels;
     ARRAY(scene_panel) panels;
     scene_tally tally;
-    struct scene *closeup; /* a separate scene, drawn into a part of the picture; valid if has_closeup is set */
+    struct scene *closeup; /* a separate scene, drawn into a part of the picture; valid if has_closeup is true */
     bool has_closeup;
-    int place[2];           /* in a close-up: the pixel of the picture at which its top left pixel lies */
-    double times;           /* in a close-up: the magnification at its middle; 0 in other scenes */
-    struct kept_tree *kept; /* the cache of subtrees from the last tick; may be null */
+    /* only in a close-up: the pixel of the picture at which the close-up's top left pixel lies */
+    int place[2];
+    double times;           /* only in a close-up: the magnification at its middle; 0 in other scenes */
+    struct kept_tree *kept; /* the cache of subtrees from the previous tick; may be null */
     size_t refused;         /* the number of elements with NaN or infinite geometry, which are never drawn */
-    bool out_of_memory;     /* set by scene_add_*: the scene is incomplete */
+    bool out_of_memory;     /* true: the scene is incomplete, because memory ran out in scene_add_*() */
 } scene;
 
-/* Returns the letters in which a label is drawn. */
+/* Returns the bitmap font in which a label is drawn. */
 static inline const lettering *scene_label_lettering(const scene *s, const scene_label *label)
 {
     return label->style.width > 1 ? &s->title : &s->text;
@@ -160,17 +169,17 @@ static inline const lettering *scene_label_lettering(const scene *s, const scene
 void scene_clear(scene *s);
 void scene_release(scene *s);
 
-/* Set the view and the sizes that depend on it. The caller sets the camera. */
+/* Set the view, and compute the sizes that depend on the view. The caller sets the camera. */
 void scene_set_view(scene *s, const view *v);
 
-/* Append an element, unless the view hides its layer. Callers need not test the layer. */
+/* Append an element, unless the view hides the element's layer. Callers need not test the layer. */
 void scene_add_box(scene *s, scene_box box);
 void scene_add_segment(scene *s, scene_segment segment);
 void scene_add_marker(scene *s, scene_marker marker);
 void scene_add_label(scene *s, scene_label label);
 void scene_add_panel(scene *s, scene_panel panel);
 
-/* Returns a label with a formatted text and no position yet. A text that is too long is truncated. */
+/* Returns a label with a formatted text and no position yet. A text that is too long is cut. */
 scene_label scene_make_label(uint64_t id, scene_style style, const char *format, ...);
 
 /* Append a box, a segment in the world, a marker, markers for points, or a filled rectangle of the picture. */
@@ -179,10 +188,10 @@ void scene_add_line(scene *s, uint64_t id, const double from[3], const double to
 void scene_add_mark(scene *s, uint64_t id, const double at[3], scene_shape shape, scene_style style);
 void scene_add_points(scene *s, const octree_point *points, size_t count, scene_shape shape, scene_style style);
 
-/* Append a segment in the picture. `from` and `to` are x and y of its ends in pixels. */
+/* Append a segment in the picture. `from` and `to` are the ends of the segment: x and y in pixels. */
 void scene_add_picture_line(scene *s, uint64_t id, const double from[2], const double to[2], scene_style style);
 
-/* Append copies of markers from a scene with the same view, without testing their layer and geometry again. */
+/* Append copies of markers from a scene with the same view. Their layer and geometry are not tested again. */
 void scene_add_markers(scene *s, const scene_marker *markers, size_t count);
 
 void scene_add_rectangle(scene *s, uint64_t id, const int at[2], const int size[2], unsigned layer, unsigned role);
@@ -196,10 +205,11 @@ static inline void scene_box_middle(const octree_box *box, double middle[3])
 
 /* ---- Elements ----------------------------------------------------------------------------------------------- */
 
-/* The kinds of elements, one for each array of a scene, in the order in which elements are numbered. */
+/* The kinds of elements, in the order in which elements are numbered. A scene has one array for each kind. */
 typedef enum scene_kind { SCENE_BOX, SCENE_SEGMENT, SCENE_MARKER, SCENE_PANEL, SCENE_LABEL, SCENE_KINDS } scene_kind;
 
-/* A reference to an element: its kind, its index in the array of this kind, and whether it is in the close-up. */
+/* A reference to an element: its kind, its index in the array of this kind, and whether the element is in the
+ * close-up. */
 typedef struct scene_element {
     scene_kind kind;
     size_t index;
@@ -209,9 +219,9 @@ typedef struct scene_element {
 /* Returns "box", "segment", "marker", "panel" or "label". */
 const char *scene_kind_name(scene_kind kind);
 
-/* Elements are numbered from 1, kind by kind: first the elements of the scene, then those of its close-up. The number 0
- * is the background. */
-size_t scene_count_elements(const scene *s); /* without elements of the close-up */
+/* Elements are numbered from 1: first the elements of the scene, kind by kind, then the elements of its close-up. The
+ * number 0 is the background. */
+size_t scene_count_elements(const scene *s); /* the result does not count elements of the close-up */
 scene_element scene_element_at(const scene *s, uint32_t number);
 uint32_t scene_element_number(const scene *s, scene_element element);
 
@@ -223,7 +233,8 @@ static inline const scene *scene_containing(const scene *s, scene_element elemen
     return element.in_closeup ? s->closeup : s;
 }
 
-/* Returns a digest of the whole draw list, including camera, size and close-up. It is the same on every machine. */
+/* Returns a digest of the whole draw list, including camera, picture size and close-up. The digest is the same on every
+ * machine. */
 uint64_t scene_digest(const scene *s);
 
 #endif

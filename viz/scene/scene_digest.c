@@ -36,8 +36,8 @@ static uint64_t digest_style(const digest_names *n, uint64_t id, scene_style sty
     return octree_digest_word(digest, n->layers[style.layer] + n->roles[style.role] + how);
 }
 
-/* Add the colouring, the shading and the spacing of painted points to a digest. If points are not painted, the digest
- * stays the same. */
+/* Add the colouring, the shading and the spacing of painted points to a digest. If the view does not paint points,
+ * return the digest unchanged. */
 static uint64_t digest_point_painting(const scene *s, uint64_t digest)
 {
     if (!view_paints_points(&s->view))
@@ -83,7 +83,7 @@ static uint64_t digest_segment(const digest_names *n, const scene_segment *segme
     return digest_doubles(digest_doubles(digest, segment->ends[0], 3), segment->ends[1], 3);
 }
 
-/* Returns a colour as one number: 0 for elements without a colour of their own. */
+/* Returns a colour as one number. Returns 0 for an element without a colour of its own. */
 static unsigned pack_rgb(theme_color color)
 {
     return (unsigned)color.r << 16 | (unsigned)color.g << 8 | color.b;
@@ -109,8 +109,8 @@ static uint64_t digest_panel(const digest_names *n, const scene_panel *panel)
     return octree_digest_word(digest, (uint64_t)(uint32_t)panel->width << 32 | (uint32_t)panel->height);
 }
 
-/* Add an array to a digest. `known` is the value of the polynomial for the elements before index `first`. Each element
- * is hashed separately, so that a processor can work on several elements at once. */
+/* Add an array to a digest. `known` is the polynomial (scene_digest.h) of the elements before index `first`. Each
+ * element is hashed separately, so that a processor can work on several elements at once. */
 #define DIGEST_FROM(first, known, digest, array, digest_one)                                                           \
     do {                                                                                                               \
         uint64_t all = known;                                                                                          \
@@ -119,7 +119,7 @@ static uint64_t digest_panel(const digest_names *n, const scene_panel *panel)
         digest = octree_digest_word(octree_digest_word(digest, (array).count), all);                                   \
     } while (0)
 
-/* Add an array to a digest. Elements in runs whose digest is known are not hashed again. Runs that end beyond the array
+/* Add an array to a digest. Elements in runs with a known digest are not hashed again. Runs that end beyond the array
  * are ignored. */
 #define DIGEST_RUNS(digest, array, digest_one, runs)                                                                   \
     do {                                                                                                               \

@@ -12,7 +12,8 @@ const char *theme_role_name(theme_role role)
     return role == ROLE_OWN ? "own" : role_names[role];
 }
 
-/* The weight of the role's full colour in each shade, in 256ths. The remaining weight is that of the background. */
+/* The weight of a role's full colour in each shade, in 256ths. The remaining weight is the weight of the background
+ * colour. */
 static const int strength[THEME_SHADES] = {256, 236, 216, 196, 176, 156, 136, 116};
 
 static uint8_t mix_channel(uint8_t color, uint8_t ground, int part)

@@ -58,8 +58,9 @@
     X(ROLE_KIND_5, "kind-5", 56, 112, 88)                                                                              \
     X(ROLE_KIND_6, "kind-6", 144, 56, 176)
 
-#define THEME_NODE_DEPTHS 10 /* the number of roles for depths; deeper nodes have the last of them */
-#define THEME_NODE_KINDS 7   /* the number of roles for kinds of foreign nodes; further kinds have the last of them */
+#define THEME_NODE_DEPTHS 10 /* the number of roles for node depths; all deeper nodes have the last of these roles */
+/* the number of roles for kinds of foreign nodes; all further kinds have the last of these roles */
+#define THEME_NODE_KINDS 7
 
 #define THEME_ROLE_VALUE(role, ...) role,
 typedef enum theme_role { THEME_ROLE_MAP(THEME_ROLE_VALUE) ROLE_COUNT } theme_role;
@@ -78,10 +79,11 @@ const char *theme_role_name(theme_role role);
 /* Returns a colour in a shade from 0 (full colour) to THEME_SHADES - 1 (almost background). */
 theme_color theme_shade_color(theme_color full, unsigned shade);
 
-/* Returns the colour of an index; for indices beyond the last role, the background. */
+/* Returns the colour at an index of the table. Returns the background colour for an index beyond the last role. */
 theme_color theme_color_at(uint8_t index);
 
-/* The number of indices of each kind of nodes, the first of these indices, and the number of indices in use. */
+/* THEME_KIND_SHADES: the number of indices of each kind of foreign nodes. THEME_FIRST_KIND: the first index of the
+ * first kind. THEME_COLORS: the number of indices in use. */
 #define THEME_KIND_SHADES (THEME_SHADES / 2)
 #define THEME_FIRST_KIND (ROLE_KIND * THEME_SHADES)
 #define THEME_COLORS (THEME_FIRST_KIND + (ROLE_COUNT - ROLE_KIND) * THEME_KIND_SHADES)
@@ -92,41 +94,43 @@ static inline uint8_t theme_color_index(unsigned role, unsigned shade)
                                       : THEME_FIRST_KIND + (role - ROLE_KIND) * THEME_KIND_SHADES + shade / 2);
 }
 
-/* The role of an element whose colour is not in this table, and the index of the element's pixels. */
+/* ROLE_OWN: the role of an element whose colour is not in this table. THEME_OWN: the index of the pixels of such an
+ * element. */
 #define ROLE_OWN ROLE_COUNT
 #define THEME_OWN THEME_COLORS
 
 /* Mix a colour with the background: 256 parts give the colour, 0 parts the background. */
 theme_color theme_fade_color(theme_color full, int parts);
 
-/* Returns the colour of a value between 0 and 1; other values are clamped. The ramp is viridis (van der Walt and Smith
- * 2015) without its darkest sixth, which would be invisible on the background. Equal differences of values look equal,
- * and larger values are lighter. */
+/* Returns the colour of a value from 0 to 1; smaller and larger values are clamped. The ramp is viridis (van der Walt
+ * and Smith 2015) without its darkest sixth, which would be invisible on the background. Equal differences of values
+ * look equal, and larger values are lighter. */
 theme_color theme_ramp_color(double part);
 
-/* With this number of points or more on a pixel, the colour of density does not change further. A power of two. */
+/* If a pixel has this number of points or more, the colour of its density does not change further. The number is a
+ * power of two. */
 #define THEME_MOST_DENSITY 64
 
-/* Returns the colour of a class of points. The colours differ for every kind of vision: those of Okabe and Ito without
- * their red, and two greys. */
+/* Returns the colour of a class of points. The colours can be told apart under every kind of colour blindness: the
+ * colours of Okabe and Ito without their red, and two greys. */
 #define THEME_KINDS 8
 theme_color theme_kind_color(unsigned kind);
 
-/* Returns the role of a node at this depth. Ramps of other amounts use the same roles. */
+/* Returns the role of a node at this depth. The ramps of heat and occupancy use the same roles. */
 theme_role theme_node_role(unsigned depth);
 
-/* Returns the role of a kind of foreign nodes. */
+/* Returns the role of a kind of foreign nodes, numbered from 0. */
 theme_role theme_node_kind_role(unsigned kind);
 
-/* Returns the step of the ramp for an amount. Each step begins at 2^shift times the amount at which the step before it
+/* Returns the step of the ramp for an amount. Each step begins at 2^shift times the amount at which the previous step
  * begins. With a shift of 1 the steps are 0, 1, 2 to 3, 4 to 7 ... 256 and more. */
 unsigned theme_doubling_step(uint64_t amount, unsigned shift);
 
-/* Returns the step of the ramp for a part of a whole. Only the amount 0 has the first step. The other steps divide the
- * whole into equal parts; more than the whole has the last step. `whole` must be below 2^60. */
+/* Returns the step of the ramp for the part `amount` of `whole`. Only the amount 0 has the first step. The other steps
+ * divide the whole into equal parts; an amount above `whole` has the last step. `whole` must be below 2^60. */
 unsigned theme_fraction_step(uint64_t amount, uint64_t whole);
 
-/* The least amount with the last step of theme_doubling_step(), for a shift of 1. */
+/* The least amount in the last step of theme_doubling_step() with a shift of 1. */
 #define THEME_MOST_POINTS (1u << (THEME_NODE_DEPTHS - 2))
 
 /* The role of nodes under COLORING_PLAIN. */

@@ -16,7 +16,8 @@ int view_pixels_per_unit(const view *v)
     return height < 640 ? 1 : (height + 180) / 360;
 }
 
-/* Define TYPE_name() and TYPE_words(), which return a value's name and description, from a map of view.h. */
+/* Define the functions TYPE_name() and TYPE_words(), which return the name and the description of a value. `map` is a
+ * map of view.h. */
 #define VIEW_ROW(name, ...) {__VA_ARGS__},
 #define VIEW_NAMES(type, map, count)                                                                                   \
     static const char *const type##_rows[count][2] = {map(VIEW_ROW)};                                                  \

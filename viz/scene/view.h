@@ -17,7 +17,7 @@
     X(CAMERA_FOLLOW, "follow", "from behind and above the player, in perspective")                                     \
     X(CAMERA_ORBIT, "orbit", "circling the world by a fixed angle each tick, in perspective")
 
-/* What a node's colour means. Columns as in VIEW_CAMERA_MAP. */
+/* What a node's colour shows. Columns as in VIEW_CAMERA_MAP. */
 #define VIEW_COLORING_MAP(X)                                                                                           \
     X(COLORING_DEPTH, "depth", "its depth in the tree")                                                                \
     X(COLORING_OCCUPANCY, "occupancy",                                                                                 \
@@ -25,14 +25,15 @@
     X(COLORING_PLAIN, "plain", "no meaning: all nodes have one colour")                                                \
     X(COLORING_KIND, "kind", "the kind of a foreign node, by its word")
 
-/* The trees whose nodes are shown if the session has foreign nodes. Columns as in VIEW_CAMERA_MAP. */
+/* The trees whose nodes are shown if the session has foreign nodes. Columns: value, name on the command line,
+ * description in --help. */
 #define VIEW_TREE_MAP(X)                                                                                               \
     X(TREE_AUTO, "auto", "foreign nodes from the first tick that has any; Octreel's nodes before")                     \
     X(TREE_OWN, "own", "only Octreel's nodes")                                                                         \
     X(TREE_FOREIGN, "foreign", "only foreign nodes")                                                                   \
     X(TREE_BOTH, "both", "both")
 
-/* What a point's colour means. Columns as in VIEW_CAMERA_MAP. */
+/* What a point's colour shows. Columns: value, name on the command line, description in --help. */
 #define VIEW_POINT_COLOR_MAP(X)                                                                                        \
     X(POINTS_BY_PLAIN, "plain", "no meaning: all points have one colour")                                              \
     X(POINTS_BY_HEIGHT, "height", "its height, which is z")                                                            \
@@ -47,13 +48,13 @@
     X(POINTS_BY_INTENSITY, "intensity", "its intensity")                                                               \
     X(POINTS_BY_ID, "id", "its id; in a cloud, its row in the file")
 
-/* How points show their distance from the eye. Columns as in VIEW_CAMERA_MAP. */
+/* How points show their distance from the eye. Columns: value, name on the command line, description in --help. */
 #define VIEW_SHADE_MAP(X)                                                                                              \
     X(SHADE_BANDS, "bands", "eight bands, darker with distance")                                                       \
     X(SHADE_EDL, "edl", "eye-dome lighting: points behind nearer ones are darker, which shows surfaces")               \
     X(SHADE_NONE, "none", "not at all")
 
-/* Where the diagram of the tree is drawn. Columns as in VIEW_CAMERA_MAP. */
+/* Where the diagram of the tree is drawn. Columns: value, name on the command line, description in --help. */
 #define VIEW_DIAGRAM_MAP(X)                                                                                            \
     X(DIAGRAM_NONE, "none", "nowhere")                                                                                 \
     X(DIAGRAM_BESIDE, "beside", "beside the space view, or below it if the picture is higher than wide")               \
@@ -68,12 +69,12 @@ typedef enum view_shade { VIEW_SHADE_MAP(VIEW_VALUE) SHADE_COUNT } view_shade;
 typedef enum view_diagram { VIEW_DIAGRAM_MAP(VIEW_VALUE) DIAGRAM_COUNT } view_diagram;
 #undef VIEW_VALUE
 
-/* The ranges and the spacing of the points shown at tick 0. They determine colours and sizes of points:
- * point_scale.h. */
+/* The ranges and the spacing of the points shown at tick 0. They determine the colours and sizes of points;
+ * point_scale.c computes them. */
 typedef struct point_scale {
-    double low[3], high[3]; /* the range of positions, outliers cut off */
+    double low[3], high[3]; /* the range of positions on each axis, without outliers */
     double ids[2];          /* the least and the greatest id */
-    double intensities[2];  /* the range of intensities, outliers cut off; only for POINTS_BY_INTENSITY */
+    double intensities[2];  /* the range of intensities, without outliers; only for POINTS_BY_INTENSITY */
     double spacing;         /* the typical distance between neighbouring points, in world units; 0: unknown */
 } point_scale;
 
@@ -91,15 +92,16 @@ typedef struct view {
     octree_box focus; /* the framed box if `fit` is FIT_BOX */
     struct {
         bool given;
-        /* in degrees, from the center to the eye: azimuth from -y towards +x, elevation -90 to 90 */
+        /* The direction from the center to the eye, in degrees: azimuth from -y towards +x, elevation from -90 to
+         * 90. */
         double azimuth, elevation;
     } look; /* if given, replaces the direction of `camera` */
     struct {
         bool given;
         double place[3]; /* the position in world coordinates */
-    } center;        /* if given, the camera looks at `place` instead of the middle of the framed box or the player */
-    double zoom;     /* the magnification */
-    unsigned layers; /* the layers that are shown, as bits 1 << view_layer: layer.h */
+    } center;        /* if given, the camera looks at `place`, not at the middle of the framed box or at the player */
+    double zoom;     /* the magnification of the picture */
+    unsigned layers; /* the layers that are shown, as bits 1 << view_layer (layer.h) */
     view_coloring coloring;
     view_point_color point_color;
     view_shade shade;
@@ -108,40 +110,47 @@ typedef struct view {
         point_scale of;
     } point_scale; /* used only if the view paints points */
     view_tree tree;
-    view_diagram diagram; /* it shows Octreel's tree even if the space view shows foreign nodes */
+    /* where the diagram is drawn; it shows Octreel's tree even if the space view shows foreign nodes */
+    view_diagram diagram;
     view_filter filter;
-    bool labels;     /* write the paths of nodes on their boxes */
-    bool closeup;    /* enlarge a small region in a part of the picture; compose/closeup_course.h chooses the region */
-    double lod;      /* in pixels: leave out smaller boxes of nodes if an ancestor's box is drawn; 0: leave out none */
-    int aa;          /* samples per pixel on each axis: 1, 2 or 4 */
-    uint64_t budget; /* the most boxes of nodes (for each tree) and the most points in a frame; a thousandth of it is
-                        the most velocity arrows; 0: no limits */
+    bool labels; /* true: write the addresses of nodes on their boxes */
+    /* true: enlarge a small part of the world in a part of the picture; compose/closeup_course.h chooses the place */
+    bool closeup;
+    /* leave out boxes of nodes that are smaller than this many pixels if an ancestor's box is drawn; 0: leave out
+     * none */
+    double lod;
+    int aa; /* samples per pixel on each axis: 1, 2 or 4 */
+    /* the maximum number of boxes in a frame (for each tree), and the maximum number of points; the maximum number of
+     * velocity arrows is a thousandth of it. 0: no limits */
+    uint64_t budget;
 } view;
 
 /* The longest side of a picture in samples: llvmpipe clamps longer sides. */
 #define VIEW_MAX_SIDE 16384
 
-/* Returns the height of a picture, or the height of a 16:9 picture of the same width if that is less. The sizes of
- * lines and letters depend on it. */
+/* Returns the height of a picture, or the height of a 16:9 picture of the same width if that height is less. The sizes
+ * of lines and characters depend on the result. */
 int view_height_at_16_9(const view *v);
 
-/* Returns the unit of the widths of lines and markers, in pixels: 1 if view_height_at_16_9() is below 640, 2 from 640
- * on, 6 at 2160. It is a whole number, so that edges stay sharp. */
+/* Returns the size of a picture unit in pixels: 1 if view_height_at_16_9() is below 640, 2 from 640 on, 6 at 2160.
+ * Widths of lines and markers are measured in picture units. A unit is a whole number of pixels, so that edges stay
+ * sharp. */
 int view_pixels_per_unit(const view *v);
 
-/* True if points are painted one by one in RGB colours. Otherwise they are markers in colours of the theme. */
+/* Returns whether points are painted one by one in RGB colours. If not, points are markers in colours of the theme. */
 static inline bool view_paints_points(const view *v)
 {
     return v->point_color != POINTS_BY_PLAIN || v->shade != SHADE_BANDS;
 }
 
-/* True if frames are RGB, because they need colours that are not in the theme's table. */
+/* Returns whether frames are RGB, because they need colours that are not in the theme's table. */
 static inline bool view_is_rgb(const view *v)
 {
     return v->aa > 1 || view_paints_points(v);
 }
 
-/* Returns the name or the description of the n-th value of an enumeration; null if n is beyond the last value. */
+/* Returns the name or the description of the n-th value of an enumeration. Returns null if n is beyond the last
+ * value. */
 typedef const char *view_choice_text(int n);
 view_choice_text view_camera_name, view_coloring_name, view_tree_name, view_diagram_name, view_point_color_name,
     view_shade_name, view_camera_words, view_coloring_words, view_tree_words, view_diagram_words,
