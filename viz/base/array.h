@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* array.h - growing and sorted arrays. The caller stores the pointer to the items, their count and the capacity
- * `room`. If an array is full, its capacity doubles. */
+/* array.h - growing arrays, and a comparison function for sorted arrays. The caller stores the pointer to the items,
+ * their count and the capacity `room`. When an array is full, its capacity is doubled. */
 #ifndef BASE_ARRAY_H
 #define BASE_ARRAY_H
 
@@ -10,8 +10,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Returns the array with capacity for at least `count` items; the caller frees it with free(). If memory runs out,
- * returns null; the old array is then unchanged and still belongs to the caller. Cost: O(1) per item, amortized. */
+/* Returns the array with capacity for at least `count` items; the caller frees the array with free(). If memory runs
+ * out, returns null; the old array is then unchanged and still belongs to the caller. Cost: O(1) per item,
+ * amortized. */
 static inline void *array_reserve(void *items, size_t count, size_t *room, size_t item_size)
 {
     enum { SMALLEST_ROOM = 16 };
@@ -26,8 +27,8 @@ static inline void *array_reserve(void *items, size_t count, size_t *room, size_
     return grown;
 }
 
-/* Makes capacity for at least `count` items in an array. `array` is the address of the pointer to the items. If
- * memory runs out, returns false; the array is then unchanged. */
+/* Makes capacity for at least `count` items in an array. `array` is the address of the pointer to the items. Returns
+ * false and leaves the array unchanged if memory runs out. */
 static inline bool array_grow(void *array, size_t count, size_t *room, size_t item_size)
 {
     void *items;

@@ -8,8 +8,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A message begins with a path and ends with a reason. A message that is too long is cut at its beginning, so that
- * the reason stays complete. */
+/* A message begins with a path and ends with a reason. A message that is too long loses its beginning, so that the
+ * reason stays complete. */
 bool error_set(octreel_error *error, const char *format, ...)
 {
     char whole[PATH_MAX + sizeof error->text];

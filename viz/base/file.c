@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* file.c - writes files so that they are complete or unchanged; locks, copies and compares files. */
+/* file.c - writes files so that a file is either complete or unchanged; locks, copies and compares files. */
 #include "file.h"
 
 #include <dirent.h>
@@ -16,8 +16,8 @@
 
 /* ---- Paths -------------------------------------------------------------------------------------------------- */
 
-/* Returns the separator between a folder and a name. If the folder is "", there is none, because "/name" would lie
- * in the root folder. */
+/* Returns the separator between a folder and a name. If the folder is "", the separator is empty, because "/name" would
+ * lie in the root folder. */
 static const char *separator_after(const char *folder)
 {
     return *folder ? "/" : "";
@@ -82,7 +82,7 @@ static int by_name(const struct dirent **a, const struct dirent **b)
     return strcmp((*a)->d_name, (*b)->d_name);
 }
 
-/* The array of pointers and the bytes of all names are in one block of memory. */
+/* One block of memory holds the array of pointers and the bytes of all names. */
 char **folder_names(const char *folder, octreel_error *error)
 {
     struct dirent **entries = NULL;
@@ -164,11 +164,12 @@ static bool is_special_file(const char *path)
     return stat(path, &status) == 0 && !S_ISREG(status.st_mode);
 }
 
-/* The file to which a file_writer writes. */
+/* How a file_writer opens its file. */
 typedef enum write_mode {
-    WRITE_OUTPUT,    /* an existing pipe or device; for other paths like WRITE_REPLACING */
-    WRITE_REPLACING, /* a new ".part" file; first removes an existing one, which could be a pipe or a link */
-    WRITE_UNIQUE     /* a new ".part" file; fails if the .part file already exists */
+    WRITE_OUTPUT, /* write to an existing pipe or device directly; for other paths as WRITE_REPLACING */
+    /* create a new ".part" file; first remove an existing ".part" file, which could be a pipe or a link */
+    WRITE_REPLACING,
+    WRITE_UNIQUE /* create a new ".part" file; fail if the ".part" file already exists */
 } write_mode;
 
 static FILE *open_stream(const char *name, bool is_part, write_mode how)
@@ -180,7 +181,7 @@ static FILE *open_stream(const char *name, bool is_part, write_mode how)
     return fopen(name, "wbx");
 }
 
-/* Opens the file "<path><ending>" for writing. On failure, errno holds the reason. */
+/* Opens the file "<path><ending>" for writing. On failure, errno is the reason. */
 static bool open_writer(file_writer *file, const char *path, const char *ending, write_mode how, octreel_error *error)
 {
     *file = (file_writer){.path = path};
@@ -214,8 +215,8 @@ bool file_writer_open_replacing(file_writer *file, const char *path, octreel_err
     return open_writer(file, path, PART, WRITE_REPLACING, error);
 }
 
-/* The name of the temporary file contains the current nanoseconds. If a file with this name exists, another process
- * is writing it; then another name is tried. */
+/* The name of the temporary file contains the nanoseconds of the current time. If a file with this name exists, another
+ * process is writing it, and the next try uses another name. */
 bool file_writer_open_unique(file_writer *file, const char *path, octreel_error *error)
 {
     bool ok = false;
@@ -230,7 +231,7 @@ bool file_writer_open_unique(file_writer *file, const char *path, octreel_error 
     return ok;
 }
 
-/* Syncs a file to the disk. Returns true also if the file system cannot sync. */
+/* Syncs a file to the disk. Returns true also if the file system does not support syncing. */
 static bool sync_stream(FILE *stream)
 {
     return fsync(fileno(stream)) == 0 || errno == EINVAL || errno == ENOTSUP || errno == ENOSYS;
@@ -288,8 +289,7 @@ bool file_writer_discard(file_writer *file)
     return false;
 }
 
-/* Copies a stream. Only read errors are reported here; file_writer_finish() reports write errors, such as a full
- * disk. */
+/* Copies a stream. Reports only read errors; file_writer_finish() reports write errors, such as a full disk. */
 static bool copy_stream(FILE *in, const char *from, FILE *out, octreel_error *error)
 {
     char block[1 << 16];
@@ -391,7 +391,7 @@ bool stat_parent(const char *path, struct stat *status)
     return is;
 }
 
-/* Returns whether two paths that do not exist are the same file. They are if their names and folders are the same.
+/* Returns whether two paths that do not exist yet would be the same file: their names and their folders are the same.
  * If a folder does not exist either, the paths are compared as text. */
 static bool is_same_new_path(const char *a, const char *b)
 {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* file.h - reads whole files, writes files so that they are complete or unchanged, and copies and compares files. */
+/* file.h - reads whole files, writes files so that a file is either complete or unchanged, and copies and compares
+ * files. */
 #ifndef BASE_FILE_H
 #define BASE_FILE_H
 
@@ -15,11 +16,12 @@
  * path. Returns null if memory runs out. */
 char *path_join(const char *folder, const char *name);
 
-/* Print the same path into a buffer. Returns false if it has PATH_MAX or more bytes, which the system would refuse. */
+/* Prints "folder/name", as path_join() returns it, into a buffer. Returns false if the path has PATH_MAX or more bytes,
+ * which the system would refuse. */
 bool path_print(const char *folder, const char *name, char path[PATH_MAX]);
 
-/* Returns the folder that contains a path: "a" for "a/b" and "a/b/", "." for "b". The caller frees it. Returns null
- * if memory runs out. */
+/* Returns the folder that contains a path: "a" for "a/b" and "a/b/", "." for "b". The caller frees the result. Returns
+ * null if memory runs out. */
 char *path_parent_folder(const char *path);
 
 /* Returns the part of a path after its last slash. */
@@ -31,69 +33,75 @@ bool file_has_ending(const char *name, const char *endings);
 /* Returns whether the folder contains a file or folder with this name. The folder "" is the current folder. */
 bool folder_contains(const char *folder, const char *name);
 
-/* Returns the names in a folder, without "." and "..", sorted by strcmp(); null follows the last name. The caller
- * frees the array; its block also holds the names. If the folder cannot be read or memory runs out, returns null
- * with an error, and errno is the reason. Files may be removed while the caller walks the list. */
+/* Returns an array of the names in a folder, without "." and "..", sorted by strcmp(). Null follows the last name. The
+ * caller frees the array; its block of memory also holds the names. If the folder cannot be read or memory runs out,
+ * returns null with an error, and errno is the reason. The caller may remove files of the folder while it uses the
+ * array. */
 char **folder_names(const char *folder, octreel_error *error);
 
-/* file_lock() locks an open file until it is closed. It returns false if another open file, of this process or of
- * another, holds the lock. On a file system without locks it always succeeds. file_is_locked() returns whether a
- * file is locked. */
+/* file_lock() locks an open file until the file is closed. It returns false if another open file of this or another
+ * process holds the lock. On a file system without locks it always succeeds. file_is_locked() returns whether a file is
+ * locked. */
 bool file_lock(int file);
 bool file_is_locked(const char *path);
 
-/* Locks the folder that contains a path. If another process holds the lock, waits for it. Processes that read,
- * change and rename files under this lock never overwrite each other's changes. Returns a file descriptor; close()
- * releases the lock. Returns -1 if the folder does not exist or its file system has no locks. */
+/* Locks the folder that contains a path. If another process holds the lock, waits until the lock is released. Processes
+ * that read, change and rename files under this lock never overwrite each other's changes. Returns a file descriptor;
+ * close() releases the lock. Returns -1 if the folder does not exist or its file system has no locks. */
 int file_lock_parent_folder(const char *path);
 
-/* Returns true for "-". In all functions below, "-" is standard input for reading and standard output for writing. A
+/* Returns true for the path "-". All functions below read standard input or write standard output if the path is "-". A
  * file with the name "-" is given as "./-". */
 bool file_is_standard_stream(const char *path);
 
-/* Returns the name of a file in messages: its path or, for "-", "standard input" or "standard output". */
+/* Returns the name of a file for messages: its path or, for "-", "standard input" or "standard output". */
 #define FILE_STANDARD_INPUT "standard input"
 const char *file_display_name(const char *path);
 const char *file_output_display_name(const char *path);
 
 #define FILE_REASON 160
 
-/* Opens a regular file or standard input. The bytes of standard input are read into memory and kept, so that it can
- * be opened several times. *size receives the number of bytes; `size` may be null. If the file is missing,
- * unreadable, a folder, a pipe or a device, returns null with a reason, such as "cannot be opened: No such file or
- * directory". */
+/* Opens a regular file or standard input. The bytes of standard input are read into memory and kept there, so that
+ * standard input can be opened several times. *size receives the number of bytes; `size` may be null. Returns null with
+ * a reason, such as "cannot be opened: No such file or directory", if the file is missing, unreadable, a folder, a pipe
+ * or a device. */
 FILE *file_open(const char *path, uint64_t *size, char reason[FILE_REASON]);
 
-/* Called after each block of a file was read, with the number of bytes so far and in total. A total of 0 means
- * unknown. */
+/* A function that is called after each block of a file was read. `done` is the number of bytes read so far, `total` the
+ * number of all bytes, or 0 if it is unknown. */
 typedef void file_progress(uint64_t done, uint64_t total, void *context);
 
 /* Reads a whole file into *bytes. The caller frees *bytes, which has room for one more byte. `progress` may be null.
- * The bytes of standard input are not kept, so a second read of it fails. On failure, *bytes is null. */
+ * The bytes of standard input are not kept, so standard input can be read only once in this way. On failure, *bytes is
+ * null. */
 bool file_read_with_progress(const char *path, file_progress *progress, void *context, char **bytes, size_t *size,
                              octreel_error *error);
 
-/* Read a whole file without reporting progress. */
+/* Reads a whole file without reporting progress. */
 bool file_read_whole(const char *path, char **bytes, size_t *size, octreel_error *error);
 
-/* A file that is written as "<path>.part" and then renamed, so that an incomplete file is never at the path.
- * Standard output is neither closed nor flushed; main() reports its errors. */
+/* A file that is written as "<path>.part" and then renamed to the path, so that the path never holds an incomplete
+ * file. Standard output is neither closed nor flushed; main() reports its errors. */
 typedef struct file_writer {
     FILE *stream;
     const char *path;
-    char *temp;   /* the path of the temporary file; owned; null: standard output */
-    bool lasting; /* set it after opening to sync the file: a power failure then leaves the old or the new file */
+    char *temp; /* the path of the temporary file; owned; null: standard output */
+    /* if the caller sets this after opening, the file is synced: a power failure then leaves either the old or the new
+     * file */
+    bool lasting;
 } file_writer;
 
-/* Opens a writer. If the path exists and is not a regular file, such as a pipe or a device, it is written directly. */
+/* Opens a writer. If the path exists and is not a regular file, but a pipe or a device for example, the writer writes
+ * to it directly. */
 bool file_writer_open(file_writer *file, const char *path, octreel_error *error);
 
-/* Opens a writer in a folder whose contents other people may have prepared. A pipe, device or link at the path is
- * replaced and never written to: writing to a pipe would block, and a link or device would lead out of the folder. */
+/* Opens a writer in a folder whose contents other people may have prepared. An existing pipe, device or link at the
+ * path is replaced. The writer never writes to it: writing to a pipe would block, and a link or device would lead out
+ * of the folder. */
 bool file_writer_open_replacing(file_writer *file, const char *path, octreel_error *error);
 
-/* Opens a writer like file_writer_open_replacing(), but with a unique name for the temporary file, so that several
- * processes can write the same path. */
+/* Opens a writer as file_writer_open_replacing() does. In addition the temporary file has a unique name, so that
+ * several processes can write the same path. */
 bool file_writer_open_unique(file_writer *file, const char *path, octreel_error *error);
 bool file_writer_close(file_writer *file, octreel_error *error);
 
@@ -102,42 +110,42 @@ bool file_writer_close(file_writer *file, octreel_error *error);
 bool file_writer_finish(file_writer *file, octreel_error *error);
 bool file_writer_rename(file_writer *file, octreel_error *error);
 
-/* Removes the temporary file and leaves the path unchanged. Always returns false, so that a caller can return the
- * result. */
+/* Removes the temporary file and leaves the path unchanged. Always returns false, so that the caller can write `return
+ * file_writer_discard(...)`. */
 bool file_writer_discard(file_writer *file);
 
-/* Copies a regular file to "<to>.part" and renames the copy to `to`. An existing file is replaced. */
+/* Copies a regular file to "<to>.part" and renames the copy to `to`. If the file `to` exists, it is replaced. */
 bool file_copy_to(const char *from, const char *to, octreel_error *error);
 
-/* Copies a file to a temporary file and syncs it. file_writer_rename() completes the copy. `to` must outlive the
- * writer. */
+/* Copies a file to a temporary file and syncs the temporary file. file_writer_rename() completes the copy. `to` must
+ * outlive the writer. */
 bool file_copy_prepare(file_writer *file, const char *from, const char *to, octreel_error *error);
 
-/* Copies a file and syncs the copy. The temporary file has a unique name. */
+/* Copies a file and syncs the copy. The temporary file has a unique name, so that several processes can write the same
+ * path. */
 bool file_copy_unique(const char *from, const char *to, octreel_error *error);
 
-/* An output file of a command line. It must not overwrite an input or another output. */
+/* An output file that the user names on the command line. It must not overwrite an input or another output. */
 typedef struct output_file {
-    const char *option; /* the option as it was typed, such as "-o" */
-    const char *path;   /* null: the option was not given */
+    const char *option; /* the option as the user typed it, such as "-o" */
+    const char *path;   /* the path that follows the option; null: the option was not given */
 } output_file;
 
-/* Checks that an output is not the input file. Both are the same file if device and inode are the same, even if the
- * paths differ. "-" and files that are not regular, such as pipes, may be both input and output. Returns false with
- * an error. */
+/* Checks that an output is not the input file. Returns false with an error if both have the same device and inode, even
+ * if their paths differ. "-" and files that are not regular, such as pipes, may be both input and output. */
 bool check_output_is_not_input(const output_file *output, const char *input, octreel_error *error);
 
-/* Checks that no two outputs are the same file, which may not exist yet, and that at most one is "-". Returns false
- * with an error. */
+/* Checks that no two outputs are the same file, even if the file does not exist yet, and that at most one output is
+ * "-". Returns false with an error. */
 bool check_outputs_differ(const output_file *outputs, size_t count, octreel_error *error);
 
 /* have_same_bytes() returns whether both paths are regular files with the same bytes; it returns false for "-".
- * have_same_file() compares the files with one name in two folders; if memory runs out, it returns false with errno
- * ENOMEM. */
+ * have_same_file() compares the files of one name in two folders; if memory runs out, it returns false and sets errno
+ * to ENOMEM. */
 bool have_same_bytes(const char *a, const char *b);
 bool have_same_file(const char *folder_a, const char *folder_b, const char *name);
 
-/* is_same_file() returns whether both structures describe the same file. stat_parent() describes the folder that
+/* is_same_file() returns whether two results of stat() describe the same file. stat_parent() describes the folder that
  * contains a path; it returns false on failure. */
 bool is_same_file(const struct stat *a, const struct stat *b);
 bool stat_parent(const char *path, struct stat *status);

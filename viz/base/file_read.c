@@ -7,10 +7,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The bytes of standard input. It can be read only once, so file_open() keeps the bytes here. */
+/* The bytes of standard input. Standard input can be read only once, so file_open() keeps its bytes here. */
 static struct {
     bool read;
-    char *bytes; /* null: standard input was not read yet, or its bytes were given to the caller */
+    /* the bytes; null: standard input was not read yet, or the caller of file_read_with_progress() owns its bytes */
+    char *bytes;
     size_t size;
 } standard;
 
@@ -22,7 +23,8 @@ static bool set_reason(char reason[FILE_REASON], const char *what)
     return false;
 }
 
-/* Opens a regular file only. Opening a pipe would wait for the process at its other end; a device may never end. */
+/* Opens a regular file, and refuses other files. Opening a pipe would wait for the process at its other end; reading a
+ * device may never end. */
 static FILE *open_regular_file(const char *path, uint64_t *size, char reason[FILE_REASON])
 {
     struct stat status;
@@ -37,13 +39,13 @@ static FILE *open_regular_file(const char *path, uint64_t *size, char reason[FIL
     return stream;
 }
 
-/* A stream that is read to its end. `total` is the expected number of bytes, or 0 if it is unknown. */
+/* A stream that is read to its end. `total` is the expected number of bytes, or 0 if the number is unknown. */
 typedef struct reading {
     FILE *stream;
     uint64_t total;
     file_progress *progress;
     void *context;
-    char *bytes; /* has room for at least one more byte */
+    char *bytes; /* the bytes read so far; always has room for at least one more byte */
     size_t size, room;
 } reading;
 
@@ -61,8 +63,8 @@ static bool read_block(reading *r, size_t *got)
     return true;
 }
 
-/* Reads a stream to its end. The first buffer has room for the whole regular file and more, so that the last read
- * finds the end of the file. */
+/* Reads a stream to its end. The first buffer is larger than a regular file, so that the last read finds the end of the
+ * file without growing the buffer. */
 static bool read_stream(reading *r, char reason[FILE_REASON])
 {
     size_t got = 1;
@@ -83,7 +85,7 @@ static bool read_stream(reading *r, char reason[FILE_REASON])
     return false;
 }
 
-/* Reads standard input. Its size is known if it is redirected from a regular file. */
+/* Reads standard input. Its size is known only if it is redirected from a regular file. */
 static bool read_standard_input(file_progress *progress, void *context, char **bytes, size_t *size,
                                 char reason[FILE_REASON])
 {
@@ -118,7 +120,8 @@ FILE *file_open(const char *path, uint64_t *size, char reason[FILE_REASON])
     return stream;
 }
 
-/* Copies the bytes that file_open() kept. Inputs that are opened before they are read whole are small. */
+/* Copies the bytes that file_open() kept. A copy is affordable, because inputs that file_open() has opened before are
+ * small. */
 static bool copy_stored_input(char **bytes, size_t *size, char reason[FILE_REASON])
 {
     *size = standard.size;

@@ -7,9 +7,9 @@
  * mistakes are one of these edits; plain Levenshtein distance would count a swap as two.
  *
  * The distance is computed by dynamic programming. Cell (i, j) is the distance of the first i letters of one word and
- * the first j letters of the other. It depends only on the cells one step back in either or both words and, for a swap,
- * on the cell two steps back in both. Three rows of the table therefore suffice. Cost: the product of the lengths, for
- * words of fewer than 40 letters.
+ * the first j letters of the other. A cell depends only on the cells one step back in one or both words and, for a
+ * swap, on the cell two steps back in both words. So three rows of the table are enough. Cost: the product of the
+ * lengths, for words of fewer than 40 letters.
  *
  * A suggestion may need at most a third as many edits as the word has letters; otherwise every word would resemble some
  * option. Source: Damerau 1964; Boytsov 2011, "Indexing methods for approximate dictionary searching".
@@ -24,7 +24,8 @@
 
 enum { LONGEST = 40, SHORTEST_BEGINNING = 3 };
 
-/* Option names of other programs, such as odiff, ffmpeg and make, and the names of the same options in Octreel. */
+/* Option names of other programs, such as odiff, ffmpeg and make. Beside each name is the name of the same option in
+ * Octreel. */
 static const char *const synonyms[][2] = {
     {"force", "replace"},       {"overwrite", "replace"},   {"clobber", "replace"}, {"continue", "resume"},
     {"film", "record"},         {"run", "record"},          {"play", "record"},     {"render", "record"},
@@ -83,8 +84,9 @@ static bool is_synonym(const hint *h, const char *name)
     return false;
 }
 
-/* Returns whether a name is near enough to be suggested: a third of the letters may be wrong, or one letter of a
- * word with fewer than three letters. A name that begins with the word is always near enough. */
+/* Returns whether a name is near enough to the mistyped word to be suggested. A third of the word's letters may be
+ * wrong, or one letter if the word has fewer than three letters. A name that begins with the word is always near
+ * enough. */
 static bool is_near_enough(const hint *h, const char *name, size_t length, size_t distance)
 {
     const size_t allowed = h->length / 3;
@@ -116,7 +118,7 @@ const char *hint_format(const hint *h, const char *before, char text[HINT_TEXT])
 
 #define PROGRAM "octreel"
 
-enum { LONGEST_CALL = 200 }; /* if the program's name is longer, "octreel" is printed instead */
+enum { LONGEST_CALL = 200 }; /* if the program's name is longer than this, "octreel" is printed instead */
 
 static char program[9 * LONGEST_CALL + 8] = PROGRAM;
 
@@ -136,8 +138,8 @@ const char *hint_program_name(void)
     return program;
 }
 
-/* Returns whether "octreel" begins a command here: at the start of a line, after indentation, or after "usage:",
- * "&&" and similar signs. Within sentences it does not. */
+/* Returns whether "octreel" at `at` begins a command: at the start of a line, after indentation, or after "usage:",
+ * "&&" and similar signs. Within sentences "octreel" does not begin a command. */
 static bool is_command_start(const char *text, const char *at)
 {
     if (at == text || at[-1] != ' ')

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* json_read.c - reads JSON objects with jansson, and finds the lines of errors by scanning the text again. */
+/* json_read.c - reads JSON objects with jansson. To find the line of an error, it scans the text again. */
 #include "json_read.h"
 #include "number.h"
 #include "text.h"
@@ -9,8 +9,8 @@
 
 /* ---- Places in an object ------------------------------------------------------------------------------------ */
 
-/* Returns the number of characters written. The recursion is as deep as the reading functions nest places, which
- * does not depend on the input. */
+/* Writes a place such as points[3].velocity, and returns the number of characters written. The depth of the recursion
+ * is the depth of the place, which does not depend on the input. */
 static size_t format_place(const json_place *place, char *text, size_t size)
 {
     if (!place)
@@ -66,8 +66,8 @@ json_t *json_parse(const char *text, size_t size, size_t flags, json_error_t *er
     return NULL;
 }
 
-/* Reads the value at *at and moves *at past it. Returns null at the end of the text. jansson does not store the
- * positions of values, but it reports where a value ends. */
+/* Reads the value at *at and moves *at past the value. Returns null at the end of the text. jansson does not store
+ * where a value begins, but it reports where a value ends. */
 static json_t *read_value_at(const char **at, const char *limit)
 {
     json_error_t end;
@@ -78,14 +78,15 @@ static json_t *read_value_at(const char **at, const char *limit)
     return value;
 }
 
-/* Returns the start of a member or element in the object or array at `at`; null if it is missing. */
+/* Returns the start of a member or element in the object or array at `at`. Returns null if there is no such member or
+ * element. */
 static const char *find_child(const char *at, const char *limit, const json_place *place)
 {
     if (*at != (place->member ? '{' : '['))
         return NULL;
     for (size_t i = 0; at < limit && *at != ']' && *at != '}'; i++) {
         bool found = i == place->index;
-        at++; /* skip the bracket or comma */
+        at++; /* skip the opening bracket or the comma */
         skip_blanks(&at, limit);
         if (place->member) {
             json_t *name = read_value_at(&at, limit);
@@ -138,7 +139,8 @@ static bool fail_at_line(json_reader *r, size_t line, const json_place *at, cons
     vsnprintf(reason, sizeof reason, format, arguments);
     json_place_format(at, where, sizeof where);
     snprintf(printable, sizeof printable, "%s%s%s", where, *where ? ": " : "", reason);
-    make_printable(printable); /* quoted parts of the file could contain terminal escape sequences */
+    /* make the message printable, because quoted parts of the file could contain terminal escape sequences */
+    make_printable(printable);
     return error_set(r->error, "%s:%zu: %s", json_shorten_name(r->name), line, printable);
 }
 
@@ -160,7 +162,7 @@ bool json_fail_line(json_reader *r, size_t line, const json_place *at, const cha
     return false;
 }
 
-/* Writes a short description of a value, for an error. */
+/* Writes a short description of a value for an error message. */
 static void describe_value(const json_t *value, char *text, size_t size)
 {
     static const char *const types[] = {
@@ -193,8 +195,8 @@ bool json_fail_expected(json_reader *r, const json_t *value, const json_place *a
 
 /* ---- Objects ------------------------------------------------------------------------------------------------ */
 
-/* Reports jansson's message. Two messages are reworded: only objects are allowed here, never arrays, and users
- * cannot set the option that would allow NUL. */
+/* Reports jansson's error message. Two messages are reworded. The first would allow arrays, but only objects are
+ * allowed here. The second names an option of jansson, which users cannot set. */
 static bool fail_with_jansson_error(json_reader *r, const json_error_t *parsed)
 {
     static const char *const words[][2] = {

@@ -9,8 +9,8 @@
  *
  * If a '}' is missing in an object, the scan must not run on through the objects after it. In valid JSON an opening
  * bracket stands only at the start, after ':', after '[', or after a comma in a list, and a string contains no control
- * character. At the first byte that violates this, the scan ends the object, and the parser reports the exact error.
- * Cost: O(bytes).
+ * character. At the first byte that violates these rules, the scan ends the object, and the parser then reports the
+ * exact error. Cost: O(bytes).
  */
 #include "json_stream.h"
 #include "array.h"
@@ -83,8 +83,8 @@ static json_stream_state report_broken(json_reader *r, const char *format, const
     return JSON_STREAM_BROKEN;
 }
 
-/* Moves the current object to the start of the buffer and makes room for a block. If the buffer is still large from
- * an earlier huge object, shrinks it. Returns false if memory runs out. */
+/* Moves the current object to the start of the buffer, and makes room for a block after it. If the buffer is still
+ * large from an earlier huge object, shrinks the buffer. Returns false if memory runs out. */
 static bool make_room_for_block(json_stream *s)
 {
     if (s->begin > 0)
@@ -112,8 +112,8 @@ static bool wait_for_input(const json_stream *s)
     return true;
 }
 
-/* Reads the available bytes. At the end of the stream, sets s->ended. Returns JSON_STREAM_OBJECT if the scan can
- * continue. */
+/* Reads the bytes that are available. Sets s->ended at the end of the stream. Returns JSON_STREAM_OBJECT if the scan
+ * can continue. */
 static json_stream_state read_more(json_stream *s, json_reader *r)
 {
     ssize_t got;
@@ -133,7 +133,7 @@ static json_stream_state read_more(json_stream *s, json_reader *r)
 
 /* ---- Objects ------------------------------------------------------------------------------------------------ */
 
-/* Skips whitespace and, at the start of the text, a byte order mark. */
+/* Skips whitespace. At the start of the text, also skips a byte order mark. */
 static void skip_blanks(json_stream *s, json_reader *r)
 {
     static const char mark[] = "\xef\xbb\xbf";
@@ -142,7 +142,7 @@ static void skip_blanks(json_stream *s, json_reader *r)
     for (; s->begin < s->size && is_blank(s->bytes[s->begin]); s->begin++)
         r->line += s->bytes[s->begin] == '\n';
     if (s->begin < s->size)
-        s->mark = 3; /* after other text, a byte order mark is not skipped */
+        s->mark = 3; /* other text has begun, so no byte order mark is skipped any more */
 }
 
 /* Continues the scan with the bytes that were read. Returns true if the end of the object was found, or if the
@@ -159,7 +159,7 @@ static bool find_object_end(json_stream *s)
 
 json_stream_state json_stream_read_object(json_stream *s, json_reader *r)
 {
-    if (s->scanned > 0) /* the reader has moved past the previous object and counted its lines */
+    if (s->scanned > 0) /* the reader has moved past the previous object */
         s->begin = (size_t)(r->at - s->bytes);
     s->scanned = 0;
     s->scan = (json_scan){0};

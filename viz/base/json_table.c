@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /* json_table.c - reads and writes structures as JSON objects from one table of members.
  *
- * A reader and a writer that are written by hand drift apart, and every format repeats the same checks. Here, a row of
- * a table gives the name of a member, the offset of its value in the structure, limits, conditions, checks, and a
- * codec: the two functions that read and write its type.
+ * The problem: a reader and a writer that are written by hand drift apart, and every format repeats the same checks.
+ * The idea: a row of a table gives the name of a member, the offset of its value in the structure, limits, conditions,
+ * checks, and a codec: the two functions that read and write its type.
  *
  * Reading first looks up each row's name in the object. Then it looks up every name of the object in the table, so that
- * a misspelt member is never ignored: it is an error with a suggestion. The version is read first. A file of another
- * version is therefore reported as such before its new members would be called unknown. Writing walks the same rows, so
- * members have a fixed order and equal structures give equal bytes. Cost of reading: members times rows; both are few.
+ * a misspelt member is never ignored: it is an error with a suggestion. The version is read first. So a file of another
+ * version gets an error about its version, not about its new members. Writing walks the same rows, so members have a
+ * fixed order and equal structures give equal bytes. Cost of reading: members times rows; both are few.
  */
 #include "json_table.h"
 #include "hint.h"
@@ -27,7 +27,7 @@ static bool is_member(const json_member *table, const char *name)
     return table->name;
 }
 
-/* Reports an unknown member. The error names the line of the member and the place of its object. */
+/* Reports an unknown member. The error message names the line of the member and the place of the object that has it. */
 static bool fail_unknown_member(json_reader *r, const json_place *at, const json_member *table, const char *name)
 {
     char known[200] = "", text[HINT_TEXT];
@@ -56,7 +56,7 @@ static bool read_member(json_reader *r, json_t *object, const json_place *at, co
     return !row->check || row->check(r, &place, into);
 }
 
-/* Returns the row after the version's row. If the table has no version, returns the first row. */
+/* Returns the row after the row of the version. If the table has no version, returns the first row. */
 static const json_member *find_row_after_version(const json_member *table)
 {
     const json_member *row = table;
@@ -65,7 +65,7 @@ static const json_member *find_row_after_version(const json_member *table)
     return row->name ? row + 1 : table;
 }
 
-/* The version is checked before unknown members. A newer file is therefore reported as newer. */
+/* The version is checked before unknown members, so that a file of a newer version gets an error about its version. */
 bool json_read_members(json_reader *r, json_t *object, const json_place *at, const json_member *table, void *into)
 {
     const char *name;
@@ -168,7 +168,8 @@ const json_codec json_structures = {NULL, write_structures};
 
 /* ---- Kinds and choices -------------------------------------------------------------------------------------- */
 
-/* Lists the objects that are possible, for an error: {"range": ...}, {"nearest": ...} or {"radius": ...}. */
+/* Lists the forms that an object may have, for an error message: {"range": ...}, {"nearest": ...} or {"radius":
+ * ...}. */
 static const char *list_kinds(json_name *kinds, char *text, size_t size)
 {
     size_t length = 0;
@@ -359,7 +360,7 @@ static void write_version(json_writer *w, const void *from)
 
 const json_codec json_version = {read_version, write_version};
 
-/* Returns whether the whole number of a codec has 64 bits; otherwise it has 32. */
+/* Returns whether the codec stores its whole number in 64 bits. Otherwise the number has 32 bits. */
 static bool is_64_bit(const json_codec *codec)
 {
     return codec == &json_uint64 || (codec == &json_size && sizeof(size_t) == sizeof(uint64_t));
@@ -455,7 +456,7 @@ static void write_id_array(json_writer *w, const void *from)
 
 const json_codec json_ids = {read_id_array, write_id_array};
 
-/* Reads a number. If row->max is greater than row->min, they are the limits of the number. */
+/* Reads a number. If row->max is greater than row->min, the number must lie between row->min and row->max. */
 static bool read_number(json_reader *r, json_t *value, const json_place *at, void *into)
 {
     const json_member *row = r->row;

@@ -66,7 +66,7 @@ static void write_word(json_writer *writer, const char *word)
     writer->comma = true;
 }
 
-/* A buffer that collects numbers, because many small writes to a stream are slow. */
+/* A buffer that collects the text of several numbers, because many small writes to a stream are slow. */
 typedef struct number_buffer {
     char text[8 * NUMBER_TEXT];
     size_t size;
@@ -116,7 +116,7 @@ static void write_escape(FILE *out, unsigned char c)
         fprintf(out, "\\u%04x", (unsigned)c);
 }
 
-/* Returns how many characters from `at` on need no escape. */
+/* Returns the number of characters from `at` on that need no escape. */
 static size_t count_unescaped(const unsigned char *at)
 {
     size_t count = 0;

@@ -2,8 +2,8 @@
 /* json_write.h - writes JSON to a stream, value by value. Commas are written automatically.
  *
  * A number is written as the shortest text that reads back to the same double, in any locale. All text is on one line,
- * except where json_start_new_line() is called. Errors stay with the stream: the caller checks ferror() or fclose() at
- * the end. To write into memory, use open_memstream().
+ * except where json_start_new_line() is called. Write errors are stored in the stream: the caller checks ferror() or
+ * fclose() at the end. To write into memory, use open_memstream().
  */
 #ifndef BASE_JSON_WRITE_H
 #define BASE_JSON_WRITE_H
@@ -15,14 +15,14 @@
 #include <stdint.h>
 #include <stdio.h>
 
-/* Initialize it as {.out = stream}. The caller ends every array and object that it begins, and in an object writes a
- * key before each value. */
+/* A writer is initialized as {.out = stream}. The caller ends every array and object that it begins, and in an object
+ * writes a key before each value. */
 typedef struct json_writer {
     FILE *out;
-    bool comma;                    /* a comma precedes the next value or key */
-    bool newline;                  /* a line end precedes the next value, key or end */
+    bool comma;                    /* true: a comma precedes the next value or key */
+    bool newline;                  /* true: a line end precedes the next value, key or closing bracket */
     const struct json_member *row; /* the table row of the member that is being written; see json_table.h */
-    const void *context;           /* passed on to the caller's functions that write values */
+    const void *context;           /* passed to the caller's functions that write values */
 } json_writer;
 
 void json_write_begin_object(json_writer *writer);
@@ -42,8 +42,8 @@ void json_write_integer(json_writer *writer, uint64_t value);
 void json_write_bool(json_writer *writer, bool value);
 void json_write_null(json_writer *writer);
 
-/* Write several numbers, faster than one by one. json_write_elements() writes them as elements of an array that was
- * begun, json_write_numbers() as a whole array. */
+/* Write several numbers faster than one by one. json_write_elements() writes them as elements of an array that the
+ * caller has begun. json_write_numbers() writes a whole array. */
 void json_write_elements(json_writer *writer, const double *values, size_t count);
 void json_write_numbers(json_writer *writer, const double *values, size_t count);
 
@@ -58,7 +58,7 @@ void json_write_box_member(json_writer *writer, const char *key, const octree_bo
 void json_begin_object_member(json_writer *writer, const char *key);
 void json_begin_array_member(json_writer *writer, const char *key);
 
-/* Makes a line end precede the next value, key or end. */
+/* Writes a line end before the next value, key or closing bracket. */
 void json_start_new_line(json_writer *writer);
 
 /* Ends the line after a complete value. The next value begins a new JSON text. */

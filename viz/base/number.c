@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* number.c - reads decimal numbers. */
+/* number.c - reads decimal numbers: see number.h. */
 #include "number.h"
 
 #include <errno.h>
@@ -16,16 +16,16 @@ static bool is_digit(char c)
     return c >= '0' && c <= '9';
 }
 
-/* The parts of a decimal number: its value is mantissa times ten to the exponent. */
+/* The parts of a decimal number, whose value is mantissa * 10^exponent. */
 typedef struct decimal {
     bool negative;
     uint64_t mantissa;    /* the first MOST_DIGITS significant digits, as an integer */
-    size_t digits, count; /* the number of digits without leading zeros, and with leading zeros */
+    size_t digits, count; /* digits: the number of digits without leading zeros; count: the number of all digits */
     int64_t exponent;
 } decimal;
 
 enum {
-    MOST_DIGITS = 19,         /* any number of 19 digits fits into 64 bits */
+    MOST_DIGITS = 19,         /* maximum number of digits in the mantissa; any number of 19 digits fits into 64 bits */
     LARGEST_EXACT_POWER = 22, /* the largest power of ten that a double represents exactly */
 };
 
@@ -40,7 +40,7 @@ static const char *scan_digits(const char *at, const char *limit, decimal *d)
     return at;
 }
 
-/* Returns the end of an exponent, or `at` if no exponent begins there. */
+/* Returns the end of the exponent at `at`. Returns `at` if no exponent begins there. */
 static const char *scan_exponent(const char *at, const char *limit, decimal *d)
 {
     const char *digit = at + 1;
@@ -57,7 +57,7 @@ static const char *scan_exponent(const char *at, const char *limit, decimal *d)
     return digit;
 }
 
-/* Returns the end of the number that begins at `begin`, or null if no number begins there. */
+/* Returns the end of the number that begins at `begin`. Returns null if no number begins there. */
 static const char *scan_number(const char *begin, const char *limit, decimal *d)
 {
     const char *at = begin;
@@ -73,8 +73,8 @@ static const char *scan_number(const char *begin, const char *limit, decimal *d)
 }
 
 /* Converts with Clinger's fast path (1990). If the mantissa and the power of ten are both exact doubles, one
- * multiplication or division rounds correctly. Most numbers in point clouds are of this kind: it reduces the time
- * for reading a million points to three fifths. Returns false if the number needs more precision. */
+ * multiplication or division rounds correctly. Most numbers in point clouds are of this kind: the fast path reduces the
+ * time for reading a million points to three fifths. Returns false if the number needs more precision. */
 static bool convert_exactly(const decimal *d, double *value)
 {
     static const double powers[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
@@ -87,8 +87,8 @@ static bool convert_exactly(const decimal *d, double *value)
     return true;
 }
 
-/* Converts with strtod(). strtod() needs a final zero and the locale's decimal point, which may be several bytes
- * long. Returns false if the number is larger than the largest double or memory runs out. */
+/* Converts a number with strtod(). strtod() needs a final zero, and the decimal point of the locale, which may be
+ * several bytes long. Returns false if the number is larger than the largest double, or if memory runs out. */
 static bool convert_by_library(const char *begin, const char *end, double *value)
 {
     char few[128];

@@ -18,30 +18,31 @@
  * - memory runs out, which needs more than about 100 characters: *end is after it, and errno is ENOMEM. */
 bool number_parse(const char *begin, const char *limit, const char **end, double *value);
 
-/* Returns whether the text at `begin` is a NaN or infinity as C prints them, in upper or lower case: "nan",
- * "-nan(ind)", "inf", "Infinity". Sets *end to the first character after it, or to `begin`. */
+/* Returns whether the text at `begin` is a NaN or an infinity as C prints them, in upper or lower case: "nan",
+ * "-nan(ind)", "inf", "Infinity". Sets *end to the first character after the text, or to `begin` if the result is
+ * false. */
 bool number_parse_nonfinite(const char *begin, const char *limit, const char **end);
 
-/* Parses a whole text as `count` numbers separated by commas. On failure returns false; *values may then have
- * changed. */
+/* Parses a whole text as `count` numbers separated by commas. Returns false if the text is invalid; *values may then
+ * have changed. */
 bool numbers_parse(const char *text, double *values, size_t count);
 
-/* Parses a decimal whole number at *text and moves *text past it. Returns false for a sign, for a text without
+/* Parses a decimal whole number at *text and moves *text past the number. Returns false for a sign, for a text without
  * digits, and for a number above `max`. */
 bool whole_number_parse(const char **text, uint64_t max, uint64_t *value);
 
-/* Makes the value of a numeric macro a string literal. */
+/* Turns a macro whose value is a number into a string literal of this number. */
 #define NUMBER_DIGITS(macro) NUMBER_DIGITS_OF(macro)
 #define NUMBER_DIGITS_OF(number) #number
 
 /* The size of a buffer for the text of any number and a final zero, in bytes. */
 #define NUMBER_TEXT 32
 
-/* Writes a finite double as the shortest of %.15g, %.16g and %.17g that reads back to the same bits. The decimal
- * point is a '.'; integers have no point; minus zero is "-0". Returns the length. */
+/* Writes a finite double as the shortest of %.15g, %.16g and %.17g that reads back to the same bits. The decimal point
+ * is always '.'; integers have no decimal point; minus zero is "-0". Returns the length of the text. */
 size_t number_print(double value, char text[NUMBER_TEXT]);
 
-/* Returns the double with the fewest decimal digits that rounds to a finite float: 0.1 for 0.1f. The result is at
+/* Returns the double with the fewest decimal digits that rounds to a given finite float: 0.1 for 0.1f. The result is at
  * most FLT_MAX. */
 double number_from_float(float value);
 

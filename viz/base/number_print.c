@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* number_print.c - prints doubles as the shortest of %.15g, %.16g and %.17g that reads back to the same bits.
  *
- * The plain way prints 15 digits, reads them back with strtod(), and tries 16 and 17 digits if the bits differ. It
- * doubles the time for recording 100,000 points.
+ * The plain method prints 15 digits, reads them back with strtod(), and tries 16 and 17 digits if the bits differ. This
+ * method doubles the time for recording 100,000 points.
  *
  * Numbers from 2^-7 to 1e14 are therefore printed with integers. The fraction becomes a 60-bit fixed-point number,
  * which represents it exactly. Multiplying it by ten moves the next digit in front of the point, and nothing is rounded
@@ -25,7 +25,7 @@
 
 enum {
     FEWEST_DIGITS = 15, /* a decimal number of 15 digits always survives conversion to double and back */
-    HALF_BITS = 30,     /* half of the fraction's bits: such a half times 10^9 fits into 64 bits */
+    HALF_BITS = 30,     /* number of bits in half of the fraction: such a half times 10^9 fits into 64 bits */
     FRACTION_BITS = 2 * HALF_BITS,
     MOST_AT_ONCE = 9,
 };
@@ -33,8 +33,8 @@ enum {
 #define FRACTION_ONE (UINT64_C(1) << FRACTION_BITS)
 #define HALF_MASK ((UINT64_C(1) << HALF_BITS) - 1)
 
-/* The limits of the numbers that are printed with integers. From SMALLEST_PLAIN on, half of a double's last bit is a
- * whole number of 2^-60. Below LARGEST_PLAIN, the 15th digit lies after the point. */
+/* The limits of the numbers that are printed with integers. From SMALLEST_PLAIN on, half of a double's last bit is an
+ * integer multiple of 2^-60. Below LARGEST_PLAIN, the 15th digit lies after the decimal point. */
 #define SMALLEST_PLAIN 0x1p-7
 #define LARGEST_PLAIN 1e14
 
@@ -46,11 +46,13 @@ static const uint64_t powers[] = {1,           10,           100,           1000
  * and the remaining fraction. */
 typedef struct expansion {
     uint64_t digits;
-    int count;          /* the number of significant digits so far; negative: zeros still to skip */
+    /* the number of significant digits found so far; if negative, the number of zeros after the decimal point still to
+     * skip */
+    int count;
     int places;         /* the number of digits after the point */
-    uint64_t rest;      /* the remaining fraction of the last digit's unit, in units of 1 / FRACTION_ONE */
-    uint64_t half_last; /* half of the double's last bit, in the unit of `rest` */
-    bool even;          /* the double's last bit is 0, so a tie reads back as this double */
+    uint64_t rest;      /* the remaining fraction of one unit of the last digit, in units of 1 / FRACTION_ONE */
+    uint64_t half_last; /* half of the double's last bit, in the same unit as `rest` */
+    bool even;          /* true: the double's last bit is 0, so that a tie reads back as this double */
 } expansion;
 
 static expansion begin_expansion(double magnitude)
@@ -64,7 +66,8 @@ static expansion begin_expansion(double magnitude)
                    .half_last = UINT64_C(1) << (exponent + FRACTION_BITS - DBL_MANT_DIG),
                    .even = bits % 2 == 0};
     if (whole == 0)
-        x.count = magnitude < 0.01 ? -2 : magnitude < 0.1 ? -1 : 0; /* zeros after the point are not significant */
+        /* skip zeros directly after the decimal point, which are not significant */
+        x.count = magnitude < 0.01 ? -2 : magnitude < 0.1 ? -1 : 0;
     else
         while (x.count < FEWEST_DIGITS && powers[x.count] <= whole)
             x.count++;
@@ -90,8 +93,8 @@ static bool rounds_up(const expansion *x)
 }
 
 /* Returns whether the rounded digits read back to the same double: their error must be at most half of the double's
- * last bit. Just below a power of two the spacing of doubles is only half as large. This needs no special case: in
- * this range, powers of two have at most 14 digits. */
+ * last bit. Just below a power of two the spacing of doubles is only half as large. Powers of two need no special case:
+ * between SMALLEST_PLAIN and LARGEST_PLAIN, they have at most 14 digits. */
 static bool has_enough_digits(const expansion *x)
 {
     const uint64_t off = rounds_up(x) ? FRACTION_ONE - x->rest : x->rest;
@@ -114,8 +117,8 @@ static expansion find_shortest_digits(double magnitude)
     return x;
 }
 
-/* Writes the last `count` digits of *digits in front of `end` and removes them from *digits. Returns where they
- * begin. */
+/* Writes the last `count` digits of *digits in front of `end`, and removes these digits from *digits. Returns where the
+ * written digits begin. */
 static char *write_digits(char *end, uint64_t *digits, int count)
 {
     static const char pairs[] = "00010203040506070809101112131415161718192021222324252627282930313233343536373839"

@@ -8,7 +8,7 @@
 
 enum { MOST_THREADS = 64 };
 
-/* The work that all threads share. Each thread takes the next index until no index is left. */
+/* The work that all threads share. Each thread takes the next task until no task is left. */
 typedef struct work {
     atomic_size_t next;
     size_t count;

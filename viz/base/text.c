@@ -16,7 +16,7 @@ bool text_stream_begin(text_stream *s)
     return s->stream != NULL;
 }
 
-/* fclose() may fail to allocate the final text. In this case *text is null although the stream has no error. */
+/* fclose() may fail to allocate the final text. Then *text is null, although the stream reports no error. */
 bool text_stream_end(text_stream *s, char **text)
 {
     const bool whole = s->stream && !ferror(s->stream);
@@ -29,8 +29,8 @@ bool text_stream_end(text_stream *s, char **text)
 
 /* ---- Printable text ------------------------------------------------------------------------------------------ */
 
-/* The valid non-ASCII sequences of UTF-8 (table 3-7 of the Unicode standard). For each range of first bytes: the
- * range of the second byte, and the length. */
+/* The valid non-ASCII sequences of UTF-8 (table 3-7 of the Unicode standard). Each row: a range of first bytes, the
+ * range of the second byte, and the length in bytes. */
 static const struct {
     unsigned char first, last, second_min, second_max;
     size_t length;
@@ -127,21 +127,23 @@ const char *escape_markdown(const char *text, const char *at, char room[ESCAPE_R
 bool utf8_is_unprintable(const unsigned char *at)
 {
     switch (at[0]) {
-    case 0xc2: /* control characters: U+0080 to U+009F */
+    case 0xc2: /* U+0080 to U+009F: control characters */
         return at[1] < 0xa0;
-    case 0xd8: /* a mark of writing direction: U+061C */
+    case 0xd8: /* U+061C: a mark that changes the direction of writing */
         return at[1] == 0x9c;
-    case 0xe2: /* U+200E, U+200F; U+2028 to U+202E; U+2066 to U+2069 */
+    /* U+200E, U+200F, U+202A to U+202E, U+2066 to U+2069: marks that change the direction of writing; U+2028, U+2029:
+     * separators */
+    case 0xe2:
         return (at[1] == 0x80 && (at[2] == 0x8e || at[2] == 0x8f || (at[2] >= 0xa8 && at[2] <= 0xae))) ||
                (at[1] == 0x81 && at[2] >= 0xa6 && at[2] <= 0xa9);
-    case 0xef: /* not characters: U+FFFE, U+FFFF */
+    case 0xef: /* U+FFFE, U+FFFF: codes that are not characters */
         return at[1] == 0xbf && at[2] >= 0xbe;
     default:
         return false;
     }
 }
 
-/* Writes a non-ASCII character. Returns the number of bytes that were read. */
+/* Writes the non-ASCII character at `at`, or a replacement. Returns the number of bytes of `at` that were used. */
 static size_t write_non_ascii(FILE *out, const unsigned char *at)
 {
     const size_t length = utf8_sequence_length(at);
@@ -189,7 +191,8 @@ enum { GROUPS = 4096 };
 
 static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
-/* Encodes up to three bytes as four base64 digits. Missing bytes count as zero; their digits become '='. */
+/* Encodes up to three bytes as four base64 digits. Missing bytes count as zero; the digits of missing bytes become
+ * '='. */
 static void encode_base64_group(const unsigned char *from, size_t count, char *to)
 {
     const unsigned bits =

@@ -18,8 +18,8 @@ typedef struct text_stream {
 
 bool text_stream_begin(text_stream *s);
 
-/* Closes the stream. Sets *text to the printed text, which the caller frees, or to null if nothing was printed.
- * Returns false if memory ran out. */
+/* Closes the stream. Sets *text to the printed text, which the caller frees, or to null if nothing was printed. Returns
+ * false if memory has run out. */
 bool text_stream_end(text_stream *s, char **text);
 
 /* U+FFFD, which replaces bytes that are not valid UTF-8. */
@@ -36,18 +36,18 @@ bool utf8_is_unprintable(const unsigned char *at);
 /* Replaces every character that is not printable ASCII, and every invalid byte, by a question mark. Returns `text`. */
 char *make_printable(char *text);
 
-/* plural_ending() returns the ending of a noun after a count: "" for 1, otherwise "s". verb_ending() returns the
- * ending of the noun's verb: "s" for 1, otherwise "". */
+/* plural_ending() returns the ending of a noun after a count: "" for 1, otherwise "s". verb_ending() returns the ending
+ * of the verb after such a noun: "s" for 1, otherwise "". */
 const char *plural_ending(uint64_t count);
 const char *verb_ending(uint64_t count);
 
-/* Printed lists end after LIST_LINES lines. Then print_remaining_count() prints the number of items that are not
- * shown, and `how`, which says how to list them. */
+/* Printed lists end after LIST_LINES lines. print_remaining_count() then prints the number of items that are not shown,
+ * and the text `how`, which explains how to list them. */
 #define LIST_LINES 10
 void print_remaining_count(FILE *out, uint64_t count, uint64_t shown, const char *how);
 
-/* Returns the escaped form of the ASCII character *at in `text`, which may be stored in `room`. Returns null if the
- * character needs no escape. */
+/* A function that escapes the ASCII character *at of `text`. Returns the escaped form, which may be stored in `room`.
+ * Returns null if the character needs no escape. */
 #define ESCAPE_ROOM 16
 typedef const char *escape(const char *text, const char *at, char room[ESCAPE_ROOM]);
 
@@ -56,15 +56,15 @@ escape escape_xml;      /* for text in an XML attribute or element */
 escape escape_xml_text; /* for text in an XML element that may contain line ends */
 escape escape_markdown; /* for text in a Markdown line, a table cell or an HTML element */
 
-/* Writes UTF-8 text. Its ASCII characters are escaped by `how`. Invalid bytes, unprintable characters, and control
- * characters that `how` does not escape become U+FFFD. */
+/* Writes UTF-8 text. `how` escapes its ASCII characters. Invalid bytes, unprintable characters, and control characters
+ * that `how` does not escape become U+FFFD. */
 void write_escaped(FILE *out, const char *text, escape *how);
 
-/* Returns the next line of a text and moves *at behind it. The line end is replaced by a zero. Returns null at the
- * end of the text. */
+/* Returns the next line of a text, and moves *at past the line. The line end is replaced by a zero byte. Returns null
+ * at the end of the text. */
 char *text_cut_line(char **at);
 
-/* Writes the rest of `in` as base64 (RFC 4648), for data URLs. The caller checks both streams for errors. */
+/* Writes the rest of the stream `in` as base64 (RFC 4648), for data URLs. The caller checks both streams for errors. */
 void base64_encode(FILE *in, FILE *out);
 
 #endif

@@ -9,7 +9,7 @@
 
 typedef struct watcher {
     void (*progress)(uint64_t done, uint64_t total, void *context); /* called after each step; may be null */
-    bool (*keep_going)(void *context); /* called between steps; false stops the task; may be null */
+    bool (*keep_going)(void *context); /* called between steps; if it returns false, the task stops; may be null */
     void *context;
 } watcher;
 

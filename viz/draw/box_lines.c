@@ -6,10 +6,10 @@
  * vanish, and the other boxes keep their order.
  *
  * The idea: match the boxes of the new scene with the boxes of the last scene, as diff matches the lines of two files.
- * Both lists are walked side by side. If a box is not next in the old list, it is searched among the next
- * MISSING_AT_MOST old boxes. Old boxes that are skipped were removed; a box that is not found is new. A wrong match
- * costs only time: the box is then removed and added again. Only removed and new boxes change lines, and only new boxes
- * look up lines in the hash map.
+ * Both lists are walked side by side. If a new box is not the next box of the old list, the next MISSING_AT_MOST old
+ * boxes are searched for it. Old boxes that the search skips count as removed; a box that is not found counts as added.
+ * A wrong match costs only time: the box is then removed and added again. Only removed and added boxes change lines,
+ * and only added boxes look up lines in the hash map.
  *
  * Each line counts the box edges on it. Lines without box edges stay in the set until edges.c rebuilds the whole
  * set. */
@@ -39,12 +39,12 @@ void box_lines_release(box_lines *kept)
 
 /* ---- Lines --------------------------------------------------------------------------------------------------- */
 
-/* Coordinates of tree planes have few bits set, all of them high. Folding copies the high bits into the low bits, so
- * that the multiplication in hash_key() spreads them. */
+/* Copy the high bits of a coordinate into the low bits, so that the multiplication in hash_key() spreads them.
+ * Coordinates of tree planes have only a few bits set, and all of these are high bits. */
 static uint64_t fold_bits(double value)
 {
     uint64_t bits;
-    const double canonical = value + 0.0; /* turns -0 into 0: equal coordinates need equal hashes */
+    const double canonical = value + 0.0; /* turns -0 into 0, because equal coordinates need equal hashes */
     memcpy(&bits, &canonical, sizeof bits);
     return bits ^ bits >> 32;
 }
@@ -57,7 +57,7 @@ static uint64_t hash_key(const void *item)
     return (mixed ^ mixed >> 32) * UINT64_C(0xd6e8feb86659fd93) >> 32;
 }
 
-/* Compares the coordinates as doubles, not as bytes: -0 equals 0, but their bytes differ. */
+/* Compares coordinates as doubles, not as bytes: -0 equals 0, although their bytes differ. */
 static bool are_keys_equal(const void *a, const void *b)
 {
     const line_key *p = a, *q = b;
@@ -78,8 +78,8 @@ static uint32_t add_line(box_lines *kept, const line_key *key)
     return (uint32_t)kept->count++;
 }
 
-/* Count one more box edge on a line, and add the line if it is new. Returns the line's index, or LINE_NONE when out of
- * memory. */
+/* Count one more box edge on a line, and add the line to the set if it is new. Returns the line's index. Returns
+ * LINE_NONE if memory runs out. */
 static uint32_t add_line_user(box_lines *kept, const line_key *key)
 {
     uint32_t place = hash_map_find(&kept->map, &by_key, kept->lines, key);
@@ -107,7 +107,8 @@ static bool add_edge_to_line(box_lines *kept, lined_box *of, unsigned edge)
     return of->lines[edge] != LINE_NONE;
 }
 
-/* A box that is flat along an axis has no edges along it. A box that is a single point has one edge, of length 0. */
+/* Find or add the lines of a box's edges. A box that is flat along an axis has no edges along this axis. A box that is
+ * a single point has one edge, of length 0. */
 static bool add_edges_to_lines(box_lines *kept, lined_box *of)
 {
     const octree_box *box = &of->box.box;
@@ -135,7 +136,8 @@ static bool are_boxes_equal(const scene_box *a, const scene_box *b)
            memcmp(&a->box, &b->box, sizeof a->box) == 0;
 }
 
-/* Find a box among at most MISSING_AT_MOST old boxes, from index `from` on. Null if none of them is equal to it. */
+/* Find a box among at most MISSING_AT_MOST old boxes, from index `from` on. Returns null if none of these old boxes
+ * equals the box. */
 static const lined_box *find_old_box(const lined_boxes *in, size_t from, const scene_box *box)
 {
     const size_t left = in->count - from, end = from + (left < MISSING_AT_MOST ? left : MISSING_AT_MOST);
@@ -145,8 +147,8 @@ static const lined_box *find_old_box(const lined_boxes *in, size_t from, const s
     return NULL;
 }
 
-/* Add the next box of the scene. If an equal old box is found from index *old on, its lines are reused, and the old
- * boxes before it lose their lines. */
+/* Add the next box of the scene. If an equal old box is found from index *old on, the new box takes over its lines, and
+ * the old boxes before the found box lose their lines. */
 static bool add_box(box_lines *kept, const scene_box *box, size_t *old, bool *changed)
 {
     const lined_box *next = *old < kept->before.count ? &kept->before.items[*old] : NULL,

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* canvas.c - fills the quads of a frame. Where the first quads are the same as in the last frame, their pixels are
- * copied. */
+/* canvas.c - fills the quads of a frame. If the frame begins with the same quads as the previous frame, their pixels
+ * are copied instead of filled. */
 #include "fill.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* Keeping a picture costs about as much as filling this many quads. */
+/* Keeping a picture takes about as long as filling this many quads. */
 #define WORTH_KEEPING 256
 
 void canvas_release(canvas *c)
@@ -30,8 +30,8 @@ static size_t count_same_quads(const quad_list *a, const quad_list *b)
     return same;
 }
 
-/* True if a picture of the first `same` quads should be kept; the first `start` of them are drawn already. False if
- * that would save too little time, or when out of memory. */
+/* Returns whether the picture of the first `same` quads should be kept for the next frame. The first `start` of these
+ * quads are drawn already. Returns false if keeping the picture would save too little time, or if memory runs out. */
 static bool can_keep_picture(canvas *c, size_t start, size_t same, size_t pixels)
 {
     if (same - start < WORTH_KEEPING)

@@ -8,8 +8,8 @@
  * that share an edge get the same new corner, even if they list the ends in opposite order, and no gap opens between
  * them.
  *
- * The result has up to eight corners. Rasterizers take only quads, so it is split into a fan of quads around its first
- * corner. */
+ * The clipped polygon has up to eight corners. Rasterizers take only quads, so the polygon is split into a fan of quads
+ * around its first corner. */
 #include "quads.h"
 
 /* A cut removes at least one corner of a convex polygon and adds two: 4 corners and 4 cuts give at most 8. */
@@ -37,8 +37,8 @@ static void append_corner(polygon *p, int32_t x, int32_t y)
     }
 }
 
-/* Returns the other coordinate of the point at which the edge from a to b crosses a bound on `axis`, rounded. Swapping
- * a and b does not change the result. */
+/* Returns where the edge from a to b crosses a bound on `axis`: the coordinate of the crossing on the other axis,
+ * rounded. Swapping a and b does not change the result. */
 static int32_t find_crossing(const int32_t a[2], const int32_t b[2], int axis, int32_t bound)
 {
     const int32_t *low = a[axis] < b[axis] ? a : b, *high = a[axis] < b[axis] ? b : a;
@@ -47,7 +47,8 @@ static int32_t find_crossing(const int32_t a[2], const int32_t b[2], int axis, i
     return low[1 - axis] + (int32_t)(doubled / whole - (doubled % whole < 0));
 }
 
-/* Remove the part of a polygon whose coordinate on `axis` is less (side 1) or greater (side -1) than the bound. */
+/* Remove the part of a polygon whose coordinate on `axis` is less than the bound (side 1) or greater than the bound
+ * (side -1). */
 static void clip_to_bound(polygon *p, int axis, int side, int32_t bound)
 {
     const polygon all = *p;

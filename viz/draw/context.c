@@ -12,7 +12,7 @@
 
 static const struct {
     const char *name;
-    context_opener *open; /* null: this kind was not compiled in */
+    context_opener *open; /* function that opens a context of this kind; null: this kind was not compiled in */
 } kinds[DRAW_CONTEXTS] = {
     [DRAW_AUTO] = {"auto", context_open},
 #ifdef OCTREEL_OSMESA
@@ -44,7 +44,7 @@ void draw_context_set_report(draw_context_report *function)
     report = function;
 }
 
-/* Report that `kind` is used instead of the preferred kind. No report if the preferred kind's library is not
+/* Report that `kind` is used instead of the preferred kind. Report nothing if the library of the preferred kind is not
  * installed. */
 static void report_fallback(int kind, int preferred, const octreel_error *why)
 {
@@ -52,7 +52,8 @@ static void report_fallback(int kind, int preferred, const octreel_error *why)
         report(kinds[kind].name, kinds[preferred].name, why->text);
 }
 
-/* Open the first kind of context that can be opened. If all kinds fail, the error is that of the first kind. */
+/* Open the first kind of context that can be opened. If no kind can be opened, the error is the error of the first
+ * kind. */
 static context *open_first_available(const renderer_choice *choice, octreel_error *error)
 {
     octreel_error *reason = error, later;
@@ -98,8 +99,8 @@ void *context_create(const context *face, size_t size, const char *const names[2
     return c;
 }
 
-/* Copy the bits of the symbol's address: ISO C has no cast from an object pointer to a function pointer, but POSIX
- * promises that both have the same bits. */
+/* Copy the bits of the symbol's address into the function pointer. ISO C has no cast from an object pointer to a
+ * function pointer, but POSIX promises that both have the same bits. */
 bool context_find_symbol(void *library, const char *name, void *function, size_t size)
 {
     void *symbol = dlsym(library, name);
@@ -116,7 +117,7 @@ static void *wait_for_lock(void *lock)
     return NULL;
 }
 
-/* True if this process can run `wanted` more threads at the same time. */
+/* Returns whether this process can run `wanted` more threads at the same time. */
 static bool can_start_threads(unsigned wanted)
 {
     enum { MOST = 34 };
@@ -133,8 +134,8 @@ static bool can_start_threads(unsigned wanted)
     return count == wanted;
 }
 
-/* Counts the threads that are needed: llvmpipe starts one thread per core, at most 32, and Mesa two more for its disk
- * cache. */
+/* The number of threads that Mesa may start: llvmpipe starts one thread per core, at most 32, and Mesa starts two more
+ * for its disk cache. */
 void context_limit_threads(void)
 {
     if (!can_start_threads(count_cores() + 2))

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* context_egl.c - an EGL context without a display, surface or configuration. It draws off-screen with versions of Mesa
- * that no longer have OSMesa (25.1 and later).
+/* context_egl.c - an EGL context without a display, surface or configuration. Such a context draws off-screen also with
+ * versions of Mesa that no longer have OSMesa (25.1 and later).
  *
  * EGL prefers graphics cards, so the software device is requested if EGL can list devices. The library is loaded at run
  * time. */
@@ -44,7 +44,8 @@ static bool contains(const char *list, const char *word)
     return list && strstr(list, word);
 }
 
-/* Returns the device that draws with the CPU. Null if EGL cannot list devices or none of them draws with the CPU. */
+/* Returns the EGL device that draws with the CPU. Returns null if EGL cannot list devices, or if no device draws with
+ * the CPU. */
 static EGLDeviceEXT find_software_device(const egl *egl)
 {
     const PFNEGLQUERYDEVICESEXTPROC list = (PFNEGLQUERYDEVICESEXTPROC)egl->GetProcAddress("eglQueryDevicesEXT");
@@ -61,7 +62,8 @@ static EGLDeviceEXT find_software_device(const egl *egl)
     return NULL;
 }
 
-/* Initialize the display of the software device; if there is none, the display without a window system. */
+/* Initialize a display for off-screen drawing: the display of the software device or, if there is no such device, the
+ * display without a window system. */
 static EGLDisplay open_display(const egl *egl, bool any_renderer)
 {
     const PFNEGLGETPLATFORMDISPLAYEXTPROC get =
@@ -74,8 +76,8 @@ static EGLDisplay open_display(const egl *egl, bool any_renderer)
     return display && egl->Initialize(display, NULL, NULL) ? display : EGL_NO_DISPLAY;
 }
 
-/* Releases the context before making it current: EGL ignores the call for a context that it believes to be current,
- * even if another library has made a different context current. */
+/* Makes a context current. Releases the context first: EGL ignores the call for a context that it believes to be
+ * current, even if another library has made a different context current. */
 static bool make_current(context *face)
 {
     const egl_context *c = (const egl_context *)face;
@@ -90,7 +92,7 @@ static context_function find_function(const context *face, const char *name)
     return ((const egl_context *)face)->egl.GetProcAddress(name);
 }
 
-/* Does not terminate the display, because all contexts of the process share it. */
+/* Closes a context. Does not terminate the display, because all contexts of the process share the display. */
 static void close_context(context *face)
 {
     egl_context *c = (egl_context *)face;

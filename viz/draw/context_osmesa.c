@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* context_osmesa.c - Mesa's off-screen context. The library is loaded at run time, so that the program also starts on
- * machines without it. */
+/* context_osmesa.c - OSMesa, Mesa's off-screen context. The library is loaded at run time, so that the program also
+ * starts on machines without the library. */
 #include "context.h"
 
 #include <GL/osmesa.h>
 #include <stdlib.h>
 
-/* The side of OSMesa's own buffer, in pixels. OSMesa requires a buffer, but Octreel draws into a framebuffer object. */
+/* The side of OSMesa's own buffer, in pixels. OSMesa requires a buffer, although Octreel draws into a framebuffer
+ * object. */
 #define OWN_SIDE 4
 
 typedef struct osmesa_context {
@@ -29,7 +30,8 @@ static context_function find_function(const context *face, const char *name)
     return (context_function)((const osmesa_context *)face)->find_function(name);
 }
 
-/* Does not unload the library: Mesa's threads and LLVM do not survive an unload followed by a second load. */
+/* Closes a context. Does not unload the library, because Mesa's threads and LLVM do not survive an unload followed by a
+ * second load. */
 static void close_context(context *face)
 {
     osmesa_context *c = (osmesa_context *)face;
@@ -55,7 +57,7 @@ static bool open_mesa(osmesa_context *c)
 
 context *context_osmesa_open(const renderer_choice *choice, octreel_error *error)
 {
-    (void)choice; /* OSMesa always draws with the CPU */
+    (void)choice; /* unused, because OSMesa always draws with the CPU */
     static const context face = {
         .kind = DRAW_OSMESA, .make_current = make_current, .find_function = find_function, .close = close_context};
     osmesa_context *c = context_create(&face, sizeof *c, (const char *const[]){"libOSMesa.so.8", "libOSMesa.so"},

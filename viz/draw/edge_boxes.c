@@ -54,7 +54,7 @@ bool edge_boxes_find_all(edge_boxes *all, const scene *s)
         for (unsigned axis = 0; axis < 3; axis++)
             for (unsigned corner = 0; corner < 4 && box->box.min[axis] < box->box.max[axis]; corner++)
                 all->items[all->count++] = make_box_edge(box, i, axis, corner);
-        if (all->count == before) /* a box that is a single point has one edge of length 0 */
+        if (all->count == before) /* a box that is a single point has no edges so far; it gets one edge of length 0 */
             all->items[all->count++] = make_box_edge(box, i, 0, 0);
     }
     qsort(all->items, all->count, sizeof *all->items, compare_edges);
@@ -67,13 +67,13 @@ void edge_boxes_release(edge_boxes *all)
     *all = (edge_boxes){0};
 }
 
-/* A merged edge and its projection into the picture. */
+/* A merged edge, and the stroke that shows the edge in the picture. */
 typedef struct stroke {
     line_key line;
     double from, to;
-    double seen[2][3]; /* the two ends in camera coordinates */
-    int across;        /* the axis of the picture (0: x, 1: y) along which the stroke is longer */
-    bool speck;        /* the edge is shorter than a sample: each sample of the stroke shows the whole edge */
+    double seen[2][3]; /* the edge's two ends in camera coordinates */
+    int across;        /* the axis of the picture along which the stroke is longer: 0 for x, 1 for y */
+    bool speck;        /* true: the edge is shorter than a sample, so each sample of the stroke shows the whole edge */
 } stroke;
 
 static stroke project_edge_line(const scene *s, const edge *e)
@@ -101,13 +101,13 @@ static stroke project_edge_line(const scene *s, const edge *e)
     return k;
 }
 
-/* Returns the world coordinate, along the line, of the point that is seen at a column or row of the picture. The result
- * is clamped to the merged edge. */
+/* Returns the coordinate on the edge's line of the point that appears at a column or row of the picture. The result is
+ * clamped to the ends of the merged edge. */
 static double find_coordinate(const scene *s, const stroke *k, double pixel)
 {
     const camera *c = &s->camera;
     const double slope = (pixel - c->middle[k->across]) / c->zoom * (k->across ? -1 : 1);
-    double off[2]; /* the distance of each end from the plane through the eye and the column or row */
+    double off[2]; /* the distance of each end of the edge from the plane through the eye and the column or row */
     for (int end = 0; end < 2; end++)
         off[end] = k->seen[end][k->across] - slope * (c->perspective ? k->seen[end][2] : 1);
     const double part = off[0] / (off[0] - off[1]);
@@ -116,7 +116,8 @@ static double find_coordinate(const scene *s, const stroke *k, double pixel)
     return part < 1 ? k->from * (1 - part) + k->to * part : k->to;
 }
 
-/* Returns the index of the first box edge on a line; if there is none, the index at which one would be inserted. */
+/* Returns the index of the first box edge on a line. If the line has no box edge, returns the index at which one would
+ * be inserted. */
 static size_t find_first_edge(const edge_boxes *all, const line_key *wanted)
 {
     size_t low = 0, high = all->count;
@@ -152,7 +153,7 @@ size_t edge_boxes_find_owner(const edge_boxes *all, const edge *e, int x, int y)
             (!best || find_distance_from_edge(found, at) < find_distance_from_edge(best, at)))
             best = found;
     }
-    return best->box; /* `best` is not null: a merged edge consists of edges of boxes */
+    return best->box; /* `best` is not null, because every merged edge consists of edges of boxes */
 }
 
 void edge_boxes_visit_sharing(const edge_boxes *all, const edge *e, int x, int y,

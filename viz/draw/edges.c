@@ -2,14 +2,14 @@
 /* edges.c - merges the edges of a scene's boxes into segments that do not overlap.
  *
  * The problem: in a tree most edges of a box coincide with edges of its parent, siblings and neighbours. Drawing each
- * box separately would draw the same line many times. The box drawn last, not the shallowest box, would give the line
- * its colour. Comparing all pairs of edges would cost O(n^2).
+ * box separately would draw the same line many times, and the line would have the colour of the last box instead of the
+ * colour of the shallowest box. Comparing all pairs of edges would cost O(n^2).
  *
  * The idea: edges that overlap lie on the same line. box_lines.c groups the edges by line; it compares coordinates
  * exactly, because nodes share planes bit for bit. On its line an edge is an interval. The intervals of a line are
  * sorted by their start. One sweep then walks along the line and emits, for each part of it, the shallowest interval
- * that covers this part. Most intervals are dropped before they are sorted: boxes come from the root down, and an edge
- * within an edge of its parent is not visible.
+ * that covers this part. Most intervals are dropped before they are sorted: a parent box comes before its children, and
+ * an edge of a child that lies on an edge of the parent is not visible.
  *
  * A line keeps its merged edges from frame to frame until one of its boxes is added or removed. */
 #include "edges.h"
@@ -45,8 +45,8 @@ static int compare_lines(const void *a, const void *b)
     return line_key_compare(&(*p)->key, &(*q)->key);
 }
 
-/* Merge the sorted new lines into list->order. The merge runs backwards, so that no entry is overwritten before it is
- * read. */
+/* Merge the new lines, which are sorted, into list->order. The merge runs backwards, so that no entry is overwritten
+ * before it is read. */
 static void merge_new_lines_into_order(edge_list *list, const line *const *sorted)
 {
     const line *lines = list->boxes.lines;
@@ -84,7 +84,8 @@ static interval make_interval(const scene_box *box, unsigned axis)
         .from = box->box.min[axis], .to = box->box.max[axis], .id = box->id, .style = box->style, .depth = box->depth};
 }
 
-/* True if `by`, an earlier interval of the same line, covers `it`: sweep_line() would then emit no edge for `it`. */
+/* Returns whether `by`, an earlier interval of the same line, covers the interval `it`. If so, sweep_line() would emit
+ * no edge for `it`. */
 static bool is_covered(const interval *it, const interval *by)
 {
     if (it->from < by->from || it->to > by->to || it->depth < by->depth)
@@ -102,8 +103,8 @@ static void collect_edge(uint32_t *places, line *on, const lined_box *boxes, uin
     places[on->start + on->intervals++] = on->last = place;
 }
 
-/* Allocate one list for the box indices of all changed lines. Each changed line gets a range with room for all of its
- * box edges. Null when out of memory. */
+/* Allocate one array for the box indices of all changed lines. Each changed line gets a range of the array with room
+ * for all of its box edges. Returns null if memory runs out. */
 static uint32_t *allocate_places(edge_list *list)
 {
     box_lines *from = &list->boxes;
@@ -117,7 +118,7 @@ static uint32_t *allocate_places(edge_list *list)
     return total < UINT32_MAX ? malloc((total + 1) * sizeof(uint32_t)) : NULL;
 }
 
-/* List the boxes of each changed line, as indices into from->now. Null when out of memory. The caller frees the
+/* List the boxes of each changed line, as indices into from->now. Returns null if memory runs out. The caller frees the
  * list. */
 static uint32_t *collect_boxes(edge_list *list)
 {
@@ -143,8 +144,8 @@ static int compare_intervals(const void *a, const void *b)
     return p->id < q->id ? -1 : p->id > q->id;
 }
 
-/* Sort intervals by insertion: boxes come in Morton order, so that the intervals of a line are nearly sorted and few of
- * them move far. Falls back to qsort() after 16 moves per interval. */
+/* Sort intervals by insertion. Boxes come in Morton order, so that the intervals of a line are nearly sorted, and few
+ * intervals move far. After more than 16 moves per interval, qsort() sorts them instead. */
 static void sort_intervals(interval *line, size_t count)
 {
     enum { MOVES_OF_EACH = 16 };
@@ -163,7 +164,7 @@ static void sort_intervals(interval *line, size_t count)
     }
 }
 
-/* Fill *one with the sorted intervals of the line `on`. False when out of memory. */
+/* Fill *one with the sorted intervals of the line `on`. Returns false if memory runs out. */
 static bool gather_line_intervals(interval_list *one, const lined_box *boxes, const uint32_t *places, const line *on)
 {
     if (!array_grow(&one->items, on->intervals + 1, &one->room, sizeof *one->items))
@@ -177,7 +178,7 @@ static bool gather_line_intervals(interval_list *one, const lined_box *boxes, co
 
 /* ---- The sweep of a line -------------------------------------------------------------------------------------- */
 
-/* The line that is being swept. Its merged edges are those of *edges from index `first` on. */
+/* The line that is being swept. The line's merged edges are the edges of *edges from index `first` on. */
 typedef struct sweep {
     edge_array *edges;
     const line_key *on;
@@ -185,7 +186,8 @@ typedef struct sweep {
     size_t first;
 } sweep;
 
-/* Returns a pointer to the end coordinate of the line's last merged edge. Null if the line has no merged edge yet. */
+/* Returns a pointer to the end coordinate of the line's last merged edge. Returns null if the line has no merged edge
+ * yet. */
 static double *find_last_end(const sweep *w)
 {
     return w->edges->count > w->first ? &w->edges->items[w->edges->count - 1].ends[1][w->axis] : NULL;
@@ -205,8 +207,9 @@ static bool add_edge(const sweep *w, const interval *of, double from, double to)
     return true;
 }
 
-/* Emit [from, to] with the style of an interval: extend the last merged edge if it ends at `from` and has the same
- * style and depth, else add an edge. False when out of memory. */
+/* Emit a merged edge from coordinate `from` to coordinate `to`, with the style of an interval. If the last merged edge
+ * ends at `from` and has the same style and depth, extend it; otherwise add an edge. Returns false if memory runs
+ * out. */
 static bool extend_or_add_edge(const sweep *w, const interval *of, double from, double to)
 {
     double *end = find_last_end(w);
@@ -217,7 +220,8 @@ static bool extend_or_add_edge(const sweep *w, const interval *of, double from, 
     return true;
 }
 
-/* Returns the shallowest of the first `begun` intervals that ends after `at`. Null if all of them have ended. */
+/* Returns the shallowest of the first `begun` intervals that ends after coordinate `at`. Returns null if all of these
+ * intervals have ended. */
 static const interval *find_shallowest(const interval *line, size_t begun, double at)
 {
     const interval *best = NULL;
@@ -236,8 +240,9 @@ static double find_next_change(const interval *line, size_t count, size_t begun,
     return now->to;
 }
 
-/* Sweep the intervals of one line, sorted by their start. Intervals that have ended are dropped from the front, so that
- * the cost is about the number of intervals times the depth of the tree. False when out of memory. */
+/* Sweep the intervals of one line, which are sorted by their start, and emit the line's merged edges. Intervals that
+ * have ended are dropped from the front, so that the cost is about the number of intervals times the depth of the tree.
+ * Returns false if memory runs out. */
 static bool sweep_line(const sweep *w, const interval *line, size_t count)
 {
     size_t first = 0;
@@ -250,7 +255,7 @@ static bool sweep_line(const sweep *w, const interval *line, size_t count)
         if (!now) {
             const double *end = find_last_end(w);
             if (!(end && *end == at) && !add_edge(w, &line[first], at, at))
-                return false; /* the edge of length 0 belongs to a box that is a single point */
+                return false; /* only the edge of a box that is a single point has length 0 */
             first = begun;
             at = begun < count ? line[begun].from : at;
             continue;
@@ -267,7 +272,7 @@ static bool sweep_line(const sweep *w, const interval *line, size_t count)
 
 /* ---- All lines ------------------------------------------------------------------------------------------------ */
 
-/* Copy the merged edges of an unchanged line from list->before. False when out of memory. */
+/* Copy the merged edges of an unchanged line from list->before. Returns false if memory runs out. */
 static bool copy_line_edges(edge_list *list, const line *of)
 {
     edge_array *now = &list->now;
@@ -280,7 +285,8 @@ static bool copy_line_edges(edge_list *list, const line *of)
     return true;
 }
 
-/* Sweep the changed lines and copy the merged edges of all other lines, in painting order. False when out of memory. */
+/* Sweep the changed lines, and copy the merged edges of all other lines, both in painting order. Returns false if
+ * memory runs out. */
 static bool sweep_lines(edge_list *list, const uint32_t *places)
 {
     bool ok = true;
@@ -322,7 +328,7 @@ bool edges_merge(edge_list *list, const scene *s, unsigned first, unsigned end)
 {
     bool changed;
     if (list->boxes.idle > list->boxes.count / 2)
-        clear_lines(list); /* too many lines have no box edges left: rebuild the set */
+        clear_lines(list); /* too many lines have no box edges left, so the set of lines is rebuilt */
     if (box_lines_update(&list->boxes, s, first, end, &changed) && (!changed || merge_lines(list)))
         return true;
     clear_lines(list);

@@ -12,13 +12,13 @@
  * Edges on the same line may overlap. The set is updated from scene to scene. A line is marked as changed if one of its
  * boxes was added or removed. */
 
-/* A line parallel to one axis; `u` and `v` are its coordinates on the next two axes, cyclically. */
+/* A line parallel to one axis. `u` and `v` are the line's coordinates on the next two axes, in cyclic order. */
 typedef struct line_key {
     double u, v;
-    uint32_t kind; /* layer, stroke, width and axis, packed */
+    uint32_t kind; /* layer, stroke, width and axis, packed into one number */
 } line_key;
 
-/* The key of the line through the point `at` parallel to an axis. */
+/* Returns the key of the line through the point `at` parallel to an axis. */
 static inline line_key line_key_through_point(scene_style style, unsigned axis, const double at[3])
 {
     return (line_key){
@@ -28,7 +28,8 @@ static inline line_key line_key_through_point(scene_style style, unsigned axis, 
     };
 }
 
-/* The key of the line of a box's edge. Four edges of a box are parallel to `axis`; `corner` selects one of them. */
+/* Returns the key of the line of a box's edge. Four edges of a box are parallel to `axis`; `corner` selects one of
+ * these four edges. */
 static inline line_key line_key_of_box_edge(const scene_box *box, unsigned axis, unsigned corner)
 {
     double at[3] = {0};
@@ -47,7 +48,7 @@ static inline int compare_doubles(double a, double b)
     return (a > b) - (a < b);
 }
 
-/* Compare two lines in painting order: by kind, then by coordinates. */
+/* Compare two lines in painting order: first by `kind`, then by coordinates. */
 static inline int line_key_compare(const line_key *a, const line_key *b)
 {
     if (a->kind != b->kind)
@@ -59,16 +60,16 @@ static inline int line_key_compare(const line_key *a, const line_key *b)
 typedef struct line {
     line_key key;
     uint32_t users;        /* the number of box edges on this line */
-    uint32_t first, count; /* the line's merged edges: a range of edge_list.now */
-    /* Used only during a merge, in edges.c: the number of intervals collected for this line, the index of the last
-     * collected box, and where the line's range begins in the list for all lines. */
+    uint32_t first, count; /* the line's merged edges: `count` edges of edge_list.now, from index `first` on */
+    /* Used only during a merge, in edges.c. intervals: the number of intervals collected for this line. last: the index
+     * of the last collected box. start: where the line's range begins in the array for all changed lines. */
     uint32_t intervals, last, start;
 } line;
 
 #define LINE_NONE HASH_MAP_NONE
 #define BOX_EDGES 12
 
-/* A box, and for each of its 12 edges the index of the edge's line: four edges along each axis. The index is LINE_NONE
+/* A box, and the lines of its 12 edges: the index of each line, for four edges along each axis. The index is LINE_NONE
  * if the box has no extent along that axis. */
 typedef struct lined_box {
     scene_box box;
@@ -77,12 +78,14 @@ typedef struct lined_box {
 
 typedef ARRAY(lined_box) lined_boxes;
 
-/* A zeroed struct is an empty set. */
+/* The set of lines on which edges of boxes lie. A zeroed struct is an empty set. */
 typedef struct box_lines {
-    lined_boxes now, before; /* the boxes of the last two scenes */
-    line *lines;             /* all keys differ; new lines are appended */
+    lined_boxes now, before; /* the boxes of this scene and of the previous scene */
+    line *lines;             /* the lines, each with a different key; new lines are appended */
     size_t count, room;
-    uint8_t *changed; /* for each line: 1 if its merged edges are out of date */
+    /* for each line: 1 if a box with an edge on the line was added or removed, so that the line's merged edges are out
+     * of date */
+    uint8_t *changed;
     size_t changed_room;
     size_t idle;  /* the number of lines without box edges */
     hash_map map; /* maps line keys to indices of lines */
@@ -92,8 +95,8 @@ void box_lines_clear(box_lines *kept);
 void box_lines_release(box_lines *kept);
 
 /* Replace the boxes by the boxes of a scene in the layers [first, end). Lines whose boxes were added or removed are
- * marked as changed; *changed: whether there are any. False when out of memory; the caller must then call
- * box_lines_clear(). Cost: O(n) for n boxes, plus one hash look-up for each edge of an added box. */
+ * marked as changed. *changed becomes true if there are such lines. Returns false if memory runs out; the caller must
+ * then call box_lines_clear(). Cost: O(n) for n boxes, plus one hash look-up for each edge of an added box. */
 bool box_lines_update(box_lines *kept, const scene *s, unsigned first, unsigned end, bool *changed);
 
 /* ---- edges.c ------------------------------------------------------------------------------------------------- */
@@ -109,21 +112,21 @@ typedef ARRAY(edge) edge_array;
 
 typedef struct edge_list {
     edge_array now;
-    edge_array before; /* the merged edges of the last scene, used during a merge */
-    box_lines boxes;   /* the boxes of the last scene and their lines */
-    uint32_t *order;   /* indices into boxes.lines, in painting order */
-    size_t ordered;    /* the number of lines in `order`; newer lines are not in it yet */
+    edge_array before; /* the merged edges of the previous scene, used during a merge */
+    box_lines boxes;   /* the boxes of the last merged scene, and the lines of these boxes */
+    uint32_t *order;   /* indices into boxes.lines, sorted in painting order */
+    size_t ordered;    /* the number of lines in `order`, which does not yet contain newer lines */
 } edge_list;
 
 void edges_release(edge_list *list);
 
-/* Merge the edges of all boxes in the layers [first, end) into list->now. False when out of memory.
+/* Merge the edges of all boxes in the layers [first, end) into list->now. Returns false if memory runs out.
  *
  * Where edges with the same layer, stroke and width overlap, the shallowest box gives the merged edge its colour.
  * Touching edges with the same depth and colour become one edge. The result is sorted by layer, stroke, width and axis,
  * then by the coordinates of the lines.
  *
- * Cost: O(n log n) for n boxes. If most boxes are the same as in the last call: O(n) plus the work for changed
+ * Cost: O(n log n) for n boxes. If most boxes are the same as in the previous call: O(n) plus the work for changed
  * lines. */
 bool edges_merge(edge_list *list, const scene *s, unsigned first, unsigned end);
 

@@ -7,22 +7,23 @@
  * pixel, so that integers decide exactly what GL decides.
  *
  * Testing every pixel of a quad's bounding box would be slow. Instead, an edge is walked from row to row (or column to
- * column) as Bresenham's algorithm walks a line: the crossing is a whole pixel and a remainder, and a step is two
- * additions. Three shapes make up most of a picture and have faster code, which gives the same pixels: axis-aligned
- * rectangles, strips of constant width (lines), and convex quads. All other quads are split into triangles. */
+ * column) as Bresenham's algorithm walks a line. The point where the edge crosses a row is stored as a whole pixel and
+ * a remainder, and a step to the next row takes two additions. Three shapes make up most of a picture and have faster
+ * code, which gives the same pixels: axis-aligned rectangles, strips of constant width (lines), and convex quads. All
+ * other quads are split into triangles. */
 #include "fill.h"
 
 #include <string.h>
 
 #define CENTRE (QUAD_SUBPIXELS / 2)
 
-/* The pixels of a rectangle of the picture. */
+/* A part of the picture, and its pixels. */
 typedef struct target {
     uint8_t *bytes;
     int width, height;
 } target;
 
-/* Returns the first pixel whose centre is at or after a coordinate, clamped to 0..size. */
+/* Returns the first pixel whose centre is at or after a coordinate. The result is clamped to 0..size. */
 static int find_first_pixel(int32_t at, int size)
 {
     if (at <= CENTRE)
@@ -54,16 +55,16 @@ static void fill_rectangle(const target *t, const quad *q)
 
 /* ---- Edges -------------------------------------------------------------------------------------------------- */
 
-/* An edge that is walked pixel by pixel along one axis. At the current row (or column), `at` is the first pixel whose
- * centre is at or after the point where the edge crosses the row. The distance from this point to that centre is beyond
- * / whole pixels. */
+/* An edge that is walked pixel by pixel along one axis. `at` is the first pixel of the current row (or column) whose
+ * centre is at or after the point where the edge crosses that row. The centre is beyond / whole pixels after that
+ * point. */
 typedef struct edge_walk {
     int64_t at, beyond;
     int64_t turn, rest; /* from one row to the next, the crossing moves by turn + rest / whole pixels */
     int64_t whole;
 } edge_walk;
 
-/* Returns a / b rounded down, and in *rest the remainder, from 0 to b - 1. b must be positive. */
+/* Returns a / b rounded down. *rest becomes the remainder, from 0 to b - 1. b must be positive. */
 static int64_t divide_rounding_down(int64_t a, int64_t b, int64_t *rest)
 {
     int64_t quotient = a / b;
@@ -103,8 +104,8 @@ static void advance_edge(edge_walk *w)
  * long. Every row (or column) then has the same number of pixels, and only one edge needs to be walked.
  */
 
-/* True if the sides 0-3 and 1-2 are parallel to the axis `across` and have the same length, a whole number of
- * pixels. */
+/* Returns whether a quad is a strip: its sides 0-3 and 1-2 are parallel to the axis `across` and have the same length,
+ * which is a whole number of pixels. */
 static bool is_strip(const int32_t along[4], const int32_t across[4])
 {
     const int32_t width = across[3] - across[0];
@@ -118,13 +119,13 @@ typedef struct fill_axis {
     ptrdiff_t step;
 } fill_axis;
 
-/* A strip, walked along its long axis. Each step sets `width` pixels on the axis `across`. */
+/* A strip that is walked along its long axis. Each step sets `width` pixels on the other axis, `across`. */
 typedef struct strip_walk {
     uint8_t *step;  /* address of pixel 0 of the current row (or column) */
     ptrdiff_t next; /* the number of bytes from this row (or column) to the next */
     fill_axis across;
     int steps, width;
-    bool lower_is_out; /* a pixel whose centre is on the lower edge is outside */
+    bool lower_is_out; /* true: a pixel whose centre lies on the strip's lower edge is outside the strip */
     edge_walk lower;
     uint8_t color;
 } strip_walk;
@@ -152,15 +153,15 @@ static void fill_strip_unclipped(strip_walk w)
     }
 }
 
-/* True if a strip stays inside the picture on the axis `across`. */
+/* Returns whether a strip lies inside the picture on the axis `across`. */
 static bool is_strip_inside(const int32_t across[4], int size)
 {
     const int64_t end = (int64_t)size * QUAD_SUBPIXELS;
     return across[0] >= 0 && across[1] >= 0 && across[2] <= end && across[3] <= end;
 }
 
-/* By GL's rule a centre on the strip's lower edge is inside. Exception: on a flat strip that falls to the right, the
- * lower edge is neither a left edge nor a top edge. */
+/* Fill a strip. By GL's rule, a centre on the strip's lower edge is inside the strip. Exception: on a flat strip that
+ * falls to the right, the lower edge is neither a left edge nor a top edge, so a centre on it is outside. */
 static void fill_strip(const target *t, const quad *q, bool flat)
 {
     const int32_t *along = flat ? q->x : q->y, *across = flat ? q->y : q->x;
@@ -188,7 +189,7 @@ static void fill_strip(const target *t, const quad *q, bool flat)
 /* The left or right side of a quad: a chain of edges, walked from row to row. */
 typedef struct side {
     int corner; /* the number of the corner at which the current edge ends */
-    int way;    /* added to a corner's number, modulo 4, it gives the next corner: 1 or 3 */
+    int way;    /* 1 or 3: added to a corner's number, modulo 4, it gives the next corner of the chain */
     int end;    /* the row after the last row of the current edge */
     edge_walk edge;
 } side;
@@ -205,7 +206,7 @@ static void begin_next_edge(side *s, const quad *q, int row, int height)
     s->edge = begin_edge_walk(q->y[from], q->x[from], q->y[s->corner], q->x[s->corner], row);
 }
 
-/* Fill a convex quad. `turn` is the sign of its area: positive if its corners go clockwise on the screen. */
+/* Fill a convex quad. `turn` is the sign of the quad's area: positive if its corners go clockwise on the screen. */
 static void fill_convex(const target *t, const quad *q, int turn)
 {
     int top = 0, bottom = 0;

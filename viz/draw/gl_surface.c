@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* gl_surface.c - fills quads with GL into a framebuffer object and reads its pixels back. GL only rasterizes.
+/* gl_surface.c - fills quads with GL into a framebuffer object, and reads the pixels back. GL does nothing but
+ * rasterize.
  *
  * The framebuffer has one channel, which holds indices of colours, as PNG files do. The viewport is a square whose side
  * is a power of two. The conversion from 1/256 pixel to clip space and back is then exact in single precision, and no
@@ -13,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The GL functions in use: result type, name, parameters. */
+/* The GL functions that this file calls: result type, name, parameters. */
 #define GL_FUNCTIONS(X)                                                                                                \
     X(const GLubyte *, GetString, (GLenum name))                                                                       \
     X(void, GetIntegerv, (GLenum name, GLint * value))                                                                 \
@@ -47,7 +48,7 @@ typedef struct gl {
 #undef GL_MEMBER
 } gl;
 
-/* Look up all GL functions. False with an error that names the first missing function. */
+/* Look up all GL functions. Returns false with an error that names the first missing function. */
 static bool load_gl_functions(gl *functions, const context *c, octreel_error *error)
 {
     const char *missing = NULL;
@@ -60,7 +61,7 @@ static bool load_gl_functions(gl *functions, const context *c, octreel_error *er
     return !missing || error_set(error, "the %s context has no %s", draw_context_name(c->kind), missing);
 }
 
-#define BATCH 8192 /* the most quads in one draw call */
+#define BATCH 8192 /* the maximum number of quads in one draw call */
 
 typedef struct vertex {
     GLfloat x, y;
@@ -77,8 +78,8 @@ typedef struct gl_surface {
     GLuint indices[BATCH * 6];
 } gl_surface;
 
-/* Accept only llvmpipe, or any driver if `any` is set. No other driver is known to give the same pixels on every
- * machine. */
+/* Check that the driver is llvmpipe; if `any` is true, accept any driver. No driver but llvmpipe is known to give the
+ * same pixels on every machine. */
 static bool check_driver(gl_surface *s, bool any, octreel_error *error)
 {
     const char *name = (const char *)s->gl.GetString(GL_RENDERER);
@@ -110,7 +111,7 @@ static bool make_framebuffer(gl_surface *s, octreel_error *error)
                      draw_context_name(s->context->kind), s->width, s->height);
 }
 
-/* Set, once, all GL state on which frames depend. */
+/* Set all GL state on which frames depend. Called once, after opening. */
 static void set_gl_state(gl_surface *s)
 {
     const gl *gl = &s->gl;
@@ -133,7 +134,7 @@ static void set_gl_state(gl_surface *s)
     gl->ColorPointer(4, GL_UNSIGNED_BYTE, sizeof(vertex), s->vertices[0].color);
 }
 
-/* A quad is two triangles that share the diagonal from corner 0 to corner 2. */
+/* Make the indices of the vertices: a quad is two triangles that share the diagonal from corner 0 to corner 2. */
 static void make_vertex_indices(gl_surface *s)
 {
     static const GLuint corners[6] = {0, 1, 2, 0, 2, 3};
@@ -141,8 +142,8 @@ static void make_vertex_indices(gl_surface *s)
         s->indices[i] = i / 6 * 4 + corners[i % 6];
 }
 
-/* Convert from 1/256 pixel to clip space. This is exact: coordinates have at most 23 bits, and the side is a power of
- * two. */
+/* Convert corners from units of 1/256 pixel to clip space. The conversion is exact, because coordinates have at most 23
+ * bits, and the viewport's side is a power of two. */
 static void write_vertices(gl_surface *s, const quad *quads, size_t count)
 {
     const float scale = 2.0f / ((float)s->side * QUAD_SUBPIXELS);
@@ -174,7 +175,8 @@ static bool fill_with_gl(surface *face, const quad *quads, size_t count, rendere
 static renderer_info describe_surface(surface *face)
 {
     gl_surface *s = (gl_surface *)face;
-    s->context->make_current(s->context); /* glGetString() describes the current context */
+    /* glGetString() describes the current context, so this context must be current */
+    s->context->make_current(s->context);
     return (renderer_info){
         .kind = s->context->kind,
         .context = draw_context_name(s->context->kind),

@@ -7,11 +7,11 @@
 #include <math.h>
 #include <string.h>
 
-/* Text that begins this many pixels away from the origin cannot reach into a picture. */
+/* Text that begins more than this many pixels away from the origin cannot reach into a picture. */
 #define FARTHEST 1e6
 
-/* Move from the pixel of a world position to the pixel at which the text beside it begins. If the position is inside
- * the picture, the text is moved so that the picture's edge does not cut it off. */
+/* Move *pixel from the projection of a world position to the pixel at which the text beside the position begins. If the
+ * position is inside the picture, the text is moved so that it lies inside the picture too. */
 static void move_beside_position(const scene *s, const scene_label *label, double pixel[2])
 {
     const int aside[2] = {s->text.width / 2, -(s->text.height / 2)};
@@ -26,8 +26,8 @@ static void move_beside_position(const scene *s, const scene_label *label, doubl
     }
 }
 
-/* Find the top left pixel of a label's text. False if the label's position is not visible. Text begins at a whole
- * pixel, so that it stays crisp with anti-aliasing. */
+/* Find the top left pixel of a label's text. Returns false if the label's position is not visible. Text begins at a
+ * whole pixel, so that the text stays crisp with anti-aliasing. */
 static bool find_text_position(const scene *s, const scene_label *label, int *x, int *y)
 {
     double pixel[2] = {label->at[0], label->at[1]};
@@ -46,8 +46,9 @@ static bool find_text_position(const scene *s, const scene_label *label, int *x,
     return true;
 }
 
-/* Add the rectangles of a letter whose cell begins at (x, y), each enlarged by `rim` on all sides. `pixel` is the size
- * of one pixel of the face. All lengths are in subpixels. A character without a glyph becomes a question mark. */
+/* Add the rectangles of a character whose cell begins at (x, y). Each rectangle is enlarged by `rim` on all sides.
+ * `pixel` is the size of one pixel of the face. All lengths are in subpixels. A character without a glyph becomes a
+ * question mark. */
 static void add_letter(quad_list *list, quad *q, const glyph_set *set, char letter, int x, int y, int pixel, int rim)
 {
     const unsigned at = (unsigned char)letter - (unsigned)GLYPH_FIRST;
@@ -59,7 +60,7 @@ static void add_letter(quad_list *list, quad *q, const glyph_set *set, char lett
     }
 }
 
-/* Returns the width in pixels of the dark rim around a label's letters. */
+/* Returns the width in pixels of the dark rim around a label's characters. */
 static int find_rim_width(const scene *s, const scene_label *label)
 {
     return label->style.stroke != STROKE_CUT ? 0 : s->unit > 2 ? s->unit / 2 : 1;
@@ -81,7 +82,7 @@ void add_label_letters(quad_list *list, const scene *s, const scene_label *label
     }
 }
 
-/* Find the box around a label's text. False if the text is not visible. */
+/* Find the box around a label's text. Returns false if the text is not visible. */
 static bool find_text_box(const scene *s, const scene_label *label, draw_box *box)
 {
     const lettering *letters = scene_label_lettering(s, label);

@@ -10,10 +10,11 @@ typedef struct draw_box {
     int x, y, width, height;
 } draw_box;
 
-/* Visit the boxes around the text of a scene: the boxes of its labels and its panels. Needs no renderer. */
+/* Visit the boxes of all text in a scene: the box around each label, and each panel. This function needs no
+ * renderer. */
 void visit_text_boxes(const scene *s, void (*visit)(const draw_box *box, void *context), void *context);
 
-/* Add the letters of a label: at its pixel, or beside the projection of its world position. `s` is from
+/* Add the characters of a label: at its pixel, or beside the projection of its world position. `s` is from
  * project_scene_to_samples(). Private to this folder. */
 void add_label_letters(quad_list *list, const scene *s, const scene_label *label);
 

@@ -39,7 +39,8 @@ static void paint_segment(painter *p, const scene *s, const double from[3], cons
     add_stroke(p, s, pieces, count, style, depth);
 }
 
-/* Paint the segments in picture coordinates if `in_picture` is set, else the segments in world coordinates. */
+/* Paint the segments in picture coordinates if `in_picture` is true. Otherwise paint the segments in world
+ * coordinates. */
 static void paint_segments(painter *p, const scene *s, bool in_picture)
 {
     for (size_t i = 0; i < s->segments.count; i++) {
@@ -104,7 +105,8 @@ static bool reserve_points(painter *p, const scene *s)
     return true;
 }
 
-/* Paint one quad at each sample that has points. It shows a point of the nearest band, which would cover all others. */
+/* Paint one quad at each sample that has points. The quad shows a point of the nearest band, because such a point
+ * covers the points of all other bands. */
 static bool paint_points(painter *p, const scene *s)
 {
     if (!reserve_points(p, s))
@@ -126,12 +128,13 @@ static bool paint_points(painter *p, const scene *s)
         quads_begin_element(&p->quads, SCENE_MARKER, i);
         stroke_add_marker(&p->quads, &with, (scene_shape)marker->shape,
                           (const double[2]){at.pixel % width, (double)(at.pixel / width)}, at.band);
-        p->nearest[at.pixel] = UINT8_MAX; /* no further point is painted at this sample */
+        p->nearest[at.pixel] = UINT8_MAX; /* marks the sample as painted, so that no further point is painted there */
     }
     return true;
 }
 
-/* A close-up is clipped to its part of the picture, any other scene to the square of clip_square_side(). */
+/* Set the limits to which quads are clipped: for a close-up, its part of the picture; for any other scene, the square
+ * of clip_square_side(). */
 static void set_clip_limits(quad_list *list, const scene *s)
 {
     const int square = clip_square_side(s->view.width, s->view.height);
@@ -175,7 +178,8 @@ bool painter_paint_scene(painter *p, const scene *picture)
         if (s->panels.items[i].style.role == ROLE_OWN)
             splats_fill_panel(&p->splats, s, &s->panels.items[i]);
     }
-    paint_segments(p, s, true); /* picture segments come after panels, because they cover panels */
+    /* segments in picture coordinates are painted after panels, because they cover panels */
+    paint_segments(p, s, true);
     for (size_t i = 0; i < s->labels.count; i++) {
         quads_begin_element(&p->quads, SCENE_LABEL, i);
         add_label_letters(&p->quads, s, &s->labels.items[i]);

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /* pixel.c - finds the elements that are drawn at each sample, at one pixel, and by some layers.
  *
- * The idea is known as "item buffer": the quads of the picture are drawn a second time, with the number of their
- * element in place of their colour. The same rasterizer draws the same quads in the same order. So each sample has the
- * same topmost element as in the picture, and no second implementation of visibility is needed that could disagree. A
- * framebuffer has one byte per sample, so numbers are drawn byte by byte, in up to four passes.
+ * The technique is known as "item buffer": the quads of the picture are drawn a second time, and each quad has the
+ * number of its element instead of its colour. The same rasterizer draws the same quads in the same order. So each
+ * sample has the same topmost element as in the picture, and no second implementation of visibility is needed that
+ * could disagree. A framebuffer has one byte per sample, so numbers are drawn byte by byte, in up to four passes.
  *
- * Boxes need one more step. A merged edge is one stroke for all boxes that share it (edges.c). So the numbers that are
- * drawn are numbers of strokes, and edge_boxes.c then finds the box that owns the stroke at the sample.
+ * Boxes need one more step. A merged edge is drawn as one stroke, for all boxes that share the edge (edges.c). So the
+ * drawn numbers are numbers of strokes. edge_boxes.c then finds the box that gives the stroke its colour at the sample.
  *
  * To list everything at one pixel, including hidden elements, each quad that may reach the pixel is drawn alone into a
  * picture of that pixel. */
@@ -25,21 +25,22 @@
 
 /* ---- The scene and its close-up ------------------------------------------------------------------------------ */
 
-/* A painted scene. It has one stroke for each merged edge and for each element that is not a box. Strokes are numbered
- * from 1 in the order of elements. The strokes of a close-up follow the strokes of the scene around it. */
+/* A painted scene: the scene or its close-up. It has one stroke for each merged edge, and one for each element that is
+ * not a box. Strokes are numbered from 1 in the order of elements. The strokes of a close-up come after the strokes of
+ * the scene around it. */
 typedef struct source {
     const scene *scene;
     const painter *painter;
     scene fine; /* a copy of `scene` from project_scene_to_samples() */
     edge_boxes boxes;
     uint64_t strokes;         /* the number of strokes of this scene */
-    uint64_t strokes_before;  /* if this is a close-up: the number of strokes of the scene around it */
-    uint32_t elements_before; /* if this is a close-up: the number of elements of the scene around it */
-    int left, top;            /* the scene's top left sample in the picture */
-    bool points_listed;       /* add_painted_points() has listed this scene's points */
+    uint64_t strokes_before;  /* only for a close-up: the number of strokes of the scene around it */
+    uint32_t elements_before; /* only for a close-up: the number of elements of the scene around it */
+    int left, top;            /* position in the picture of the scene's top left sample */
+    bool points_listed;       /* true: add_painted_points() has listed this scene's points */
 } source;
 
-/* A scene and its close-up; the second entry is empty if the scene has no close-up. */
+/* A scene and its close-up. The second entry is empty if the scene has no close-up. */
 typedef source sources[2];
 
 static void release_sources(sources all)
@@ -48,7 +49,7 @@ static void release_sources(sources all)
         edge_boxes_release(&all[i].boxes);
 }
 
-/* Fill *from for a scene that p has painted. False when out of memory. */
+/* Fill *from for a scene that `p` has painted. Returns false if memory runs out. */
 static bool open_source(source *from, const scene *s, const painter *p)
 {
     const int samples = s->view.aa;
@@ -61,7 +62,8 @@ static bool open_source(source *from, const scene *s, const painter *p)
     return edge_boxes_find_all(&from->boxes, &from->fine);
 }
 
-/* Fill zeroed sources for a scene and its close-up. They must not be moved afterwards. False when out of memory. */
+/* Fill zeroed sources for a scene and its close-up. The sources must not be moved in memory afterwards. Returns false
+ * if memory runs out. */
 static bool open_sources(sources all, const scene *s, const painter *p)
 {
     if (!open_source(&all[0], s, p) || (s->has_closeup && !open_source(&all[1], s->closeup, p->closeup)))
@@ -76,8 +78,8 @@ static source *find_quad_source(sources all, const quad *q)
     return &all[q->kind >= QUAD_IN_CLOSEUP];
 }
 
-/* Returns the element of a quad. If the quad belongs to a box, q->index is a merged edge; the caller passes the box's
- * index. */
+/* Returns the element of a quad. If the quad belongs to a box, q->index is the index of a merged edge, and the caller
+ * passes the index of the box in `index`. */
 static scene_element make_quad_element(const quad *q, size_t index)
 {
     return (scene_element){(scene_kind)(q->kind % QUAD_IN_CLOSEUP), index, q->kind >= QUAD_IN_CLOSEUP};
@@ -96,7 +98,7 @@ static size_t count_samples(const scene *s)
     return (size_t)s->view.width * (size_t)s->view.height * side * side;
 }
 
-/* Draw all quads of a painter into `samples`, one byte per sample. */
+/* Draw all quads of a painter into `samples`, one byte for each sample. */
 static bool fill_all_quads(renderer *r, const scene *s, const painter *p, uint8_t *samples, octreel_error *error)
 {
     const int side = s->view.aa;
@@ -115,7 +117,8 @@ static uint64_t find_stroke_number(sources all, const quad *q)
            from->scene->boxes.count + painter_edge_count(from->painter);
 }
 
-/* Write to each sample the number of its topmost stroke. Draws one pass for each byte of the largest number. */
+/* Write the number of the topmost stroke to each sample. The quads are drawn once for each byte of the largest
+ * number. */
 static bool draw_stroke_numbers(renderer *r, const scene *s, painter *p, sources all, uint32_t *numbers,
                                 octreel_error *error)
 {
@@ -135,7 +138,7 @@ static bool draw_stroke_numbers(renderer *r, const scene *s, painter *p, sources
     return ok;
 }
 
-/* Returns the number of the element to which a stroke belongs at sample (x, y). */
+/* Returns the number of the element to which the stroke belongs at sample (x, y). */
 static uint32_t find_element_number(const source *from, uint32_t stroke, int x, int y)
 {
     const uint32_t edges = (uint32_t)painter_edge_count(from->painter);
@@ -145,7 +148,7 @@ static uint32_t find_element_number(const source *from, uint32_t stroke, int x, 
                                                y - from->top);
 }
 
-/* Replace the number of a stroke by the number of its element, at each sample. */
+/* Replace, at each sample, the number of the stroke by the number of its element. */
 static void replace_stroke_numbers(const scene *s, const sources all, uint32_t *numbers)
 {
     const size_t width = (size_t)s->view.width * (size_t)s->view.aa, size = count_samples(s);
@@ -161,7 +164,7 @@ bool renderer_find_element_numbers(renderer *r, const scene *s, uint32_t *number
 {
     if (!renderer_fits_scene(r, s, error))
         return false;
-    painter p = {0}; /* not the renderer's own painter, which keeps the last frame */
+    painter p = {0}; /* a painter of its own, because the renderer's painter must keep the previous frame */
     sources all = {0};
     const bool ok = ((painter_paint_scene(&p, s) && open_sources(all, s, &p)) || error_no_memory(error)) &&
                     draw_stroke_numbers(r, s, &p, all, numbers, error);
@@ -174,7 +177,7 @@ bool renderer_find_element_numbers(renderer *r, const scene *s, uint32_t *number
 
 /* ---- Layers -------------------------------------------------------------------------------------------------- */
 
-/* Returns a bit for the layer of a quad, and the bit of LAYER_CLOSEUP if the quad is in a close-up. */
+/* Returns the bit of a quad's layer. If the quad is in a close-up, the bit of LAYER_CLOSEUP is set too. */
 static unsigned find_quad_layers(const scene *s, const painter *p, const quad *q)
 {
     const scene_element element = make_quad_element(q, q->index);
@@ -184,7 +187,7 @@ static unsigned find_quad_layers(const scene *s, const painter *p, const quad *q
     return 1u << own | (element.in_closeup ? 1u << LAYER_CLOSEUP : 0);
 }
 
-/* Set a pixel of the mask if any of the pixel's samples is set. */
+/* Set a pixel of the mask if at least one of the pixel's samples is set. */
 static void shrink_mask(const view *v, const uint8_t *samples, uint8_t *mask)
 {
     const size_t side = (size_t)v->aa, width = (size_t)v->width;
@@ -213,16 +216,16 @@ bool renderer_find_layer_mask(renderer *r, const scene *s, unsigned layers, uint
 
 /* ---- All elements of one pixel ------------------------------------------------------------------------------- */
 
-#define MOST_SAMPLES 16 /* the most samples of a pixel: 4 on each axis */
+#define MOST_SAMPLES 16 /* the maximum number of samples of a pixel: 4 on each axis */
 
-/* The state while the elements at one pixel are listed. */
+/* The state of the search for the elements at one pixel. */
 typedef struct probe {
     const scene *picture;
     painter painter;
     sources sources;
     renderer_part part; /* the rectangle of the pixel's samples */
-    unsigned taken;     /* for each sample of the pixel, a bit: its topmost element is known */
-    const quad *quad;   /* the quad whose element is being listed */
+    unsigned taken;     /* one bit for each sample of the pixel; set if the topmost element of the sample is known */
+    const quad *quad;   /* the quad whose elements are being listed */
     draw_covers *list;
     bool out_of_memory;
 } probe;
@@ -233,7 +236,7 @@ void draw_covers_release(draw_covers *list)
     *list = (draw_covers){0};
 }
 
-/* Append an element to the list; the list must not hold it yet. Null when out of memory. */
+/* Append an element to the list. The list must not contain the element yet. Returns null if memory runs out. */
 static draw_cover *append_cover(probe *p, uint32_t number)
 {
     draw_covers *list = p->list;
@@ -245,7 +248,7 @@ static draw_cover *append_cover(probe *p, uint32_t number)
     return &list->items[list->count++];
 }
 
-/* Find an element's entry in the list, or append one. Null when out of memory. */
+/* Find an element's entry in the list, or append an entry. Returns null if memory runs out. */
 static draw_cover *find_or_append_cover(probe *p, scene_element element)
 {
     const uint32_t number = scene_element_number(p->picture, element);
@@ -255,7 +258,8 @@ static draw_cover *find_or_append_cover(probe *p, scene_element element)
     return append_cover(p, number);
 }
 
-/* Record that element `index` of the quad's kind covers a sample. Calls come from the topmost quad to the lowest. */
+/* Record that an element covers a sample: the element with the index `index` and the kind of p->quad. Calls come in the
+ * order of the quads from the topmost to the lowest. */
 static void add_covered_sample(probe *p, size_t index, int sample)
 {
     draw_cover *cover = find_or_append_cover(p, make_quad_element(p->quad, index));
@@ -269,15 +273,15 @@ static void add_covered_sample(probe *p, size_t index, int sample)
     cover->shown += shown;
 }
 
-/* Add a box that shares the edge which p->quad shows. */
+/* Add a box that shares the merged edge of p->quad. */
 static void add_sharing_box(size_t box, void *context)
 {
     probe *p = context;
     find_or_append_cover(p, make_quad_element(p->quad, box));
 }
 
-/* Append a point to the list. There is no search for an existing entry: points may be many, and the points passed to
- * this function have none, except the point of p->quad. */
+/* Append a point to the list, unless it is the point of p->quad, which has an entry already. No search for an existing
+ * entry is needed: the other points that callers pass have none, and there may be many. */
 static void append_point_cover(probe *p, size_t index)
 {
     if (index != p->quad->index)
@@ -293,8 +297,8 @@ static void add_sharing_points(probe *p, const source *from)
             append_point_cover(p, i);
 }
 
-/* List, once per scene, the points that are painted as discs (view_paints_points()) and cover the pixel, including
- * hidden ones. */
+/* List the points that are painted as discs (view_paints_points()) and cover the pixel, including hidden points. Each
+ * scene's points are listed only once. */
 static void add_painted_points(probe *p, source *from)
 {
     const splat_square samples = {p->part.x - from->left, p->part.y - from->top, p->part.width};
@@ -319,12 +323,13 @@ static void append_all_points(probe *p)
         add_sharing_points(p, from);
 }
 
-/* True if a quad may cover a sample of the pixel: its bounding box reaches the pixel. */
+/* Returns whether a quad may cover a sample of the pixel: whether the quad's bounding box reaches the pixel. */
 static bool can_reach_pixel(const quad *q, const renderer_part *part)
 {
     const int32_t left = part->x * QUAD_SUBPIXELS, right = (part->x + part->width) * QUAD_SUBPIXELS;
     const int32_t top = part->y * QUAD_SUBPIXELS, bottom = (part->y + part->height) * QUAD_SUBPIXELS;
-    int before = 0, after = 0, above = 0, below = 0; /* the number of corners beyond each side of the pixel */
+    /* the number of the quad's corners beyond each side of the pixel */
+    int before = 0, after = 0, above = 0, below = 0;
     for (int i = 0; i < 4; i++) {
         before += q->x[i] < left;
         after += q->x[i] > right;
@@ -334,7 +339,7 @@ static bool can_reach_pixel(const quad *q, const renderer_part *part)
     return before < 4 && after < 4 && above < 4 && below < 4;
 }
 
-/* Returns the samples of the pixel that the quad covers, as bits. *ok is set to false if drawing fails. */
+/* Returns the samples of the pixel that p->quad covers, as bits. *ok becomes false if drawing fails. */
 static unsigned find_covered_sample_bits(renderer *r, const probe *p, bool *ok, octreel_error *error)
 {
     uint8_t bytes[MOST_SAMPLES];
@@ -347,8 +352,8 @@ static unsigned find_covered_sample_bits(renderer *r, const probe *p, bool *ok, 
     return bits;
 }
 
-/* Add the boxes of a merged edge: first the box that owns the edge at each sample, then the boxes that share the
- * edge. */
+/* Add the boxes of a merged edge to the list: first, for each covered sample, the box that gives the edge its colour;
+ * then the boxes that share the edge. */
 static void add_edge_covers(probe *p, unsigned bits)
 {
     const source *from = find_quad_source(p->sources, p->quad);

@@ -2,8 +2,8 @@
 /* project.c - projects points and segments of the world into the picture, in double precision.
  *
  * GL would transform in single precision: a scene at coordinates of 1e15 would collapse, and the last bits would depend
- * on the CPU. So positions are first made relative to the camera, where no digits cancel, and rasterizers receive
- * pixels.
+ * on the CPU. So this file converts positions to camera coordinates, without cancelling digits, and then to pixels;
+ * rasterizers receive only pixels.
  *
  * A segment is clipped in camera space to the space in front of the eye, because a perspective division needs a
  * positive depth. It is then cut at the planes between the eight bands of depth; a band has one shade and one place in
@@ -18,10 +18,11 @@
 #include <math.h>
 #include <string.h>
 
-/* Segments are clipped at this distance in pixels outside the picture, so that their new ends are not visible. */
+/* Segments are clipped at this distance in pixels outside the picture, so that the ends of a clipped segment are not
+ * visible. */
 #define CLIP_MARGIN 64.0
 
-/* Camera coordinates larger than this could overflow when they are projected. */
+/* Larger camera coordinates could overflow when they are projected. */
 #define FARTHEST 1e301
 
 scene project_scene_to_samples(const scene *s)
@@ -36,8 +37,8 @@ scene project_scene_to_samples(const scene *s)
     return fine;
 }
 
-/* Returns the position of a view depth among the bands, from 0 at the near side of the world to QUAD_BANDS at its far
- * side. */
+/* Returns the position of a view depth among the bands, from 0 at the nearest depth of the world to QUAD_BANDS at its
+ * farthest depth. */
 static double find_band_position(const camera *c, double depth)
 {
     const double span = c->far_depth - c->near_depth;
@@ -51,8 +52,8 @@ static unsigned round_to_band(double position)
     return position < QUAD_BANDS ? (unsigned)position : QUAD_BANDS - 1;
 }
 
-/* Find the point of a segment at which a linear function is zero. at_a and at_b are the function's values at the two
- * ends; they have opposite signs. */
+/* Find the point of the segment from a to b at which a linear function is zero. at_a and at_b are the function's values
+ * at a and b, with opposite signs. */
 static void find_zero_crossing(const double a[3], const double b[3], double at_a, double at_b, double result[3])
 {
     const double whole = at_b / 2 - at_a / 2;
@@ -61,8 +62,8 @@ static void find_zero_crossing(const double a[3], const double b[3], double at_a
         result[i] = a[i] * of_a + b[i] * of_b;
 }
 
-/* Remove the part of a segment whose coordinate on `axis` is less (side 1) or greater (side -1) than the bound. False
- * if nothing is left. */
+/* Remove the part of a segment whose coordinate on `axis` is less than the bound (side 1) or greater than the bound
+ * (side -1). Returns false if nothing of the segment is left. */
 static bool clip_to_side(double a[3], double b[3], int axis, double side, double bound)
 {
     const double at_a = side * (a[axis] - bound), at_b = side * (b[axis] - bound);
@@ -71,7 +72,7 @@ static bool clip_to_side(double a[3], double b[3], int axis, double side, double
     if (at_a < 0 || at_b < 0) {
         double *outer = at_a < 0 ? a : b, crossing[3];
         find_zero_crossing(a, b, at_a, at_b, crossing);
-        crossing[axis] = bound; /* exactly the bound, without a rounding error */
+        crossing[axis] = bound; /* set the coordinate to exactly the bound, without a rounding error */
         memcpy(outer, crossing, sizeof crossing);
     }
     return true;
@@ -83,8 +84,8 @@ static bool is_in_picture(const view *v, const double pixel[2])
            pixel[1] <= v->height + CLIP_MARGIN;
 }
 
-/* Clip a projected piece to the picture with its margin. False if nothing is left. Most pieces lie inside and stay
- * unchanged. */
+/* Clip a projected piece to the picture with its margin. Returns false if nothing of the piece is left. Most pieces lie
+ * inside and stay unchanged. */
 static bool clip_to_picture(const view *v, piece *p)
 {
     if (is_in_picture(v, p->from) && is_in_picture(v, p->to))
@@ -94,7 +95,8 @@ static bool clip_to_picture(const view *v, piece *p)
     for (int axis = 0; axis < 2; axis++)
         if (!clip_to_side(a, b, axis, 1, -CLIP_MARGIN) || !clip_to_side(a, b, axis, -1, size[axis] + CLIP_MARGIN))
             return false;
-    /* rounding may move a weighted mean of two numbers outside the interval between them */
+    /* Clamp the new ends to the limits: rounding may move a weighted mean of two numbers outside the interval between
+     * them. */
     for (int axis = 0; axis < 2; axis++) {
         p->from[axis] = fmin(fmax(a[axis], -CLIP_MARGIN), size[axis] + CLIP_MARGIN);
         p->to[axis] = fmin(fmax(b[axis], -CLIP_MARGIN), size[axis] + CLIP_MARGIN);
@@ -102,8 +104,8 @@ static bool clip_to_picture(const view *v, piece *p)
     return true;
 }
 
-/* Cut a segment in camera coordinates at the planes between bands. The pieces are ordered from end a to end b. Returns
- * their number. */
+/* Cut a segment in camera coordinates at the planes between bands of depth. The pieces are ordered from end a to end b.
+ * Returns the number of pieces. */
 static unsigned cut_into_bands(const scene *s, const double a[3], const double b[3], piece pieces[QUAD_BANDS])
 {
     const double first = find_band_position(&s->camera, a[2]), last = find_band_position(&s->camera, b[2]);
@@ -133,7 +135,8 @@ static bool is_within_limits(double x, double y, double depth)
     return fabs(x) < FARTHEST && fabs(y) < FARTHEST && fabs(depth) < FARTHEST;
 }
 
-/* Transform a position to camera coordinates. False if later computations with them could overflow. */
+/* Transform a position to camera coordinates. Returns false if later computations with these coordinates could
+ * overflow. */
 static bool transform_to_camera(const scene *s, const double position[3], double seen[3])
 {
     camera_transform(&s->camera, position, seen);
@@ -189,15 +192,15 @@ bool find_pixel_and_depth(const scene *s, const double position[3], double pixel
            pixel[1] < s->view.height + CLIP_MARGIN;
 }
 
-/* The number of points that are projected at once. With 16, compilers unroll the loops below instead of vectorizing
- * them. */
+/* The number of points that are projected at once. With 16 points, compilers unroll the loops below instead of
+ * vectorizing them. */
 #define RUN 64
 
 typedef struct point_run {
     double from_eye[3][RUN];
     double across[RUN], along[RUN], depth[RUN]; /* the three camera coordinates of camera_transform() */
     double x[RUN], y[RUN], band[RUN];           /* the pixel (x, y), and the result of find_band_position() */
-    double seen[RUN];                           /* not 0: the point is in the picture */
+    double seen[RUN];                           /* not 0: the point is visible in the picture */
 } point_run;
 
 static void measure_along_axis(const point_run *run, const double axis[3], double seen[RUN])
@@ -208,7 +211,8 @@ static void measure_along_axis(const point_run *run, const double axis[3], doubl
     memcpy(seen, turned, sizeof turned);
 }
 
-/* Set `seen` of each point: is_within_limits() and is_at_visible_depth() hold, and the pixel is in the picture. */
+/* Set `seen` of each point that is_within_limits() and is_at_visible_depth() accept and whose pixel is in the
+ * picture. */
 static void find_visible_points(const scene *s, point_run *run)
 {
     const camera *c = &s->camera;
@@ -233,7 +237,7 @@ static void find_visible_points(const scene *s, point_run *run)
 
 static void project_run(const scene *s, point_run *run)
 {
-    const camera c = s->camera; /* a copy: the compiler then knows that no write below changes the camera */
+    const camera c = s->camera; /* a copy of the camera, so that the compiler knows that no write below changes it */
     for (int axis = 0; axis < 3; axis++)
         for (int i = 0; i < RUN; i++)
             run->from_eye[axis][i] = camera_to_unit_coordinate(&c, axis, run->from_eye[axis][i]) - c.eye[axis];
@@ -250,7 +254,8 @@ static void project_run(const scene *s, point_run *run)
     find_visible_points(s, run);
 }
 
-/* Copy the positions of `count` markers. If there are fewer than RUN, the first marker fills the remaining entries. */
+/* Copy the positions of `count` markers into the run. If there are fewer than RUN markers, copies of the first marker
+ * fill the remaining entries. */
 static void gather_positions(const scene_marker *markers, size_t count, point_run *run)
 {
     for (size_t i = 0; i < RUN; i++) {

@@ -38,7 +38,8 @@ static void append_quad(quad_list *list, const quad *q)
     added->index = list->index;
 }
 
-/* A negative coordinate becomes a large unsigned number, so that one comparison tests both limits. */
+/* Returns whether a quad lies within the limits. A negative coordinate becomes a large unsigned number, so that one
+ * comparison tests both limits of an axis. */
 static bool is_quad_within(const quad *q, const int32_t limits[2])
 {
     uint32_t x = 0, y = 0;

@@ -2,8 +2,8 @@
 /* quads.h - a list of quads, each with one colour, sorted in painter's order. Private to this folder.
  *
  * Coordinates are integers in units of 1/256 pixel; y points down. Later quads cover earlier quads. Quads are ordered
- * by layer; within a layer by eight bands of view depth, from far to near; within a band by the depth of their node in
- * the tree, deeper nodes first. */
+ * by layer. Within a layer they are ordered by eight bands of view depth, from far to near. Within a band they are
+ * ordered by the depth of their node in the tree, deeper nodes first. */
 #ifndef DRAW_QUADS_H
 #define DRAW_QUADS_H
 
@@ -14,51 +14,51 @@
 
 typedef struct quad {
     int32_t x[4], y[4];
-    uint8_t color;  /* an index of the theme's table of colours */
-    uint8_t kind;   /* scene_kind of the quad's element, plus QUAD_IN_CLOSEUP if the element is in a close-up */
+    uint8_t color;  /* an index into the theme's table of colours */
+    uint8_t kind;   /* the scene_kind of the quad's element; QUAD_IN_CLOSEUP is added if the element is in a close-up */
     uint16_t order; /* quads with a lower order are painted first */
-    uint32_t index; /* index of the quad's element; for boxes, index of the merged edge: see painter_edge_at() */
+    uint32_t index; /* index of the quad's element; for a box, the index of a merged edge (painter_edge_at()) */
 } quad;
 
 typedef struct quad_list {
     quad *items;
     size_t count, room;
     bool out_of_memory;
-    int32_t limits[2]; /* quads are clipped to [0, limits[axis]] on each axis; a limit of 0: not clipped */
+    int32_t limits[2]; /* quads are clipped to [0, limits[axis]] on each axis; if a limit is 0, they are not clipped */
     uint8_t kind;      /* kind and index of the element whose quads are being added */
     uint32_t index;
 } quad_list;
 
 void quads_release(quad_list *list);
 
-/* Set the element to which the quads added from now on belong. */
+/* Set the element to which all quads that are added from now on belong. */
 static inline void quads_begin_element(quad_list *list, scene_kind kind, size_t index)
 {
     list->kind = (uint8_t)kind;
     list->index = (uint32_t)index;
 }
 
-/* Add a convex quad. If memory runs out, list->out_of_memory is set. */
+/* Add a convex quad. If memory runs out, list->out_of_memory becomes true. */
 void quads_add_quad(quad_list *list, const quad *q);
 
-/* Set the corners of *q to the corners of a rectangle, in subpixels, and add it. */
+/* Set the corners of *q to the corners of a rectangle, in subpixels, and add *q to the list. */
 void quads_add_rectangle(quad_list *list, quad *q, int32_t left, int32_t top, int32_t right, int32_t bottom);
 
-/* Insert the quads of a close-up, moved by `by` subpixels, after all quads of layers up to LAYER_CLOSEUP. Both lists
- * must be sorted. False when out of memory. */
+/* Insert the quads of a close-up, moved by `by` subpixels, after all quads of the layers up to LAYER_CLOSEUP. Both
+ * lists must be sorted. Returns false if memory runs out. */
 bool quads_insert_closeup(quad_list *list, const quad_list *closeup, const int32_t by[2]);
 
-/* Sort quads by `order`; the sort is stable. False when out of memory. Cost: O(n), a counting sort. */
+/* Sort quads by `order`. The sort is stable. Returns false if memory runs out. Cost: O(n), by a counting sort. */
 bool quads_sort(quad_list *list);
 
-/* Returns quad.order for an element of a layer, in a band of view depth (0 is the nearest), that belongs to a node at
+/* Returns quad.order for an element of a layer, at a band of view depth (0 is the nearest), that belongs to a node at
  * `depth` in the tree. */
 uint16_t make_quad_order(unsigned layer, unsigned band, unsigned depth);
 
 #define QUAD_BANDS THEME_SHADES
 
-/* Returns quad.order for letters and panels, which have no view depth: they come last in their layer. Letters of axes
- * come after nodes and points, letters of nodes after points and velocities. */
+/* Returns quad.order for text and panels, which have no view depth and come last in their layer. Text of the axes comes
+ * after nodes and points. Text of nodes comes after points and velocities. */
 uint16_t make_text_order(unsigned layer);
 
 /* ---- clip.c --------------------------------------------------------------------------------------------------- */
@@ -69,7 +69,7 @@ int clip_square_side(int width, int height);
 
 #define CLIP_PIECES 3
 
-/* Clip a convex quad to [0, limits[axis]] on each axis. Writes up to CLIP_PIECES quads that share no pixel, and returns
+/* Clip a convex quad to [0, limits[axis]] on each axis. Writes up to CLIP_PIECES quads that do not overlap, and returns
  * their number. New corners are rounded to 1/256 pixel. Axis-aligned rectangles may have any coordinates; coordinates
  * of other quads must be within 2^28 of 0. */
 int clip_quad(const quad *q, const int32_t limits[2], quad pieces[CLIP_PIECES]);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* renderer.c - draws scenes as indices of colours, with the integer rasterizer or with GL (gl_surface.c). */
+/* renderer.c - draws scenes as pictures of colour indices, with the integer rasterizer or with GL (gl_surface.c). */
 #include "renderer.h"
 #include "fill.h"
 #include "paint.h"
@@ -9,7 +9,7 @@
 
 struct renderer {
     renderer_choice choice;
-    surface *surface; /* null: GL is not loaded */
+    surface *surface; /* the GL framebuffer; null: GL is not loaded */
     int width, height;
     painter painter;
     canvas canvas;
@@ -32,7 +32,7 @@ static bool check_size(int width, int height, octreel_error *error)
                      VIEW_MAX_SIDE);
 }
 
-/* True if GL, instead of the integer rasterizer, draws every scene. */
+/* Returns whether GL draws every scene, instead of the integer rasterizer. */
 static bool fills_with_gl(const renderer *r)
 {
     return r->choice.fill == DRAW_FILL_GL;
@@ -108,7 +108,7 @@ bool renderer_draw_scene(renderer *r, const scene *s, uint8_t *indices, octreel_
     return true;
 }
 
-/* The scene drawn last is not needed again: the canvas keeps its quads. */
+/* Draws the last scene again. The scene itself is not needed, because the canvas keeps its quads. */
 bool renderer_redraw_with_gl(renderer *r, uint8_t *indices, draw_context *by, octreel_error *error)
 {
     const renderer_part all = {0, 0, r->width, r->height};

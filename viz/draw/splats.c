@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /* splats.c - paints points as discs that form surfaces with shading.
  *
- * The problem: a point cloud has no triangles. If points are drawn as single pixels, they leave holes, and points
- * behind a wall shine through it. So each point becomes a disc as wide as the spacing of points, and at each sample the
- * nearest disc wins. A disc gets deeper towards its rim, like a paraboloid seen from its tip. So where discs of the
- * same size overlap at the same depth, each sample goes to the point whose centre is nearest. This is a Voronoi
- * diagram, which Hoff et al. (1999) draw with cones.
+ * The problem: a point cloud has no triangles. If points were drawn as single pixels, there would be holes between
+ * them, and points behind a wall would be visible through the holes. So each point becomes a disc as wide as the
+ * spacing of points, and at each sample the nearest disc wins. A disc gets deeper towards its rim, like a paraboloid
+ * seen from its tip. So where discs of the same size overlap at the same depth, each sample goes to the point whose
+ * centre is nearest. This is a Voronoi diagram, which Hoff et al. (1999) draw with cones.
  *
  * Shading is computed from depth alone: eye-dome lighting (Boucheny 2009) darkens a sample that lies deeper than the
- * samples around it. The differences to opposite neighbours are added first: on a tilted plane they cancel, and the
- * plane is lit evenly.
+ * samples around it. The differences of depth to two opposite neighbours are added first: on a tilted plane the two
+ * differences cancel, and the plane is lit evenly.
  *
  * Depths are integers, 8 units to a sample. Everything after projection is integer arithmetic, so every machine gives
  * the same result, also for ties. Under perspective, the depth is the logarithm of the distance, so that a slope looks
@@ -27,8 +27,8 @@
 
 /* ---- Position and size --------------------------------------------------------------------------------------- */
 
-/* The unit of depth is 1/8 of a sample. A difference of depth between two samples is thus a slope, independent of the
- * scale of the world and of the camera. */
+/* The unit of depth is 1/8 of a sample. So a difference of depth between two samples is a slope, which depends neither
+ * on the scale of the world nor on the camera. */
 #define DEPTH_PARTS 8
 #define MOST_DEPTH (1 << 29)
 
@@ -41,12 +41,12 @@ typedef struct splat {
 /* The values that all points of a scene share. */
 typedef struct splatter {
     const scene *scene;
-    double spacing; /* the diameter of a disc in samples; under perspective, of a disc at distance 1 */
+    double spacing; /* the diameter of a disc in samples; under perspective, the diameter of a disc at distance 1 */
     int most;       /* the largest diameter of a disc, in samples */
 } splatter;
 
-/* Returns log2 of a positive number, from its exponent and a polynomial: the same on every machine, unlike log2() of
- * libm. The error is at most 2e-5, and the function is increasing. */
+/* Returns log2 of a positive number, computed from the number's exponent and a polynomial. Unlike log2() of libm, the
+ * result is the same on every machine. The error is at most 2e-5, and the function is increasing. */
 static double approximate_log2(double x)
 {
     int exponent;
@@ -63,8 +63,8 @@ static splatter make_splatter(const scene *s)
                       .most = POINT_WIDEST * s->unit * s->view.aa};
 }
 
-/* Returns a view depth in integer units. Under perspective it is the logarithm of the depth, because an object at twice
- * the distance appears half as large. */
+/* Returns a view depth in integer units. Under perspective the result is the logarithm of the depth, because an object
+ * at twice the distance appears half as large. */
 static int32_t depth_in_units(const splatter *with, double depth)
 {
     const camera *c = &with->scene->camera;
@@ -73,7 +73,7 @@ static int32_t depth_in_units(const splatter *with, double depth)
     return samples > MOST_DEPTH ? MOST_DEPTH : samples < -MOST_DEPTH ? -MOST_DEPTH : (int32_t)samples;
 }
 
-/* Returns the diameter of a point's disc in samples. It is at least the side of a marker. */
+/* Returns the diameter of a point's disc in samples. The diameter is at least the side of a marker. */
 static int disc_diameter(const splatter *with, scene_style style, double depth)
 {
     const scene *s = with->scene;
@@ -95,8 +95,8 @@ static bool find_disc_square(const splatter *with, const scene_marker *marker, s
 
 /* ---- The nearest point --------------------------------------------------------------------------------------- */
 
-/* True if point a is nearer than point b, where their depths in units are equal. If their view depths are equal too,
- * the point with the lower id counts as nearer. */
+/* Returns whether point a is nearer than point b. The caller has found that their depths in units are equal. If their
+ * view depths are equal too, the point with the lower id counts as nearer. */
 static bool is_nearer(const scene *s, size_t a, size_t b)
 {
     double seen[2][3];
@@ -107,15 +107,15 @@ static bool is_nearer(const scene *s, size_t a, size_t b)
     return s->markers.items[a].id < s->markers.items[b].id;
 }
 
-/* True if a sample is inside a disc of diameter `side`; `far` is the square of the sample's distance from the disc's
- * centre, in half samples. */
+/* Returns whether a sample is inside a disc of diameter `side`. `far` is the square of the sample's distance from the
+ * disc's centre, in half samples. */
 static bool is_in_disc(int side, int far)
 {
     return side <= 2 || far <= side * side;
 }
 
-/* Find the depth of a disc at sample (x, y); `depth` is the depth of the disc's centre. False if the sample is outside
- * the disc. */
+/* Find the depth of a disc at sample (x, y). `depth` is the depth of the disc's centre. Returns false if the sample is
+ * outside the disc. */
 static bool find_disc_depth(const splat_square *q, int x, int y, int32_t depth, int32_t *at)
 {
     const int dx = 2 * (x - q->left) - q->side + 1, dy = 2 * (y - q->top) - q->side + 1, far = dx * dx + dy * dy;
@@ -139,8 +139,8 @@ static void draw_disc(splats *t, const scene *s, size_t index, const splat_squar
     }
 }
 
-/* Returns the counter of the pixel that contains the centre of a disc. Null if the centre is outside the picture, or if
- * points are not counted. */
+/* Returns the counter of the pixel that contains the centre of a disc. Returns null if the centre is outside the
+ * picture, or if points are not counted. */
 static uint32_t *find_density_counter(const splats *t, const scene *s, const splat_square *q)
 {
     const int samples = s->view.aa, half = (q->side - 1) / 2;
@@ -167,14 +167,14 @@ static void draw_discs(splats *t, const splatter *with)
 
 /* ---- Light --------------------------------------------------------------------------------------------------- */
 
-/* A sample gets half of the full light if its slopes have this sum, in units per sample. */
+/* A sample gets half of the full light if the sum of its slopes is this number, in units of depth per sample. */
 #define HALF_LIGHT 160
 
-/* The steepest slope, in units per sample, that is counted: if a slope is steeper, the neighbour belongs to another
- * object. */
+/* The steepest slope that is counted, in units of depth per sample. If a slope is steeper, the neighbour belongs to
+ * another object. */
 #define STEEPEST (4 * DEPTH_PARTS)
 
-/* Returns how much nearer than `depth` the point at sample (x, y) is; 0 if there is no point. */
+/* Returns how much nearer than `depth` the point at sample (x, y) is. Returns 0 if there is no point. */
 static int32_t find_depth_difference(const splats *t, const scene *s, int x, int y, int32_t depth)
 {
     if (x < 0 || y < 0 || x >= s->view.width || y >= s->view.height)
@@ -188,8 +188,8 @@ static int32_t clamp_slope(int32_t value, int32_t most)
     return value > most ? most : value < -most ? -most : value;
 }
 
-/* Returns how much deeper a sample is than the eight samples at distance `reach`. Opposite neighbours are added first,
- * so that a plane is lit evenly, however steep it is. */
+/* Returns how much deeper a sample is than the eight samples around it at distance `reach`. The differences to opposite
+ * neighbours are added first, so that a plane is lit evenly, however steep it is. */
 static int32_t measure_depth_below_neighbors(const splats *t, const scene *s, int x, int y, int reach)
 {
     static const int8_t around[4][2] = {{1, 0}, {0, 1}, {1, 1}, {1, -1}};
@@ -204,7 +204,8 @@ static int32_t measure_depth_below_neighbors(const splats *t, const scene *s, in
     return sum / reach;
 }
 
-/* Returns the light at a sample, 256 for full light. Eye-dome lighting at two distances shows fine and large shapes. */
+/* Returns the light at a sample; 256 is full light. Eye-dome lighting at two distances shows both fine and large
+ * shapes. */
 static int find_light(const splats *t, const scene *s, int x, int y)
 {
     const int reach = s->unit * s->view.aa;
@@ -263,7 +264,7 @@ static void set_run_colors(splats *t, const splatter *with, int x, int end, int 
             s->view.shade == SHADE_EDL ? theme_fade_color(color, find_light(t, s, x, y)) : color;
 }
 
-/* Add one quad for each run of samples of row y that show the same point. */
+/* Add the quads of row y: one quad for each run of samples that show the same point. */
 static void paint_row(splats *t, quad_list *quads, const splatter *with, int y)
 {
     const int width = with->scene->view.width;
@@ -333,7 +334,7 @@ void splats_copy_closeup(splats *t, const scene *s, const splats *closeup, const
 
 /* ---- Hidden points -------------------------------------------------------------------------------------------- */
 
-/* Find the least depth of a disc in a square of samples. False if the disc covers none of the samples. */
+/* Find the least depth of a disc in a square of samples. Returns false if the disc covers none of these samples. */
 static bool find_least_depth(const splat_square *q, int32_t depth, const splat_square *samples, int32_t *least)
 {
     bool any = false;

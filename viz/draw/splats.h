@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* splats.h - paints points as discs, each in its own colour. Private to this folder.
  *
- * Pictures hold indices of the theme's colours, and points have far more colours than the theme. So quads of points
- * have the index THEME_OWN, and `colors` holds the colour of each sample with this index. */
+ * A picture holds indices of the theme's colours, but points have far more colours than the theme. So quads of points
+ * have the index THEME_OWN. The array `colors` holds the colour of each sample with this index. */
 #ifndef DRAW_SPLATS_H
 #define DRAW_SPLATS_H
 
@@ -11,33 +11,35 @@
 
 /* Buffers that are reused from frame to frame. A zeroed struct is empty. */
 typedef struct splats {
-    struct splat *samples; /* the nearest point at each sample */
-    uint32_t *shared;      /* with POINTS_BY_DENSITY: the number of points whose centre is in each pixel */
-    theme_color *colors;   /* the colour of each sample; valid where the picture has the index THEME_OWN */
+    struct splat *samples; /* for each sample, the nearest point */
+    /* with POINTS_BY_DENSITY: for each pixel, the number of points whose centre is in the pixel */
+    uint32_t *shared;
+    theme_color *colors; /* the colour of each sample; valid only for samples with the index THEME_OWN */
     size_t sample_room, shared_room, color_room;
 } splats;
 
 void splats_release(splats *t);
 
-/* Add the quads of a scene's points, and set the colours of their samples. `s` is from project_scene_to_samples().
- * False when out of memory. Cost: O(samples of the picture + points * samples of a disc). */
+/* Add the quads of a scene's points, and set the colours of the samples that these quads cover. `s` is from
+ * project_scene_to_samples(). Returns false if memory runs out. Cost: O(samples of the picture + points * samples of a
+ * disc). */
 bool splats_paint_points(splats *t, quad_list *quads, const scene *s);
 
-/* Set the colours of a panel whose quad has the index THEME_OWN, such as a swatch of the legend. */
+/* Set the colours of the samples of a panel whose quad has the index THEME_OWN, such as a swatch of the legend. */
 void splats_fill_panel(splats *t, const scene *s, const scene_panel *panel);
 
 /* Copy the colours of the close-up `closer` into its part of the picture of `s`. Both scenes are from
  * project_scene_to_samples(). */
 void splats_copy_closeup(splats *t, const scene *s, const splats *closeup, const scene *closer);
 
-/* A list of points that cover samples of a square, including hidden points, nearest first. A zeroed list is empty. The
- * caller frees its items. */
+/* A list of points whose discs cover samples of a square, including hidden points, nearest first. A zeroed list is
+ * empty. The caller frees the items of the list. */
 typedef ARRAY(struct splat_covering) splat_list;
 
 typedef struct splat_covering {
     size_t marker; /* the index of the point's marker in the scene */
-    int32_t depth; /* the least depth of the point's disc in the square; ties are decided by view_depth, then by the
-                      lower id */
+    /* the least depth of the point's disc in the square; of equal depths, view_depth decides, and then the lower id */
+    int32_t depth;
     double view_depth;
     uint64_t id;
 } splat_covering;
@@ -47,8 +49,8 @@ typedef struct splat_square {
     int left, top, side;
 } splat_square;
 
-/* List the points of a scene that cover samples of a square. `s` is from project_scene_to_samples(). False when out of
- * memory. Cost: O(markers). */
+/* List the points of a scene whose discs cover samples of a square. `s` is from project_scene_to_samples(). Returns
+ * false if memory runs out. Cost: O(markers). */
 bool splats_list_covering_points(const scene *s, const splat_square *samples, splat_list *list);
 
 #endif

@@ -2,7 +2,8 @@
 /* stroke.c - turns lines, markers and panels into quads.
  *
  * GL's own lines and points are not used, because versions of Mesa differ in the pixels that they cover. Here every
- * shape is a quad with corners on a grid of 1/256 sample. For quads the rule is exact (fill.c).
+ * shape is a quad with corners on a grid of 1/256 sample. For quads, an exact rule decides which pixels they cover
+ * (fill.c).
  *
  * A line is drawn as a parallelogram: each end is widened by half the line's width, along the axis on which the line is
  * shorter. A line of one sample's width thus covers exactly one sample in each column (or row), as with Bresenham's
@@ -17,11 +18,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The length of a dash, and of the gap after it, in half units of scene.unit. */
+/* The length of a dash, and the length of the gap after it, in half picture units. */
 #define DASH 6
 #define GAP 4
 
-/* The head of an arrow, in half units of scene.unit: its length, and its extent to each side of the arrow. */
+/* The head of an arrow, in half picture units: its length, and its extent to each side of the arrow. */
 #define HEAD 8
 #define HEAD_SIDE 4
 
@@ -45,8 +46,8 @@ pencil stroke_make_pencil(const scene *s, scene_style style, unsigned depth)
                     .depth = depth};
 }
 
-/* Layers that show the events of a tick fade with distance only a third as much as the tree. In the farthest shades
- * their elements would be hard to see. */
+/* Returns the shade of an element at a band of depth. Layers that show the events of a tick fade with distance only a
+ * third as much as the tree, because their elements would be hard to see in the farthest shades. */
 static unsigned find_shade(const pencil *with, unsigned band)
 {
     if (with->style.role == ROLE_BACKGROUND)
@@ -82,21 +83,23 @@ static void add_line(quad_list *list, const pencil *with, unsigned band, const d
     quads_add_quad(list, &q);
 }
 
-/* Returns the coordinate of a pixel's left or top edge, clamped to a value outside every picture. */
+/* Returns the coordinate of a pixel's left or top edge. Far outside the picture, the result is clamped to a value that
+ * is still outside every picture. */
 static int32_t find_pixel_edge(int64_t pixel)
 {
     const int64_t most = 2 * VIEW_MAX_SIDE;
     return (int32_t)(pixel < -most ? -most : pixel > most ? most : pixel) * QUAD_SUBPIXELS;
 }
 
-/* Add a filled rectangle. Its position and size are in samples. */
+/* Add a filled rectangle. The rectangle's position and size are in samples. */
 static void add_rectangle(quad_list *list, quad q, int64_t x, int64_t y, int64_t width, int64_t height)
 {
     quads_add_rectangle(list, &q, find_pixel_edge(x), find_pixel_edge(y), find_pixel_edge(x + width),
                         find_pixel_edge(y + height));
 }
 
-/* True if a segment is shorter than a sample on both axes: as a parallelogram it might cover no sample's centre. */
+/* Returns whether a segment is shorter than a sample on both axes. As a parallelogram, such a segment might cover no
+ * sample's centre. */
 static bool is_shorter_than_sample(const piece *pieces, unsigned count)
 {
     const piece *first = &pieces[0], *last = &pieces[count - 1];
@@ -109,7 +112,8 @@ static void add_solid_line(quad_list *list, const pencil *with, const piece *pie
         add_line(list, with, pieces[i].band, pieces[i].from, pieces[i].to);
 }
 
-/* Dashes continue from piece to piece: `phase` is the current position within the pattern of one dash and one gap. */
+/* Add a dashed line. Dashes continue from piece to piece: `phase` is the current position within the pattern of one
+ * dash and one gap. */
 static void add_dashed_line(quad_list *list, const pencil *with, const piece *pieces, unsigned count)
 {
     const double half_unit = with->unit * with->samples / 2.0, dash = DASH * half_unit, period = dash + GAP * half_unit;
@@ -129,7 +133,8 @@ static void add_dashed_line(quad_list *list, const pencil *with, const piece *pi
     }
 }
 
-/* An arrow's head is at most half as long as the arrow. A head that would be too small to see is left out. */
+/* Add the head of an arrow. The head is at most half as long as the arrow. A head that would be too small to see is
+ * left out. */
 static void add_arrow_head(quad_list *list, const pencil *with, const piece *first, const piece *last)
 {
     const double half_unit = with->unit * with->samples / 2.0;
@@ -199,8 +204,8 @@ static void add_cross(quad_list *list, const pencil *with, unsigned band, int x,
     add_line(list, with, band, (double[2]){left, bottom}, (double[2]){right, top});
 }
 
-/* Add the area between two regular polygons with a common centre. Their first corner is above the centre if `up` is
- * set, else below it. */
+/* Add the area between two regular polygons with a common centre. The first corner of the polygons is above the centre
+ * if `up` is true, otherwise below the centre. */
 static void add_ring(quad_list *list, quad q, const double center[2], int corners, bool up, const double radii[2])
 {
     double from[2] = {0, up ? -1 : 1}, to[2];
@@ -218,7 +223,8 @@ static void add_ring(quad_list *list, quad q, const double center[2], int corner
     }
 }
 
-/* Add a ring, triangle or wedge that fits into a square whose side is `side` and whose top left corner is `corner`. */
+/* Add a ring, triangle or wedge that fits into a square. `side` is the side of the square, `corner` its top left
+ * corner. */
 static void add_polygon(quad_list *list, const pencil *with, quad q, scene_shape shape, const double corner[2],
                         int side)
 {
