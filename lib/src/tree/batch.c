@@ -1,25 +1,28 @@
 /* SPDX-License-Identifier: MIT */
-/* batch.c - the points of a batch: checked, sorted by Morton code, repetitions dropped, and matched with leaves.
+/* batch.c - prepares a batch of changes: checks its points, sorts them by Morton code, drops repeated points, and finds
+ * their leaves.
  *
  * Problem: a thousand changes made one by one walk down from the root a thousand times, in random order of memory, and
  * split and merge the same leaves repeatedly.
  *
  * Idea: sort the changes by Morton code, which is the order of the leaves in a walk. All changes of one leaf are then
- * adjacent, so that one pass over the tree visits each changed leaf once. The pass keeps its path from the root and
- * goes up only as far as the next code requires; it finds six leaves ahead and prefetches them.
+ * adjacent, so that one pass over the tree visits each changed leaf once. The pass keeps its path from the root, and
+ * goes up only as far as the next code requires. It finds the next six leaves in advance and prefetches them.
  *
- * A point that occurs twice in a batch is changed once. Items with equal codes are compared in a small leaf, which
- * serves as a table; a repeated item gets its status from the first.
+ * A point that occurs twice in a batch is changed once. An item is the Morton code and the index of a point. Items with
+ * equal codes are compared in a small leaf, which serves as a hash table. A repeated item gets the status of the first
+ * item of the same point.
  *
  * Large batches are divided into tasks (division.h), each with the items of whole subtrees. restructure.c then plans
- * the changes, plan.c makes them. Cost: O(count) radix passes and one visit per leaf.
+ * the changes, and plan.c makes them. Cost: O(count) radix passes and one visit per leaf.
  */
 #include "division.h"
 #include "grid_fill.h"
 
 #include <string.h>
 
-/* Allocate memory for `each` items per point of the batch. */
+/* Allocate memory for `each` items per point of the batch. An item (morton_item) is the Morton code and the index of a
+ * point. */
 static morton_item *allocate_items(const batch *b, size_t each)
 {
     /* unreachable: size_t has 64 bits, and a batch has at most UINT32_MAX points */
@@ -33,8 +36,8 @@ static void release_items(const batch *b, morton_item *items, size_t each)
     arena_free(&b->tree->store.memory, items, each * (b->count + 1) * sizeof *items);
 }
 
-/* The number of lists in the one allocation that a batch of moves uses. With several allocations malloc would return
- * their pages to the system, and every batch would cause page faults again. */
+/* The number of lists in the single allocation that a batch of moves makes. If each list were allocated separately,
+ * malloc would return the pages to the system, and every batch would cause page faults again. */
 static size_t shared_list_count(const batch *b)
 {
     return b->to ? 4 : 1;
@@ -55,14 +58,14 @@ static bool allocate_lists(batch *b)
 
 enum { TOGETHER = 64 }; /* the number of positions whose codes are computed in one call */
 
-/* Check a point and, for a move, its destination. */
+/* Check the position of a point and, if the batch moves points, the destination. */
 static octree_status check_point_and_destination(const batch *b, size_t place, uint64_t *code)
 {
     const octree_status status = complete_code(b->tree, b->points[place].position, code);
     return status == OCTREE_OK && b->to ? check_in_world(b->tree, b->to[place]) : status;
 }
 
-/* Append items for the valid points among points[first .. first + count - 1]. */
+/* Append items for those of the points points[first .. first + count - 1] that are valid. */
 static void collect_valid_points(batch *b, size_t first, size_t count)
 {
     uint64_t codes[TOGETHER];
@@ -83,7 +86,7 @@ static void collect_valid_range(batch *b, size_t first, size_t end)
         collect_valid_points(b, i, end - i < TOGETHER ? end - i : TOGETHER);
 }
 
-/* Collect the items of a part. They are stored from the index of the part's first point on. */
+/* Collect the items of one part of the batch. The items are stored from the index of the part's first point on. */
 static void collect_valid_part(size_t number, void *context)
 {
     division *d = context;
@@ -93,7 +96,7 @@ static void collect_valid_part(size_t number, void *context)
     collect_valid_range(b, first, share_start(b->count, d->tasks, number + 1));
 }
 
-/* Append the items of a part to the items of the parts before it, so that no gap is left. */
+/* Append the items of a part to the items of the previous parts, so that no gap is left between them. */
 static void append_part_items(span *all, span part)
 {
     if (part.count > 0 && all->items + all->count != part.items)
@@ -131,16 +134,17 @@ static bool sort_items(batch *b)
 
 enum { LEVELS_BELOW = 6 };
 
-/* Whether full leaves are rare. They are if the tree never refuses a point, or if a cell at the maximum depth is much
- * smaller than a cell of the grid. */
+/* Returns whether moves rarely meet a full leaf. This is so if the tree never refuses a point, or if a cell at the
+ * maximum depth is much smaller than a cell of the grid. */
 static bool rarely_refuses_points(const octree_def *def)
 {
     return def->full_leaf != OCTREE_REFUSE || def->max_depth >= GRID_DEEPEST + LEVELS_BELOW;
 }
 
-/* Decide whether a batch of moves rebuilds the tree. With a grid, a rebuild costs 170 instructions per stored point and
- * pays if at least a fifth of the points move. Without a grid it costs 350 and pays from three tenths on (callgrind,
- * 1e5 points); sorting then also finds the points that may meet a full leaf. False when there is no memory. */
+/* Decide whether a batch of moves rebuilds the tree. With a grid, a rebuild takes 170 instructions per stored point,
+ * and is worth its cost if at least a fifth of the points move. Without a grid, a rebuild takes 350 instructions and is
+ * worth its cost from three tenths on (measured with callgrind, 1e5 points); sorting then also finds the points that
+ * may meet a full leaf. Returns false if memory runs out. */
 static bool decide_remake(batch *b)
 {
     const size_t stored = b->tree->root.count;
@@ -160,7 +164,7 @@ octree_status prepare_batch(batch *b)
     return b->remakes ? OCTREE_OK : collect_batch_points(b);
 }
 
-/* Find the grid cells of one task's points. If an empty tree is built, cells take the place of items. */
+/* Find the grid cells of one task's points. When points are inserted into an empty tree, grid cells replace items. */
 static void find_cells_of_share(size_t number, void *context)
 {
     const batch *b = context;
@@ -209,7 +213,7 @@ void release_batch(batch *b)
 size_t count_in_first_octant(const morton_item *items, size_t count, unsigned depth)
 {
     const unsigned octant = morton_octant(items[0].code, depth);
-    size_t low = 1, high = count; /* the first item in another octant is in [low, high] */
+    size_t low = 1, high = count; /* invariant: the index of the first item in another octant is in [low, high] */
     while (low < high) {
         const size_t middle = low + (high - low) / 2;
         if (morton_octant(items[middle].code, depth) == octant)
@@ -220,7 +224,7 @@ size_t count_in_first_octant(const morton_item *items, size_t count, unsigned de
     return low;
 }
 
-/* Whether the ids of the items' points are strictly ascending. */
+/* Returns whether the ids of the items' points are strictly ascending. */
 static bool item_ids_ascend(const batch *b, const morton_item *items, size_t count)
 {
     for (size_t i = 1; i < count; i++)
@@ -229,8 +233,9 @@ static bool item_ids_ascend(const batch *b, const morton_item *items, size_t cou
     return true;
 }
 
-/* Among items of equal code, in the caller's order, keep the first item of each pair (position, id). Add the others to
- * the list of repetitions. *kept receives the number of items kept. False when there is no memory. */
+/* Of several items with the same pair (position, id), keep the first; the items have equal codes and are in the
+ * caller's order. Add the other items to the list of repetitions. *kept receives the number of items kept. Returns
+ * false if memory runs out. */
 static bool drop_repeated_items(batch *b, morton_item *items, size_t count, size_t *kept)
 {
     store *st = &b->tree->store;
@@ -281,15 +286,16 @@ void set_repeated_statuses(const batch *b, octree_status status)
 
 /* ---- Visiting the leaves of the items --------------------------------------------------------------------------- */
 
-/* A leaf with the items in its cell. A null node means that no node exists for the items' octant. */
+/* A leaf, and the items of the batch in the leaf's cell. A null node means that no node exists for the items'
+ * octant. */
 typedef struct visit {
     node *node;
     unsigned depth;
     span items;
 } visit;
 
-/* The number of sorted items in the cell of this depth that contains the first item. A linear search, because the
- * number is usually small. */
+/* Returns the number of items that lie in the same cell of this depth as the first item. The items are sorted. The
+ * search is linear, because the number is usually small. */
 static size_t count_in_first_cell(const batch *b, span items, unsigned depth)
 {
     const unsigned below = 3 * (OCTREE_MAX_DEPTH - depth);
@@ -299,8 +305,8 @@ static size_t count_in_first_cell(const batch *b, span items, unsigned depth)
     return share;
 }
 
-/* Extend the path down to the leaf of the first item, and store the leaf with its items in *next. Then shorten the path
- * to the deepest node that also contains the next leaf's first item. */
+/* Extend the path down to the leaf of the first item, and store this leaf and its items in *next. Then shorten the path
+ * to its deepest node that also contains the first item of the next leaf. */
 static void find_next_visit(const batch *b, path *p, unsigned top, span *items, visit *next)
 {
     const uint64_t code = items->items[0].code;
@@ -320,9 +326,9 @@ static void find_next_visit(const batch *b, path *p, unsigned top, span *items, 
         p->depth--;
 }
 
-enum { LEAVES_TOGETHER = 6 }; /* the number of leaves that are prefetched before the first of them is visited */
+enum { LEAVES_TOGETHER = 6 }; /* the number of leaves that are prefetched before the first of these leaves is visited */
 
-/* Visit the leaves that contain the items, below a node of this depth. */
+/* Visit the leaves that contain the items. All items lie below a node of this depth. */
 static void visit_leaves_below(batch *b, node *n, unsigned depth, span items, leaf_visitor *visitor)
 {
     path p = {.depth = depth};
@@ -339,8 +345,8 @@ static void visit_leaves_below(batch *b, node *n, unsigned depth, span items, le
 
 /* ---- Visiting by tasks -------------------------------------------------------------------------------------- */
 
-/* Make jobs: subtrees with the items in them. A job has at most `grain` items or is a single leaf. False when there
- * is no memory. */
+/* Add jobs for the items. A job is a subtree with the items in it. A job has at most `grain` items, or its subtree is a
+ * single leaf. Returns false if memory runs out. */
 static bool add_visit_jobs(batch *b, const node *n, unsigned depth, span items)
 {
     if (!n || !n->octants || items.count <= b->division->grain)
@@ -353,14 +359,14 @@ static bool add_visit_jobs(batch *b, const node *n, unsigned depth, span items)
     return true;
 }
 
-/* An empty list that begins at index `before` of the memory of another list. */
+/* Returns an empty list that uses the memory of another list, from index `before` on. */
 static span empty_span_at(span list, size_t before)
 {
     return (span){list.items ? list.items + before : NULL, 0};
 }
 
-/* Visit the leaves of one part. The part writes its lists from the index of its first item on, so that parts do not
- * overlap. */
+/* Visit the leaves of one part. The part writes its lists into the shared lists, from the index of its first item on,
+ * so that the lists of parts do not overlap. */
 static void visit_leaves_of_part(size_t number, void *context)
 {
     division *d = context;
@@ -371,11 +377,12 @@ static void visit_leaves_of_part(size_t number, void *context)
     b->leaving = empty_span_at(b->leaving, before);
     b->arriving = empty_span_at(b->arriving, before);
     b->done = 0;
-    for (size_t i = first; i < end; i++) /* const is cast away: the nodes of the tree are not const */
+    /* The cast removes const, which is correct because the nodes of the tree are not const. */
+    for (size_t i = first; i < end; i++)
         visit_leaves_below(b, (node *)(uintptr_t)jobs[i].old, jobs[i].cell.depth, jobs[i].arriving, d->visitor);
 }
 
-/* Visit the leaves of all items. False when there is no memory; then nothing was visited. */
+/* Visit the leaves of all items by tasks. Returns false if memory runs out; no leaf was visited then. */
 static bool visit_leaves_by_tasks(batch *b, leaf_visitor *visitor)
 {
     division *d = b->division;

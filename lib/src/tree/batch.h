@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* batch.h - many changes of a tree at once.
+/* batch.h - makes many changes of a tree at once.
  *
  * The points that leave their position and the points that arrive at one are sorted by Morton code. restructure_tree()
  * walks the tree once and makes a plan: a leaf with enough room is edited later in place; any other changed node gets a
- * successor; unchanged nodes are shared. Planning allocates and may fail. Carrying out the plan cannot fail, so a batch
- * happens completely or not.
+ * successor; unchanged nodes are shared. Planning allocates memory and may fail. Carrying out the plan cannot fail, so
+ * a batch happens completely or not at all.
  */
 #ifndef OCTREE_BATCH_H
 #define OCTREE_BATCH_H
@@ -12,7 +12,8 @@
 #include "morton_sort.h"
 #include "tree.h"
 
-/* Items sorted by code. Items of one leaf may be in any order. */
+/* A list of items sorted by Morton code; the items of one leaf may be in any order. An item (morton_item) is the Morton
+ * code and the index of a point. */
 typedef struct span {
     morton_item *items;
     size_t count;
@@ -20,34 +21,37 @@ typedef struct span {
 
 typedef struct batch {
     octree *tree;
-    store *store;               /* allocates nodes and points: the store of the tree, or of a task */
+    store *store;               /* allocates nodes and points: the tree's store, or the store of a task */
     struct division *division;  /* the division of the batch into tasks; null: the batch is not divided */
     const octree_point *points; /* the caller's points */
     const double (*to)[3];      /* the destinations if the batch moves points, else null */
     size_t count;
     octree_status *statuses; /* the caller's array of statuses, one for each point; may be null */
-    size_t done;             /* the number of points inserted, removed or moved */
+    size_t done;             /* the number of points that were inserted, removed or moved */
 
-    span valid;         /* the items of the points with valid positions */
-    bool repeated;      /* some valid points may have equal codes */
-    span leaving;       /* the items of stored points that leave, each with the point's index in its leaf */
-    span arriving;      /* the items of the caller's points that arrive */
-    morton_item *lists; /* the memory of `valid`; for moves also of `leaving`, `arriving` and `spare` */
+    span valid;    /* the items of the batch's points with valid positions */
+    bool repeated; /* true: some valid points may have equal Morton codes */
+    /* the items of stored points that leave their position; item.index is the point's index in its leaf */
+    span leaving;
+    span arriving; /* the items of the caller's points that arrive at a new position */
+    /* the memory of the list `valid`; for moves also of the lists `leaving`, `arriving` and `spare` */
+    morton_item *lists;
     morton_item *spare; /* scratch memory for sorting */
     list repetitions;
 
-    bool inserts;               /* the batch only inserts points, so a grid may be used to build an empty tree */
-    bool remakes;               /* so many points move that the tree is rebuilt; `valid` is then empty at first */
-    bool settled;               /* the statuses of the moves are final, and no move meets a full leaf */
-    bool may_be_stored;         /* an arriving point may already be stored, so this must be checked */
-    bool duplicate;             /* an arriving point is already stored */
-    bool overflow;              /* a moved point may meet a full leaf under OCTREE_REFUSE */
-    const octree_point *stored; /* the array of stored points into which the items' indices point */
-    /* the number of stored points in `cells`, where their cells follow those of the batch's points */
+    /* true: the batch only inserts points, so that an empty tree may be built with a grid */
+    bool inserts;
+    bool remakes;               /* true: so many points move that the tree is rebuilt; `valid` is then empty at first */
+    bool settled;               /* true: the statuses of the moves are final, and no move meets a full leaf */
+    bool may_be_stored;         /* true: an arriving point may already be stored, so each point must be checked */
+    bool duplicate;             /* true: an arriving point is already stored */
+    bool overflow;              /* true: leaves refuse points (OCTREE_REFUSE), and a moved point may meet a full leaf */
+    const octree_point *stored; /* the array of stored points to which items of stored points refer */
+    /* the number of stored points whose grid cells are in `cells`, after the cells of the batch's points */
     size_t stored_count;
-    uint32_t *cells;     /* the grid cells of the points, used in place of items (grid_fill.h) */
+    uint32_t *cells;     /* the grid cells of the points, which replace items (grid_fill.h) */
     unsigned grid;       /* the depth of the grid; 0: there is no grid */
-    list patches, edits; /* the plan: nodes to replace, leaves to edit (division.h) */
+    list patches, edits; /* the plan: patches replace nodes, edits change leaves (division.h) */
 } batch;
 
 static inline void set_item_status(const batch *b, const morton_item *item, octree_status status)
@@ -56,7 +60,7 @@ static inline void set_item_status(const batch *b, const morton_item *item, octr
         b->statuses[item->place] = status;
 }
 
-/* The caller's point that an item refers to, at its destination if the batch moves points. */
+/* Returns the caller's point to which an item refers, at its destination if the batch moves points. */
 static inline octree_point arriving_point(const batch *b, const morton_item *item)
 {
     octree_point point = b->points[item->place];
@@ -65,8 +69,8 @@ static inline octree_point arriving_point(const batch *b, const morton_item *ite
     return point;
 }
 
-/* Prefetch the caller's point of an item. The points are in the caller's order, so the processor cannot predict the
- * address. */
+/* Prefetch the caller's point to which an item refers. The points are in the caller's order, so the processor cannot
+ * predict the address. */
 static inline void prefetch_item(const batch *b, const morton_item *item)
 {
     prefetch_memory(&b->points[item->place]);
@@ -74,13 +78,14 @@ static inline void prefetch_item(const batch *b, const morton_item *item)
         prefetch_memory(&b->to[item->place]);
 }
 
-/* Return the point that an item refers to: an arriving point of the caller, or a stored point. */
+/* Returns the point to which an item refers: an arriving point of the caller, or a stored point. */
 static inline octree_point point_of_item(const batch *b, const morton_item *item)
 {
     return item->index == MORTON_NEW ? arriving_point(b, item) : b->stored[item->index];
 }
 
-/* The number of sorted items in the octant, of a cell of this depth, that contains the first item. */
+/* Returns the number of sorted items in the same octant as the first item; the octant is an octant of a cell of this
+ * depth. */
 size_t count_in_first_octant(const morton_item *items, size_t count, unsigned depth);
 
 /* A cell with at most this many items becomes a leaf. The items of a leaf need no order. */
@@ -90,7 +95,8 @@ static inline size_t unsorted_limit(const octree *tree)
 }
 
 /* prepare_batch() checks all positions, sets the statuses, and sorts the valid points into `valid`. If the batch
- * `remakes` the tree, it does not fill `valid`; collect_batch_points() does so if the points are needed. */
+ * rebuilds the tree (`remakes`), prepare_batch() does not fill `valid`; collect_batch_points() fills it if the points
+ * are needed. */
 octree_status prepare_batch(batch *b);
 octree_status collect_batch_points(batch *b);
 
@@ -100,7 +106,8 @@ static inline octree_status check_in_world(const octree *tree, const double posi
     return box_contains(&tree->def.world, position) ? OCTREE_OK : check_position(tree, position);
 }
 
-/* If a code is MORTON_UNSURE, compute it exactly. Returns OK if the position is in the world, else an error. */
+/* If *code is MORTON_UNSURE, compute the exact code of the position. Returns OK if the position is in the world, else
+ * an error. */
 static inline octree_status complete_code(const octree *tree, const double position[3], uint64_t *code)
 {
     const octree_status status = *code == MORTON_UNSURE ? check_position(tree, position) : OCTREE_OK;
@@ -111,61 +118,65 @@ static inline octree_status complete_code(const octree *tree, const double posit
 
 void release_batch(batch *b);
 
-/* Whether the ids of the batch are strictly ascending, as sequence numbers are. If so, no point is repeated. */
+/* Returns whether the ids of the batch are strictly ascending, as sequence numbers are. If so, no point occurs
+ * twice. */
 bool ids_ascend(const batch *b);
 
-/* Store in *differ whether all ids of the batch differ. If they do, no change depends on another, unless a leaf is
- * full. False when there is no memory. */
+/* Set *differ to whether all ids of the batch differ. If all differ, no change depends on another change, unless a leaf
+ * is full. Returns false if memory runs out. */
 bool check_ids_differ(const batch *b, bool *differ);
 
-/* Called with the items of one leaf, this leaf, and the depth of its cell. The leaf is null if no node exists for the
- * items' octant. */
+/* A function that is called for one leaf, with the depth of the leaf's cell and the items in it. The leaf is null if no
+ * node exists for the items' octant. */
 typedef void leaf_visitor(batch *b, node *leaf, unsigned depth, span items);
 
-/* Visit the leaves of the valid items, by tasks if there are many items. The lists `leaving` and `arriving` of the
- * tasks are then joined, and their values of `done` are added. */
+/* Visit the leaves of the valid items. If there are many items, tasks visit the leaves; afterwards their lists
+ * `leaving` and `arriving` are joined, and their values of `done` are added. */
 void visit_batch_leaves(batch *b, leaf_visitor *visit);
 
-/* Remove the items that repeat an earlier pair (position, id) from `valid` and list them as repetitions. False when
- * there is no memory. */
+/* Remove from `valid` the items that repeat an earlier pair (position, id), and list these items as repetitions.
+ * Returns false if memory runs out. */
 bool drop_repeated_pairs(batch *b);
 
-/* set_repeated_statuses() gives every repetition this status, or FULL if a full leaf refused the first point of the
- * pair. release_repetitions() frees the list of repetitions. */
+/* set_repeated_statuses() gives every repetition the status `status`, or FULL if a full leaf refused the first point of
+ * the same pair. release_repetitions() frees the list of repetitions. */
 void release_repetitions(batch *b);
 void set_repeated_statuses(const batch *b, octree_status status);
 
-/* Divide the items of a cell of this depth among its octants. Returns a bit mask of the octants that have items. */
+/* Divide the items of a cell of this depth among the cell's octants. Returns a bit mask of the octants that have
+ * items. */
 unsigned divide_items_by_octant(span all, unsigned depth, span shares[8]);
 
-/* Whether all of these items, sorted by code, lie in one cell that cannot be divided. */
+/* Returns whether all of these items, which are sorted by code, lie in one cell that cannot be divided. */
 bool is_inseparable(const octree *tree, cell c, const morton_item *items, size_t count);
 
-/* Remove the leaving points from the tree and insert the arriving ones. An insertion that meets a full leaf under
- * OCTREE_REFUSE gets the status FULL; a move sets `overflow`. Returns OK or NO_MEMORY. The tree is unchanged on
- * NO_MEMORY, and for a move if `duplicate` or `overflow` is set. */
+/* Remove the leaving points from the tree and insert the arriving points. Under OCTREE_REFUSE, an insertion that meets
+ * a full leaf gets the status FULL, and a move that may meet one sets `overflow`. Returns OK or NO_MEMORY. The tree is
+ * unchanged on NO_MEMORY, and for a batch of moves also if `duplicate` or `overflow` is set. */
 octree_status restructure_tree(batch *b);
 
-/* Whether moves made one after the other, in any order, might meet a full leaf in the cell. This is so if one
- * indivisible cell might at some time hold more points than the capacity. Also true when there is no memory to
- * decide. */
+/* Returns whether moves that are made one after the other, in any order, might meet a full leaf in the cell. This is so
+ * if an indivisible cell might at some time hold more points than the capacity. Also returns true if memory runs
+ * out. */
 bool can_overflow(const batch *b, const node *old, cell c, span arriving);
 
-/* Whether moves might meet a full leaf anywhere, found by comparing the old tree with the rebuilt one. Faster than
- * can_overflow() for each cell, but sometimes true without need. Cost: O(n) for the n points in leaves that, together
- * with the leaf of the other tree, hold more than the capacity. */
+/* Returns whether moves might meet a full leaf anywhere, by comparing the old tree with the rebuilt tree. This is
+ * faster than calling can_overflow() for each cell, but the result may be true although no leaf is full. Cost: O(n) for
+ * the n points in leaves that, together with the leaf at the same place in the other tree, hold more than the
+ * capacity. */
 bool can_overflow_when_rebuilt(const octree *tree, const node *made);
 
-/* Build a new tree and replace the old one. Its points are those that have grid cells; without a grid, the arriving
- * points. Errors: NO_MEMORY. The tree is unchanged on an error, and if `overflow` is set. */
+/* Build a new tree and replace the old tree by it. With a grid, the new tree has the points that have grid cells;
+ * without a grid, it has the arriving points. Errors: NO_MEMORY. The tree is unchanged on an error, and if `overflow`
+ * is set. */
 octree_status rebuild_from_batch(batch *b);
 
 /* Move the points by rebuilding the tree. *settled becomes false if moves depend on one another; the tree is then
  * unchanged and the statuses are undefined. Errors: NO_MEMORY. */
 octree_status remake_tree(batch *b, bool *settled);
 
-/* Simulate the moves one by one in the given order: set their statuses and list the points that leave and arrive in the
- * end. The tree is not changed. False when there is no memory. */
+/* Simulate the moves one by one in the given order. Set their statuses, and list the points that leave and arrive in
+ * the end. The tree is not changed. Returns false if memory runs out. */
 bool simulate_moves_in_order(batch *b);
 
 #endif

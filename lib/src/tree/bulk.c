@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* bulk.c - octree_insert_many(), octree_remove_many() and octree_move_many(): statuses, and the lists of points that
- * leave and arrive. */
+/* bulk.c - octree_insert_many(), octree_remove_many() and octree_move_many(). This file sets the statuses, and lists
+ * the points that leave their positions and the points that arrive at new positions. */
 #include "batch.h"
 #include "float_mode.h"
 #include "few.h"
@@ -26,7 +26,8 @@ static octree_status insert_valid_points(batch *b)
 
 /* ---- Removing ----------------------------------------------------------------------------------------------- */
 
-/* Add the items whose points are stored in the leaf to the list `leaving`, with the points' indices in the leaf. */
+/* Find the items' points in a leaf, and add the items whose points are stored there to the list `leaving`, with the
+ * points' indices in the leaf. */
 static void find_removed_points(batch *b, node *leaf, unsigned depth, span items)
 {
     (void)depth;
@@ -58,8 +59,8 @@ static bool have_same_bits(const double a[3], const double b[3])
     return memcmp(a, b, 3 * sizeof *a) == 0;
 }
 
-/* Move a point that was found in a leaf. If it stays in the leaf, overwrite it now; undo_moves_in_place() can revert
- * this without memory. Else list it as leaving and arriving. */
+/* Move a point that was found in a leaf. If the point stays in the leaf, overwrite it now; undo_moves_in_place() can
+ * revert this without allocating memory. Otherwise list the point as leaving and as arriving. */
 static void move_found_point(batch *b, node *leaf, unsigned depth, morton_item *item, uint32_t index)
 {
     const double *to = b->to[item->place];
@@ -81,8 +82,8 @@ static void move_found_point(batch *b, node *leaf, unsigned depth, morton_item *
     b->done++;
 }
 
-/* Find a point in a leaf. A leaf that was built from a batch keeps the batch's order, so the search first tries the
- * point after the one found last. */
+/* Find a point in a leaf. A leaf that was built from a batch keeps the order of the batch, so the search first tries
+ * the point after the point that was found last. */
 static uint32_t find_in_leaf_after(const node *leaf, uint32_t last, const octree_point *point)
 {
     const uint32_t next = last + 1; /* LEAF_NONE + 1 is 0 */
@@ -107,7 +108,8 @@ static void find_moved_points(batch *b, node *leaf, unsigned depth, span items)
     }
 }
 
-/* Restore the points that were overwritten in place. No node has moved or changed since then. */
+/* Restore the points that were overwritten in place. This is possible because no node has moved or changed since
+ * then. */
 static void undo_moves_in_place(batch *b)
 {
     for (size_t i = 0; i < b->valid.count; i++) {
@@ -170,7 +172,7 @@ static octree_status check_arguments(const batch *b, octree_change_kind kind)
     return is_visited(b->tree) ? OCTREE_BUSY : OCTREE_OK;
 }
 
-/* Whether the caller's array is part of a leaf, as octree_node.points is. */
+/* Returns whether the caller's array of points lies in a leaf, as the array octree_node.points does. */
 static bool lies_in_tree_memory(const octree *tree, const octree_point *points, size_t count)
 {
     if (count == 0 || check_position(tree, points->position) != OCTREE_OK)
@@ -183,7 +185,7 @@ static bool lies_in_tree_memory(const octree *tree, const octree_point *points, 
     return false;
 }
 
-/* Sort the points of a batch, and let `change` change the tree. */
+/* Sort the points of a batch, and call `change` to change the tree. */
 static octree_status change_in_morton_order(batch *b, octree_status (*change)(batch *b))
 {
     octree_status status = prepare_batch(b);
@@ -216,8 +218,8 @@ static octree_status change_by_kind(batch *b, octree_change_kind kind)
 
 /* ---- Logging ------------------------------------------------------------------------------------------------ */
 
-/* Whether a coordinate is zero. Only zeros have two representations: a position without zeros has the same bits as the
- * equal stored position. */
+/* Returns whether a coordinate of a position is zero. Only zeros, +0 and -0, are equal but have different bits. A
+ * position without zeros has the same bits as the equal stored position. */
 static bool has_zero(const double position[3])
 {
     return position[0] == 0 || position[1] == 0 || position[2] == 0;
@@ -231,7 +233,7 @@ static bool have_zeros(const octree_point *points, size_t count)
     return i < count;
 }
 
-/* Give the zeros in the points' positions the signs that they have in the stored positions. */
+/* Give each zero in the points' positions the sign that this zero has in the stored position. */
 static void copy_stored_signs(const octree *tree, octree_point *points, size_t count)
 {
     found_point found;
@@ -241,15 +243,16 @@ static void copy_stored_signs(const octree *tree, octree_point *points, size_t c
             points[i] = stored_point(&found);
 }
 
-/* The points with zero coordinates that earlier moves of the batch have moved, stored as a leaf. A later move of the
- * batch may start at one of them. */
+/* The points with a zero coordinate that earlier moves of the batch have moved. They are stored as a leaf. A later move
+ * of the batch may start at one of these points. */
 typedef struct moved_points {
     store *store;
     node points;
-    bool complete; /* false: there was no memory for all of the points */
+    bool complete; /* false: memory ran out, so some of the points are missing */
 } moved_points;
 
-/* Log a move. If an earlier move of the batch left the point at this position, log the start with that move's bits. */
+/* Log a move. If an earlier move of the batch brought the point to its position, log the position with the bits that
+ * the earlier move gave it. */
 static void log_move(const batch *b, size_t i, moved_points *moved)
 {
     octree_point old = b->points[i], made = {.id = old.id};
@@ -287,8 +290,8 @@ static void log_changes(const batch *b, octree_change_kind kind)
             change_log_append(b->tree, kind, &b->points[i], b->points[i].position);
 }
 
-/* Make a batch of changes and log them. Points that lie in the tree's own memory are copied first. So are points whose
- * zeros may have other signs than the stored ones. */
+/* Make a batch of changes and log the changes. Points that lie in the tree's own memory are copied first. Points are
+ * also copied if a zero in them may have another sign than the stored zero. */
 static octree_status change_many(batch b, octree_change_kind kind, size_t *done)
 {
     octree_status status = check_arguments(&b, kind);

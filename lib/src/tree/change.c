@@ -2,9 +2,9 @@
 /* change.c - single changes of a tree.
  *
  * Algorithm 1 (insert): a point descends to its leaf. A full leaf splits, refuses the point, or grows beyond its
- * capacity. Algorithm 2 (remove): a node merges into a leaf if its remaining points fit one. A move within a leaf
- * overwrites the point; any other move is an insertion and a removal. Memory is allocated before anything changes, so
- * that a failure leaves the tree as it was.
+ * capacity. Algorithm 2 (remove): after a removal, a node becomes a leaf if its remaining points fit into one leaf. A
+ * move within a leaf overwrites the point; any other move is an insertion and a removal. Memory is allocated before
+ * anything changes, so that a failure leaves the tree as it was.
  */
 #include "float_mode.h"
 #include "tree.h"
@@ -13,7 +13,7 @@
 
 /* ---- Inserting ---------------------------------------------------------------------------------------------- */
 
-/* Add a leaf with this point to an inner node whose octant has no child. */
+/* Add a leaf with this point as a child of an inner node that has no child in the point's octant. */
 static octree_status add_child_leaf(octree *tree, node *parent, unsigned octant, const octree_point *point)
 {
     const unsigned children = bits_count8(parent->octants), index = child_index(parent, octant);
@@ -66,9 +66,9 @@ static shares count_points_by_octant(const octree *tree, cell c, const node *ful
     return s;
 }
 
-/* Descend from the cell of a full leaf to the first cell whose octants separate the leaf's points and the new point.
- * Returns true with this cell in *c. Returns false if no divisible cell separates them; *c is then the indivisible cell
- * that holds them all. */
+/* Descend from the cell of a full leaf to the first cell whose octants separate the leaf's points and the new point. If
+ * there is such a cell, returns true, and *c is the cell. Otherwise returns false, and *c is the indivisible cell that
+ * holds all of these points. */
 static bool find_splitting_cell(const octree *tree, const node *full, const octree_point *point, cell *c, shares *s)
 {
     for (; can_split(tree, *c); *c = cell_child(*c, bits_lowest(s->mask))) {
@@ -87,8 +87,8 @@ static bool create_leaves(octree *tree, node *group, const shares *s)
     return true;
 }
 
-/* Make an inner node whose leaves hold the points of a full leaf and a new one. False when there is no memory; then
- * nothing stays allocated. */
+/* Make an inner node whose leaves hold the points of a full leaf and a new point. Returns false if memory runs out;
+ * nothing stays allocated then. */
 static bool make_split_node(octree *tree, node *made, const node *full, const octree_point *point, const shares *s)
 {
     const unsigned children = bits_count8(s->mask);
@@ -107,8 +107,8 @@ static bool make_split_node(octree *tree, node *made, const node *full, const oc
     return true;
 }
 
-/* Make a leaf with more points than the capacity: the points of a full leaf and a new one. False when there is no
- * memory. */
+/* Make a leaf that is larger than the capacity. It holds the points of a full leaf and a new point. Returns false if
+ * memory runs out. */
 static bool make_grown_leaf(octree *tree, node *made, const node *full, const octree_point *point)
 {
     if (!leaf_create(&tree->store, made, full->count + 1))
@@ -118,8 +118,8 @@ static bool make_grown_leaf(octree *tree, node *made, const node *full, const oc
     return true;
 }
 
-/* Replace `bottom`, a node of depth `from`, by a chain of inner nodes with one child each, which starts at depth `to`
- * and ends at the old bottom. False when there is no memory. */
+/* Replace `bottom`, a node of depth `from`, by a chain of inner nodes with one child each. The chain starts at depth
+ * `to`, and its last child is the old *bottom. Returns false if memory runs out. */
 static bool make_parent_chain(octree *tree, node *bottom, uint64_t code, unsigned from, unsigned to)
 {
     for (; from > to; from--) {
@@ -135,8 +135,8 @@ static bool make_parent_chain(octree *tree, node *bottom, uint64_t code, unsigne
     return true;
 }
 
-/* Add a point to a full leaf of this depth. The replacement is complete before it takes the leaf's place, so that a
- * lack of memory changes nothing. */
+/* Add a point to a full leaf of this depth. The new node is complete before it replaces the leaf, so that a lack of
+ * memory changes nothing. */
 static octree_status split_or_grow_leaf(octree *tree, node *leaf, const octree_point *point, uint64_t code,
                                         unsigned depth)
 {
@@ -180,7 +180,8 @@ octree_status insert_point(octree *tree, const octree_point *point, uint64_t cod
                                          : add_child_leaf(tree, end, morton_octant(code, p.depth), point);
     if (status != OCTREE_OK)
         return status;
-    /* The path's last node is not counted again if it is a leaf: leaf_append() has counted the point. */
+    /* If the path's last node is a leaf, its count is not increased here: leaf_append() has already counted the
+     * point. */
     const unsigned inner = is_leaf ? p.depth : p.depth + 1;
     for (unsigned i = 0; i < inner; i++)
         p.nodes[i]->count++;
@@ -204,8 +205,8 @@ octree_status octree_insert(octree *tree, const double position[3], uint64_t id)
 
 /* ---- Removing: memory is allocated first, so that a move can allocate before it changes anything ------------ */
 
-/* The depth of the highest node on the path whose points fit one leaf after one point is removed. If there is none, the
- * depth of the path's leaf. */
+/* Returns the depth of the highest node on the path whose points fit into one leaf after one point is removed. If there
+ * is no such node, returns the depth of the path's leaf. */
 static unsigned find_merge_depth(const octree *tree, const path *p)
 {
     unsigned depth = p->depth;
@@ -214,8 +215,8 @@ static unsigned find_merge_depth(const octree *tree, const path *p)
     return depth;
 }
 
-/* Allocate the leaf that replaces the merged nodes when this point is removed. *spare stays an empty leaf if no nodes
- * merge. False when there is no memory. */
+/* Allocate the leaf that replaces the merged nodes when this point is removed. If no nodes merge, *spare stays an empty
+ * leaf. Returns false if memory runs out. */
 static bool allocate_merged_leaf(octree *tree, const found_point *found, node *spare)
 {
     const unsigned depth = find_merge_depth(tree, &found->path);
@@ -236,7 +237,7 @@ void remove_empty_child(octree *tree, node *parent, node *child)
     parent->octants &= (uint8_t) ~(1u << octant);
 }
 
-/* Remove a point that was found. Cannot fail. The spare leaf is used or freed. */
+/* Remove a point that was found. Cannot fail. The leaf `spare` is used or freed. */
 static void remove_found_point(octree *tree, const found_point *found, node *spare)
 {
     const path *p = &found->path;
@@ -276,7 +277,8 @@ octree_status octree_remove(octree *tree, const double position[3], uint64_t id)
     octree_status status = check_change(tree, position);
     if (status != OCTREE_OK)
         return status;
-    octree_point removed = {{position[0], position[1], position[2]}, id}; /* a copy: `position` may be in the leaf */
+    /* `position` may point into the leaf, so it is copied first */
+    octree_point removed = {{position[0], position[1], position[2]}, id};
     status = remove_point(tree, &removed);
     if (status == OCTREE_OK && change_log_is_on(&tree->changes))
         change_log_append(tree, OCTREE_REMOVED, &removed, NULL);
@@ -286,8 +288,8 @@ octree_status octree_remove(octree *tree, const double position[3], uint64_t id)
 /* ---- Moving ------------------------------------------------------------------------------------------------- */
 
 /* Move a point to another leaf. Only the insertion can be refused, so it comes first. The memory for the removal is
- * allocated before the insertion. This memory suffices: the insertion only adds points, so no more nodes merge
- * afterwards. */
+ * allocated before the insertion. This memory is enough: the insertion only adds points, so no more nodes merge than
+ * before it. */
 static octree_status move_to_other_leaf(octree *tree, found_point *found, const octree_point *old,
                                         const octree_point *moved, uint64_t code)
 {
@@ -299,13 +301,13 @@ static octree_status move_to_other_leaf(octree *tree, found_point *found, const 
         leaf_release(&tree->store, &spare);
         return status;
     }
-    /* find the point again: the insertion may have moved nodes in memory */
+    /* the insertion may have moved nodes in memory, so the point is searched again */
     find_point(tree, old->position, old->id, found);
     remove_found_point(tree, found, &spare);
     return OCTREE_OK;
 }
 
-/* Move a point. old->position receives the position as it was stored. */
+/* Move a point. old->position becomes the position as it was stored. */
 static octree_status move_point(octree *tree, octree_point *old, const octree_point *moved)
 {
     found_point found;

@@ -4,10 +4,10 @@
  * Problem: a program that mirrors a tree (a picture, a cache) must learn which points changed without comparing all of
  * them. Readers run on many threads, are not registered, and may stop reading at any time.
  *
- * Idea: a ring of the last changes, numbered from 0 on. A reader keeps a cursor (log name, number) and reads from
- * there. The log starts with the first read. It stops by itself when so many changes are unread that reading the whole
- * tree would cost less. So the tree holds no list of readers. A tree that is not followed pays one test of an atomic
- * variable per change.
+ * Idea: a ring of the last changes, numbered from 0 on. A reader keeps a cursor, which is the name of a log and the
+ * number of the next change to read. The log starts with the first read. The log stops by itself when so many changes
+ * are unread that reading the whole tree would cost less. So the tree holds no list of readers. In a tree without
+ * readers, each change costs one test of an atomic variable.
  *
  * Cost: one write to the ring per change. The ring doubles when the unread changes fill half of it.
  */
@@ -16,7 +16,8 @@
 
 #include <string.h>
 
-/* Reading as many changes as a quarter of the points costs no less than reading the whole tree. */
+/* Reading the changes costs at least as much as reading the whole tree if there are a quarter as many changes as
+ * points. */
 enum { LEAST_CHANGES = 1024, SHARE = 4 };
 
 uint64_t change_log_limit(const octree *tree)
@@ -31,7 +32,7 @@ void change_log_stop(change_log *log, arena *memory)
     arena_free(memory, log->items, log->room * sizeof *log->items);
     log->items = NULL;
     log->room = 0;
-    log->first = ++log->next; /* new numbers, so that all older cursors are invalid */
+    log->first = ++log->next; /* the numbers continue after a gap of one, so that all older cursors are invalid */
 }
 
 /* ---- Writing ------------------------------------------------------------------------------------------------ */
@@ -39,7 +40,7 @@ void change_log_stop(change_log *log, arena *memory)
 static bool grow_ring(change_log *log, arena *memory)
 {
     const size_t room = log->room ? 2 * log->room : 16;
-    /* The product cannot overflow, for the reason given in list_append(). */
+    /* The product cannot overflow, because no allocation is larger than PTRDIFF_MAX. */
     octree_change *items = arena_allocate(memory, room * sizeof *items);
     if (!items)
         return false;
@@ -52,7 +53,7 @@ static bool grow_ring(change_log *log, arena *memory)
 }
 
 /* Make room for one more change. Changes that were read may be overwritten only while the unread changes fill less than
- * half of the ring. A second reader, which lags behind the first, then still finds its changes. */
+ * half of the ring. So a second reader that is behind the first reader still finds its changes. */
 static bool make_room_for_change(change_log *log, arena *memory)
 {
     if (log->next - log->first < log->room)
@@ -86,7 +87,7 @@ bool octree_changes_since(const octree *tree, size_t log_name, octree_cursor *cu
 {
     if (!tree || !cursor || !visit || log_name == 0)
         return false;
-    /* const is cast away to write two atomic members, which no query reads. */
+    /* The cast removes const, to write two atomic members of the log that no query reads. */
     change_log *log = (change_log *)(uintptr_t)&tree->changes;
     size_t name = 0;
     if (atomic_compare_exchange_strong(&log->name, &name, log_name))

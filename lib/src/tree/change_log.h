@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* change_log.h - the recent changes of a tree's contents, read through octree_changes_since().
  *
- * The log is off until the first read. It turns off again after too many unread changes, when memory is short, and
- * after an operation that replaces all nodes. octree_changes_since() then returns false.
+ * The log is off until the first read. It turns off again after too many unread changes, when memory runs out, and
+ * after an operation that replaces all nodes. While the log is off, octree_changes_since() returns false.
  */
 #ifndef OCTREE_CHANGE_LOG_H
 #define OCTREE_CHANGE_LOG_H
@@ -13,15 +13,15 @@
 #include <stdatomic.h>
 
 typedef struct change_log {
-    /* Readers write these two members, concurrently with other readers and with queries. */
+    /* Readers write these two members, while other readers and queries may run on other threads. */
     atomic_size_t name;   /* the name that the first reader gave to the log; 0: the log is off */
-    atomic_bool was_read; /* a reader has read the log since the last change */
-    /* Only changes of the tree write the other members. Changes are numbered from 0 on; number i is at items[i %
-     * room]. */
-    uint64_t first, next; /* the numbers of the oldest stored change and of the next change */
+    atomic_bool was_read; /* true: a reader has read the log since the last change */
+    /* Only changes of the tree write the other members. Changes are numbered from 0 on. The change with number i is
+     * items[i % room]. */
+    uint64_t first, next; /* first: the number of the oldest stored change; next: the number of the next change */
     uint64_t last_read;   /* the value of `next` when a reader last read the log */
     octree_change *items;
-    size_t room; /* the length of `items`: 0, or a power of two */
+    size_t room; /* the length of the array `items`: 0, or a power of two */
 } change_log;
 
 static inline bool change_log_is_on(const change_log *log)
@@ -34,7 +34,7 @@ static inline bool change_log_is_on(const change_log *log)
  * memory. */
 void change_log_append(octree *tree, octree_change_kind kind, const octree_point *old, const double to[3]);
 
-/* A number of changes. From this number on, reading the whole tree costs a reader less than reading the changes. */
+/* Returns a number of changes. If a reader has at least so many changes to read, reading the whole tree costs less. */
 uint64_t change_log_limit(const octree *tree);
 
 /* Discard all changes and turn the log off. */

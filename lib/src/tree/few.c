@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: MIT */
 /* few.c - batches of few points in a large tree: insert_few() and remove_few().
  *
- * Problem: of a thousand changes in a million points hardly two meet in one leaf. Sorting them (batch.c) gains nothing;
- * making them one by one waits for memory at every level of every descent.
+ * Problem: of a thousand changes in a tree of a million points, hardly two change the same leaf. Sorting the changes
+ * (batch.c) gains nothing. Making the changes one by one waits for memory at every level of every descent.
  *
- * Idea: let 32 points descend in lockstep. At each level the next node of all of them is prefetched before any is read,
- * so that 32 cache misses overlap. Then the points are changed in the given order. Insertion stays on the found paths
- * as long as no node moves in memory; points that meet a full leaf are collected and inserted as one batch at the end.
- * Removal first looks up all points, then allocates the leaves of all merges, and only then changes anything.
+ * Idea: let 32 points descend in lockstep. At each level the next nodes of all 32 points are prefetched before the
+ * first of these nodes is read, so that 32 cache misses overlap. Then the points are changed in the given order.
+ * Insertion stays on the found paths as long as no node moves in memory; points that meet a full leaf are collected and
+ * inserted as one batch at the end. Removal first looks up all points, then allocates the leaves of all merges, and
+ * only then changes anything.
  *
- * Cost: that of single changes without most of the waiting; it pays up to a twentieth of the stored points. are_few()
- * holds the measured limits.
+ * Cost: the cost of single changes without most of the waiting for memory. This is faster than sorting for batches of
+ * up to a twentieth of the stored points. are_few() contains the measured limits.
  */
 #include "few.h"
 #include "tasks.h"
@@ -18,9 +19,10 @@
 #include <string.h>
 
 enum {
-    CACHED = 300000,   /* a tree with fewer points fits a processor's caches, where sorting gains less */
-    FEW = 20,          /* in larger trees, a batch is small if it has less than a twentieth of the stored points */
-    FEW_OF_CACHED = 8, /* in trees that fit the caches, it is small if it has less than an eighth */
+    CACHED = 300000, /* a tree with fewer points fits into a processor's caches, where sorting is cheaper */
+    FEW = 20,        /* in a larger tree, a batch is small if it has less than a twentieth of the stored points */
+    /* in a tree that fits into the caches, a batch is small if it has less than an eighth of the stored points */
+    FEW_OF_CACHED = 8,
 };
 
 bool are_few(const octree *tree, size_t count)
@@ -34,7 +36,8 @@ bool are_few(const octree *tree, size_t count)
 
 enum { TOGETHER = 32 };
 
-/* The paths of several points, stored level by level. A point whose position is outside the world has no path. */
+/* The paths of several points from the root to their leaves, stored level by level. A point outside the world has no
+ * path. */
 typedef struct descents {
     octree_status statuses[TOGETHER];
     uint64_t codes[TOGETHER];
@@ -81,13 +84,13 @@ static void descend_together(descents *w, octree *tree, const octree_point *poin
 
 typedef struct insertions {
     batch *batch;
-    octree_point *full;      /* the points that met a full leaf */
+    octree_point *full;      /* copies of the points that met a full leaf */
     octree_status *statuses; /* the statuses of all points, followed by the statuses of the points in `full` */
     size_t full_count;
 } insertions;
 
-/* Insert a point into the leaf at the end of its path. No node moves in memory, so the paths of other points stay
- * valid. The count cannot overflow, because are_few() has checked it. */
+/* Insert a point into the leaf at the end of its path. No node moves in memory, so that the paths of other points stay
+ * valid. The number of points cannot overflow, because are_few() has checked it. */
 static octree_status insert_at_path_end(octree *tree, const octree_point *point, const descents *w, size_t i)
 {
     node *leaf = w->nodes[w->depths[i]][i];
@@ -102,8 +105,8 @@ static octree_status insert_at_path_end(octree *tree, const octree_point *point,
     return OCTREE_OK;
 }
 
-/* Insert up to TOGETHER points. If a point's path ends at an inner node, the node gets a new leaf and nodes move in
- * memory. The other points of the group then descend from the root again, one by one. */
+/* Insert up to TOGETHER points. If a point's path ends at an inner node, this node gets a new leaf, and nodes move in
+ * memory. The remaining points then descend from the root again, one by one. */
 static octree_status insert_point_group(insertions *f, size_t first, size_t count)
 {
     descents w;
@@ -165,16 +168,16 @@ octree_status insert_few(batch *b)
 
 /* ---- Removing ----------------------------------------------------------------------------------------------- */
 
-/* A point to remove, and its leaf. Nodes do not move in memory until the last point is removed. */
+/* A point to remove, and the leaf that holds it. Nodes do not move in memory until the last point is removed. */
 typedef struct removal {
     node *leaf, *parent; /* the leaf and its parent; the parent is null if the leaf is the root */
     uint32_t place, index;
 } removal;
 
-/* A node that becomes a leaf when all points of the batch are removed. */
+/* A node that will become a leaf because points of the batch are removed. */
 typedef struct merging {
     node *at;
-    node made; /* the new leaf, empty but with room for the points that stay */
+    node made; /* the new leaf, still empty but with room for the remaining points */
 } merging;
 
 typedef struct removals {
@@ -184,8 +187,8 @@ typedef struct removals {
     list mergings;
 } removals;
 
-/* Find up to TOGETHER points. Reduce the counts of the inner nodes above them, as if the points were removed
- * already. */
+/* Find up to TOGETHER points. Reduce the counts of the inner nodes above these points, as if the points were already
+ * removed. */
 static void find_point_group(removals *r, size_t first, size_t count)
 {
     descents w;
@@ -214,8 +217,8 @@ static path path_to_removal(const removals *r, const removal *found)
     return find_path(r->batch->tree, morton_code(r->batch->tree->axes, r->batch->points[found->place].position));
 }
 
-/* Allocate a leaf for the highest node above a removed point whose remaining points fit one leaf. An inner node with
- * room != 0 already has such a leaf. False when there is no memory. */
+/* Find the highest node above a removed point whose remaining points fit into one leaf, and allocate this leaf. If room
+ * != 0 in an inner node, its leaf is already allocated. Returns false if memory runs out. */
 static bool plan_merge(removals *r, const removal *found)
 {
     store *s = &r->batch->tree->store;
@@ -258,7 +261,7 @@ static void undo_removals(removals *r)
     }
 }
 
-/* Remove the points from their leaves. Returns the number of removals that left an empty leaf. These removals come
+/* Remove the points from their leaves. Returns the number of removals that left an empty leaf; these removals come
  * first in `found`. */
 static size_t remove_found_points(removals *r)
 {
@@ -266,7 +269,7 @@ static size_t remove_found_points(removals *r)
     for (size_t i = 0; i < r->count; i++) {
         removal *it = &r->found[i];
         const octree_point *point = &r->batch->points[it->place];
-        /* the leaf's last point has moved to the index of a removed point */
+        /* the removal of another point has moved this point to another index in the leaf */
         if (it->index >= it->leaf->count)
             it->index = leaf_find(it->leaf, point->position, point->id);
         leaf_remove(&r->batch->tree->store, it->leaf, it->index);
@@ -276,7 +279,7 @@ static size_t remove_found_points(removals *r)
     return emptied;
 }
 
-/* Change the tree as planned: the leaves of merges and the removals are known. Cannot fail. */
+/* Change the tree as planned: use the allocated leaves of merging nodes, and remove the found points. Cannot fail. */
 static void carry_out_removals(removals *r)
 {
     octree *tree = r->batch->tree;
@@ -289,7 +292,7 @@ static void carry_out_removals(removals *r)
     }
     for (size_t i = 0; i < emptied; i++) {
         const path p = path_to_removal(r, &r->found[i]);
-        if (path_end(&p)->count == 0) /* the node is never the root, because most points of the tree stay */
+        if (path_end(&p)->count == 0) /* the empty leaf is never the root, because most points of the tree stay */
             remove_empty_child(tree, p.nodes[p.depth - 1], path_end(&p));
     }
 }

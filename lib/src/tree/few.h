@@ -5,10 +5,11 @@
 
 #include "batch.h"
 
-/* Whether `count` points are few enough for these functions to be faster than sorting. */
+/* Returns whether `count` points are so few that the functions below are faster than sorting. */
 bool are_few(const octree *tree, size_t count);
 
-/* Insert points. A point whose leaf has room is inserted at once; the others are inserted as one batch at the end. */
+/* Insert points. A point whose leaf has room is inserted at once. The other points are inserted as one batch at the
+ * end. */
 octree_status insert_few(batch *b);
 
 /* Remove points. All ids of the batch must differ. */

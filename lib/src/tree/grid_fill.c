@@ -1,28 +1,29 @@
 /* SPDX-License-Identifier: MIT */
 /* grid_fill.c - builds a tree from evenly spread points by counting them in a grid.
  *
- * Problem: building a tree of n points by sorting reads and writes each point's item several times.
+ * Problem: building a tree of n points by sorting reads and writes the Morton code of each point several times.
  *
- * Idea: if points are spread evenly, the nodes follow from counts. Choose a grid so fine that few of its cells hold
- * more points than a leaf. Count the points of each cell. Add the counts of eight cells to get the count of the cell
- * one level above. Make the nodes from the root down; a cell whose points fit one leaf becomes a leaf. Then write each
- * point straight into its leaf. Each point is read twice and written once, and the points of a leaf keep the caller's
- * order.
+ * Idea: if points are spread evenly, counts of points determine the nodes. Choose a grid so fine that few of its cells
+ * hold more points than a leaf. Count the points of each cell. Add the counts of eight cells to get the count of the
+ * cell one level above. Make the nodes from the root down; a cell whose points fit one leaf becomes a leaf. Then write
+ * each point straight into its leaf. Each point is read twice and written once, and the points of a leaf keep the
+ * caller's order.
  *
- * Each task counts and writes its own share of the points. The counts of each task fix where its share begins in each
- * leaf, so that no two tasks write to the same place.
+ * Each task counts and writes its own share of the points. The counts of each task determine where the task's points
+ * begin in each leaf, so that no two tasks write to the same place.
  *
- * Cells that hold more points than a leaf ("crowds") are sorted and built by restructure.c. A sample decides beforehand
- * whether there are few of them; clustered points use the sort instead. Cost: O(n + cells), half the time of sorting.
+ * A cell of the grid that holds more points than a leaf is a "crowd". The points of a crowd are sorted, and
+ * restructure.c builds its nodes. A sample of the points decides beforehand whether there are few crowds; if not, all
+ * points are sorted. Cost: O(n + cells), half the time of sorting.
  */
 #include "grid_fill.h"
 #include "division.h"
 
 #include <string.h>
 
-enum { SAMPLE_STEP = 16 }; /* one of 16 points is sampled */
+enum { SAMPLE_STEP = 16 }; /* one point in 16 is sampled */
 
-/* A node with so many points in one grid cell that it must be divided further than the grid. */
+/* A crowd: a node with so many points in one grid cell that the node must be divided further than the grid. */
 typedef struct crowd {
     node *at;
     cell cell;
@@ -31,13 +32,14 @@ typedef struct crowd {
 
 typedef struct filling {
     batch *whole;
-    size_t count; /* the number of points: those of the batch and the copies of stored points */
+    size_t count; /* the number of points: points of the batch, and copies of stored points */
     unsigned depth, tasks;
     uint32_t *counts[GRID_DEEPEST + 1]; /* counts[d][i] is the number of points in cell i of depth d */
-    uint32_t *shares; /* for each task and each cell of the grid, the number of the task's points in the cell */
-    /* for each task and each cell, the address for the task's next point; null if the cell is in a crowd */
+    uint32_t *shares; /* for each task and each cell of the grid: the number of the task's points in the cell */
+    /* for each task and each cell of the grid: the address to which the task writes its next point in the cell; null if
+     * the cell is in a crowd */
     octree_point **next;
-    list crowds;    /* a list of crowd, in Morton order */
+    list crowds;    /* a list of struct crowd, in Morton order */
     size_t crowded; /* the number of points in all crowds */
 } filling;
 
@@ -46,7 +48,7 @@ static size_t cell_count_at(unsigned depth)
     return (size_t)1 << 3 * depth;
 }
 
-/* Whether this many points form a leaf that can be written without sorting. */
+/* Returns whether a leaf of this many points can be written without sorting. */
 static bool fits_direct_leaf(const octree *tree, size_t count)
 {
     return count <= POOL_MAX_UNITS && fits_leaf(tree, count);
@@ -54,8 +56,8 @@ static bool fits_direct_leaf(const octree *tree, size_t count)
 
 /* ---- The grid -------------------------------------------------------------------------------------------------- */
 
-/* The number of sampled points in crowded cells. A cell is crowded if it has more than `limit` samples, which means
- * twice the points of a leaf. */
+/* Returns the number of sampled points that lie in crowded cells. A cell is crowded if it has more than `limit` sampled
+ * points. The limit corresponds to twice the points of a leaf. */
 static size_t count_crowded_samples(const batch *b, unsigned depth, uint32_t *counts, size_t limit)
 {
     const size_t stride = b->to ? 3 : sizeof *b->points / sizeof(double), samples = b->count / SAMPLE_STEP;
@@ -110,8 +112,8 @@ void find_grid_cells(const batch *b, const octree_point *points, size_t count, u
     }
 }
 
-/* Make items for adjacent points. They must be all from the caller's array or all from the copies of stored points.
- * Returns the number of items made. */
+/* Make items (Morton code and index) for a range of points. The range must lie in the caller's array or in the copies
+ * of stored points, not in both. Returns the number of items made. */
 static size_t append_grid_items(const batch *b, size_t first, size_t count, octree_point *const *filter,
                                 morton_item *items)
 {
@@ -176,8 +178,8 @@ static void sum_cell_counts(filling *f)
 
 /* ---- Nodes -------------------------------------------------------------------------------------------------- */
 
-/* Set the addresses at which the points of a cell are written into its leaf. The points of each grid cell are adjacent
- * there and keep their given order. */
+/* Set the addresses to which the points of a cell are written in the cell's leaf. In the leaf, the points of each grid
+ * cell are adjacent and keep the caller's order. */
 static void set_write_positions(filling *f, cell c, size_t index, octree_point *to)
 {
     const size_t cells = cell_count_at(f->depth), width = cell_count_at(f->depth - c.depth);
@@ -188,8 +190,9 @@ static void set_write_positions(filling *f, cell c, size_t index, octree_point *
         }
 }
 
-/* Whether build_node() must build the node of a cell. It must if the leaf is large, if the grid is too coarse to divide
- * the cell, or if the points may be inseparable under OCTREE_REFUSE. */
+/* Returns whether the points of a cell must be sorted, so that build_node() builds the cell's node. This is so if the
+ * leaf is large, if the grid is too coarse to divide the cell, or if leaves refuse points (OCTREE_REFUSE) and the
+ * points may be inseparable. */
 static bool needs_sorting(const filling *f, cell c, size_t index)
 {
     const octree *tree = f->whole->tree;
@@ -243,7 +246,7 @@ static bool make_grid_node(filling *f, cell c, size_t index, node *made)
 
 /* ---- Points ------------------------------------------------------------------------------------------------- */
 
-/* Write points into their leaves, with the positions `to` if `to` is not null. */
+/* Write points into their leaves. If `to` is not null, to[i] is the position of points[i]. */
 static void write_points_to_leaves(const uint32_t *cells, const octree_point *points, const double (*to)[3],
                                    size_t count, octree_point **next)
 {
@@ -265,7 +268,7 @@ static void write_points_of_share(size_t number, void *context)
     const batch *b = f->whole;
     octree_point **next = f->next + number * cell_count_at(f->depth);
     const size_t first = share_start(f->count, f->tasks, number), end = share_start(f->count, f->tasks, number + 1);
-    /* The share may begin with points of the caller's array, up to `middle`; copies of stored points follow. */
+    /* The task's share may begin with points of the caller's array, up to `middle`. Copies of stored points follow. */
     const size_t middle = end < b->count ? end : first < b->count ? b->count : first;
     if (first < middle)
         write_points_to_leaves(b->cells + first, b->points + first, b->to ? b->to + first : NULL, middle - first, next);
@@ -273,7 +276,7 @@ static void write_points_of_share(size_t number, void *context)
         write_points_to_leaves(b->cells + middle, b->stored + (middle - b->count), NULL, end - middle, next);
 }
 
-/* Recompute the counts of a node and the nodes below it after some points were refused. Returns the node's count. */
+/* Correct the counts of a node and the nodes below it after leaves refused some points. Returns the node's count. */
 static uint32_t correct_counts(node *n)
 {
     const unsigned children = bits_count8(n->octants);
@@ -324,7 +327,7 @@ bool build_from_grid(batch *b, node *made)
     arena *memory = &b->store->memory;
     filling f = {.whole = b, .count = b->count + b->stored_count, .depth = b->grid};
     const size_t cells = cell_count_at(f.depth);
-    /* with more tasks the tables of counts would take more memory than the points */
+    /* with more tasks, the tables of counts would need more memory than the points */
     const size_t most = f.count / cells + 1;
     f.tasks = count_tasks(b->tree, f.count);
     f.tasks = f.tasks < most ? f.tasks : (unsigned)most;

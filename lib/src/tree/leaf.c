@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* leaf.c - leaves: pooled blocks of up to 64 points, hashed leaves above, and operations on whole subtrees. */
+/* leaf.c - the leaves of a tree, and operations on whole subtrees. A leaf of up to 64 points is a block of a pool; a
+ * larger leaf has a hash table. */
 #include "leaf.h"
 #include "octree/digest.h"
 
@@ -11,8 +12,8 @@
 
 typedef struct hashed_header {
     uint32_t room;
-    uint32_t mask; /* the number of slots - 1. The number is a power of two, at least twice the room */
-    uint64_t size; /* the size of the whole block in bytes */
+    uint32_t mask; /* the number of slots minus 1; the number of slots is a power of two, and at least twice the room */
+    uint64_t size; /* the size in bytes of the whole block of memory */
 } hashed_header;
 
 static hashed_header *hashed_header_of(const octree_point *points)
@@ -57,7 +58,8 @@ static void release_hashed_block(arena *memory, octree_point *points)
     arena_free(memory, hashed_header_of(points), (size_t)hashed_header_of(points)->size);
 }
 
-/* Return the slot of a pair (position, id), or the empty slot at which the search for it ends. */
+/* Returns the slot of a pair (position, id). If the pair is missing, returns the empty slot at which the search
+ * ends. */
 static uint32_t find_slot(const octree_point *points, const double position[3], uint64_t id)
 {
     const uint32_t *slots = hash_slots_of(points);
@@ -77,8 +79,8 @@ uint32_t leaf_find_hashed(const node *leaf, const double position[3], uint64_t i
     return hash_slots_of(points)[find_slot(points, position, id)] - 1;
 }
 
-/* Empty a slot and close the gap. Entries after the gap move up, unless that would place them before the slot of their
- * hash value. */
+/* Empty a slot of the hash table and close the gap. Each later entry moves into the gap, unless the gap lies before the
+ * slot of the entry's hash value. */
 static void clear_slot(octree_point *points, uint32_t gap)
 {
     uint32_t *slots = hash_slots_of(points);
@@ -107,8 +109,8 @@ static void remove_from_hashed(octree_point *points, uint32_t count, uint32_t in
 
 /* ---- Leaves ------------------------------------------------------------------------------------------------- */
 
-/* The size of the block for `count` points, in points. Sizes grow by about a quarter: 1 to 4, 6, 8, 12, 16 ... 32, 40
- * ... 64. */
+/* Returns the size, in points, of the block for `count` points. Sizes grow by about a quarter: 1 to 4, 6, 8, 12, 16 ...
+ * 32, 40 ... 64. */
 unsigned leaf_block_room(uint32_t count)
 {
     const unsigned step = count <= 4 ? 1 : count <= 8 ? 2 : count <= 32 ? 4 : 8;
@@ -169,7 +171,7 @@ void leaf_append_hashed(node *leaf, const octree_point *point)
     hash_slots_of(points)[find_slot(points, point->position, point->id)] = ++leaf->count;
 }
 
-/* Move the points into a new block with room for `count`. False when there is no memory. */
+/* Move the points of a leaf into a new block with room for `count` points. Returns false if memory runs out. */
 static bool change_leaf_room(store *s, node *leaf, uint32_t count)
 {
     node moved;
@@ -184,7 +186,7 @@ static bool change_leaf_room(store *s, node *leaf, uint32_t count)
 bool leaf_append(store *s, node *leaf, const octree_point *point)
 {
     if (leaf->count == current_room(leaf)) {
-        /* A hashed leaf doubles its room, so that the total cost of copying is linear in the number of insertions. */
+        /* A hashed leaf doubles its room, so that the cost of copying is O(1) per insertion, amortized. */
         /* unreachable: a test would need 2^31 points in one leaf, 64 GiB */
         const uint32_t doubled = leaf->count > UINT32_MAX / 2 ? UINT32_MAX : 2 * leaf->count;
         if (!change_leaf_room(s, leaf, leaf->count < POOL_MAX_UNITS ? leaf->count + 1 : doubled))
@@ -199,7 +201,7 @@ void leaf_remove(store *s, node *leaf, uint32_t index)
     if (is_hashed(leaf)) {
         remove_from_hashed(leaf->below, leaf->count, index);
         leaf->count--;
-        /* A smaller block saves memory. If there is no memory for it, the leaf keeps its block. */
+        /* A smaller block saves memory. If memory runs out, the leaf keeps its block. */
         if (leaf->count < hashed_header_of(leaf->below)->room / 4)
             change_leaf_room(s, leaf, leaf->count);
         return;
@@ -274,7 +276,7 @@ void store_init(store *s)
 
 void store_release(store *s, const node *root)
 {
-    node_release(s, root); /* a hashed leaf is not in the pools, so it is freed separately */
+    node_release(s, root); /* a hashed leaf is not in the pools, so it must be freed separately */
     pool_release(&s->nodes);
     pool_release(&s->points);
 }

@@ -12,17 +12,18 @@
 #include "pool.h"
 
 typedef struct node {
-    void *below; /* an inner node: struct node[], its children by octant; a leaf: octree_point[], or null if it is empty
-                  */
+    /* an inner node: its children, struct node[], in the order of their octants; a leaf: its points, octree_point[], or
+     * null */
+    void *below;
     uint32_t count;  /* the number of points in and below the node */
-    uint8_t octants; /* bit mask of the octants that have a child; 0 for a leaf */
-    uint8_t room;    /* a leaf: the capacity of its block in points, or LEAF_HASHED */
+    uint8_t octants; /* bit i is set if the node has a child in octant i; 0 for a leaf */
+    uint8_t room;    /* only in a leaf: the capacity of the leaf's block in points, or LEAF_HASHED */
 } node;
 
 #define LEAF_HASHED 255
 #define LEAF_NONE UINT32_MAX
 
-/* The allocators of a tree's memory. */
+/* The allocators of a tree's memory: an arena, and the two pools that get their memory from the arena. */
 typedef struct store {
     arena memory;
     pool nodes; /* allocates the groups of sibling nodes */
@@ -50,14 +51,15 @@ static inline unsigned child_index(const node *n, unsigned octant)
     return bits_count8(n->octants & ((1u << octant) - 1));
 }
 
-/* Return the child in an octant, or null if no child exists there. */
+/* Returns the child in an octant. Returns null if there is no child in this octant. */
 static inline node *child_at(const node *n, unsigned octant)
 {
     return n->octants >> octant & 1 ? children_of(n) + child_index(n, octant) : NULL;
 }
 
-/* Start loading memory that will be read soon. Affects speed only. The empty assembly statement counts as a side
- * effect: without it GCC treats a function that only prefetches as pure and drops calls to it. */
+/* Start loading memory into the caches that will be read soon. This affects only the speed. The empty assembly
+ * statement counts as a side effect: without it, GCC considers a function that only prefetches as pure, and drops calls
+ * of it. */
 static inline void prefetch_memory(const void *memory)
 {
 #if defined(__GNUC__)
@@ -68,9 +70,10 @@ static inline void prefetch_memory(const void *memory)
 #endif
 }
 
-/* Prefetch the points of a leaf; of a hashed leaf only the first points. The processor's own prefetcher starts some
- * cache lines late, which costs a quarter of a query's time if leaves are not cached. The loop prefetches blocks of
- * eight points, so that its branches are predictable; prefetching past the last point does no harm. */
+/* Prefetch the points of a leaf; of a hashed leaf only the first points. Without this function, the processor's own
+ * prefetcher starts some cache lines late, which costs a quarter of a query's time if leaves are not cached. The loop
+ * prefetches blocks of eight points, so that its branches are predictable; prefetching past the last point does no
+ * harm. */
 static inline void leaf_prefetch(const node *leaf)
 {
     enum { TOGETHER = 8, A_LINE = 2 };
@@ -89,7 +92,7 @@ static inline void prefetch_node(const node *n)
         leaf_prefetch(n);
 }
 
-/* The index of the pair (position, id) in a leaf, or LEAF_NONE. */
+/* Returns the index of the pair (position, id) in a leaf, or LEAF_NONE if the leaf does not have the pair. */
 uint32_t leaf_find_hashed(const node *leaf, const double position[3], uint64_t id);
 static inline uint32_t leaf_find(const node *leaf, const double position[3], uint64_t id)
 {
@@ -106,17 +109,18 @@ static inline uint32_t leaf_find(const node *leaf, const double position[3], uin
     return LEAF_NONE;
 }
 
-/* The capacity, in points, of the block that is allocated for `count` points. `count` is at most POOL_MAX_UNITS. */
+/* Returns the capacity, in points, of the block that is allocated for `count` points. `count` is at most
+ * POOL_MAX_UNITS. */
 unsigned leaf_block_room(uint32_t count);
 
-/* Make an empty leaf with room for `count` points. False when there is no memory. */
+/* Make an empty leaf with room for `count` points. Returns false if memory runs out. */
 bool leaf_create(store *s, node *leaf, uint32_t count);
 void leaf_release(store *s, const node *leaf);
 
-/* Append a point that the leaf does not hold yet. False when there is no memory; the leaf is then unchanged. */
+/* Append a point that the leaf does not hold yet. Returns false and leaves the leaf unchanged if memory runs out. */
 bool leaf_append(store *s, node *leaf, const octree_point *point);
 
-/* Append a point that the leaf does not hold yet, to a leaf that has room. Cannot fail. */
+/* Append a point to a leaf that has room. The leaf must not hold the point yet. Cannot fail. */
 void leaf_append_hashed(node *leaf, const octree_point *point);
 static inline void leaf_append_in_room(node *leaf, const octree_point *point)
 {
@@ -126,24 +130,24 @@ static inline void leaf_append_in_room(node *leaf, const octree_point *point)
         leaf_points(leaf)[leaf->count++] = *point;
 }
 
-/* Remove the point at an index; the last point moves into its place. Cannot fail. */
+/* Remove the point at an index. The leaf's last point moves to this index. Cannot fail. */
 void leaf_remove(store *s, node *leaf, uint32_t index);
 
-/* Replace the point at an index by a point that the leaf does not hold yet. Cannot fail. */
+/* Replace the point at an index. The leaf must not hold the new point yet. Cannot fail. */
 void leaf_replace(node *leaf, uint32_t index, const octree_point *point);
 
-/* Append all points in and below the node `from` to a leaf that has room for them. The point `except` is left out; it
- * may be null. */
+/* Append all points in and below the node `from` to a leaf that has room for these points. The point `except` is left
+ * out; `except` may be null. */
 void leaf_append_all(node *leaf, const node *from, const octree_point *except);
 
 /* Copy the points in and below a node to an array, in the order of their leaves. Returns the address after the last
  * copy. */
 octree_point *node_copy_points(const node *n, octree_point *to);
 
-/* Free everything below a node: its children or its points. The node itself belongs to the caller. */
+/* Free the children or points of a node, and everything below the node. The node itself belongs to the caller. */
 void node_release(store *s, const node *n);
 
-/* Free everything below a node, except the blocks that `other`, another version of the node, uses too. */
+/* Free everything below a node, except the blocks that `other` uses too. `other` is another version of the node. */
 void node_release_unshared(store *s, const node *n, const node *other);
 
 #endif

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /* morton_sort.c - sorts items by Morton code, by a radix sort from the most significant digit.
  *
- * Problem: order n items of 63-bit codes. Comparison sorts need n log n unpredictable branches; a radix sort from the
+ * Problem: sort n items with 63-bit codes. Comparison sorts need n log n unpredictable branches; a radix sort from the
  * least significant digit makes 21 / 3 = 7 passes over all items, each scattered over memory.
  *
- * Idea: start at the most significant digit, so that one digit is a descent of up to three levels of the tree, and each
- * group of equal digits is a cell. Cells soon fit the caches, and cells with few items stop early: up to 16 items by
- * insertion sort, and cells that will become leaves not at all, since the order within a leaf is free. Only equal codes
- * must then be adjacent; a small hash filter shows that usually there are none.
+ * Idea: start at the most significant digit. One digit is a descent of up to three levels of the tree, and the items
+ * with equal digits form a cell. Cells soon fit into the caches. Cells with few items end the recursion: up to 16 items
+ * are sorted by insertion sort. Cells that will become leaves need no order, but equal codes must be adjacent; a small
+ * hash filter usually shows that there are no equal codes.
  *
  * With an executor, one parallel pass over all items (count, prefix sums, scatter) divides them into 512 cells, which
  * tasks sort independently. The result does not depend on the number of tasks. Cost: O(n), usually two or three passes.
@@ -18,14 +18,14 @@
 #include <string.h>
 
 #define FEW 16   /* a cell of at most this many items is sorted by insertion sort */
-#define LEVELS 3 /* the greatest number of tree levels per pass: 8^3 buckets */
+#define LEVELS 3 /* the maximum number of tree levels that one pass sorts: 8^3 buckets */
 
 typedef struct sorter {
-    const octree *tree; /* the tree, set only to sort by tasks, like `memory` */
+    const octree *tree; /* the tree; set only if tasks sort, like `memory` */
     arena *memory;
-    size_t unsorted; /* a cell of at most this many items stays unsorted */
-    bool differ;     /* all items are different points, so equal codes need not be adjacent */
-    bool repeated;   /* a result: true if some items may have equal codes */
+    size_t unsorted; /* a cell of at most this many items becomes a leaf and stays unsorted */
+    bool differ;     /* true: all items are different points, so that equal codes need not be adjacent */
+    bool repeated;   /* result of the sort: true if some items may have equal codes */
 } sorter;
 
 static void insertion_sort(morton_item *items, size_t count)
@@ -47,8 +47,8 @@ static bool has_code(const morton_item *items, size_t count, uint64_t code)
     return false;
 }
 
-/* Whether two of up to MORTON_UNSORTED items have equal codes. Items are compared only if 12 bits of a multiplicative
- * hash (Knuth) collide in the filter, which is rare. */
+/* Returns whether two of up to MORTON_UNSORTED items have equal codes. Two items are compared only if 12 bits of their
+ * multiplicative hashes (Knuth) are equal, which is rare. */
 static bool has_equal_codes(const morton_item *items, size_t count)
 {
     uint64_t filter[(1u << 12) / 64] = {0};
@@ -62,8 +62,8 @@ static bool has_equal_codes(const morton_item *items, size_t count)
     return false;
 }
 
-/* End the recursion at a cell with `left` tree levels below it: sort its items if they are few, or leave them
- * unsorted. */
+/* End the recursion at a cell that has `left` tree levels below it. Sort the cell's items if they are few, or leave
+ * them unsorted if the cell becomes a leaf. */
 static void sort_small_cell(sorter *s, morton_item *items, size_t count, unsigned left)
 {
     if (left > 0 && count <= s->unsorted && (s->differ || !has_equal_codes(items, count)))
@@ -73,7 +73,7 @@ static void sort_small_cell(sorter *s, morton_item *items, size_t count, unsigne
         insertion_sort(items, count);
 }
 
-/* The number of tree levels to sort in one pass, so that each resulting cell has few items. */
+/* Returns the number of tree levels to sort in one pass, so that each resulting cell has few items. */
 static unsigned choose_levels(const sorter *s, size_t count, unsigned left)
 {
     const size_t wanted = s->unsorted > 4 ? s->unsorted : 4;
@@ -83,8 +83,8 @@ static unsigned choose_levels(const sorter *s, size_t count, unsigned left)
     return levels;
 }
 
-/* Distribute the items among the digits of their codes. On entry ends[d] is the number of items with digit d; on return
- * it is the end of their range in `to`. */
+/* Distribute the items by one digit of their codes. Before the call, ends[d] is the number of items with digit d. After
+ * the call, it is the end of the range of these items in `to`. */
 static void scatter_by_digit(const morton_item *from, morton_item *to, size_t count, unsigned shift, unsigned digits,
                              uint32_t ends[])
 {
@@ -98,8 +98,8 @@ static void scatter_by_digit(const morton_item *from, morton_item *to, size_t co
         to[ends[from[i].code >> shift & (digits - 1)]++] = from[i];
 }
 
-/* Sort the items of a cell with `left` tree levels below it. The result is in `items` if in_place is true, else in
- * `other`. */
+/* Sort the items of a cell that has `left` tree levels below it. The sorted items are in `items` if in_place is true,
+ * otherwise in `other`. */
 static void sort_cell(sorter *s, morton_item *items, morton_item *other, size_t count, unsigned left, bool in_place,
                       uint32_t ends[])
 {
@@ -113,7 +113,8 @@ static void sort_cell(sorter *s, morton_item *items, morton_item *other, size_t 
     memset(ends, 0, digits * sizeof *ends);
     for (size_t i = 0; i < count; i++)
         ends[items[i].code >> shift & (digits - 1)]++;
-    if (ends[items[0].code >> shift & (digits - 1)] == count) { /* all items are in one cell */
+    /* all items have the same digit, so they are all in one cell */
+    if (ends[items[0].code >> shift & (digits - 1)] == count) {
         sort_cell(s, items, other, count, left - levels, in_place, ends);
         return;
     }
@@ -126,7 +127,7 @@ static void sort_cell(sorter *s, morton_item *items, morton_item *other, size_t 
 static void sort_on_this_thread(sorter *s, morton_item *items, morton_item *other, size_t count, unsigned left,
                                 bool in_place)
 {
-    /* one section of the array for each level of the recursion */
+    /* one part of the array for each level of the recursion */
     uint32_t ends[OCTREE_MAX_DEPTH / LEVELS << 3 * LEVELS];
     sort_cell(s, items, other, count, left, in_place, ends);
 }
@@ -145,16 +146,17 @@ enum { DIGITS = 1 << 3 * LEVELS };
 /* The state of one parallel pass, and the cells into which it divides the items. */
 typedef struct pass {
     sorter sorter;
-    /* for each task and digit: the number of items, and later the index for the next item */
+    /* for each task and digit: first the number of items, later the index of the task's next item */
     uint32_t (*counts)[DIGITS];
     morton_item *from, *to;
     size_t count;
     unsigned tasks;
-    unsigned left;                     /* the number of tree levels below the cells */
-    unsigned shift;                    /* the position of the digit in a code, in bits */
+    /* the number of tree levels below the cells into which this pass divides the items */
+    unsigned left;
+    unsigned shift;                    /* the lowest bit of this pass's digit in a code */
     bool in_place;                     /* true: the sorted items of each cell stay in `to` */
-    size_t ends[DIGITS + 1];           /* the items of cell d are at the indices ends[d] .. ends[d + 1] - 1 */
-    unsigned cells[TASKS_AT_MOST + 1]; /* the first cell that each task sorts */
+    size_t ends[DIGITS + 1];           /* the items of cell d have the indices ends[d] .. ends[d + 1] - 1 */
+    unsigned cells[TASKS_AT_MOST + 1]; /* for each task: the first cell that the task sorts */
     bool repeated[TASKS_AT_MOST];
 } pass;
 
@@ -194,7 +196,7 @@ static void sum_digit_counts(pass *p)
     }
 }
 
-/* Whether a cell is so large that it is sorted by a parallel pass of its own. */
+/* Returns whether a cell is so large that a parallel pass of its own sorts it. */
 static bool is_large_cell(const pass *p, unsigned digit)
 {
     const size_t large = p->count / 8;
@@ -225,7 +227,7 @@ static void assign_cells_to_tasks(pass *p)
     p->cells[p->tasks] = DIGITS;
 }
 
-/* Do what sort_cell() does, by tasks. Without memory for the counts, call sort_cell() on this thread. */
+/* Sort as sort_cell() does, but by tasks. If there is no memory for the counts, call sort_cell() on this thread. */
 static void sort_by_tasks(sorter *s, morton_item *items, morton_item *other, size_t count, unsigned left, bool in_place)
 {
     pass p = {.sorter = *s, .from = items, .to = other, .count = count, .left = left - LEVELS, .in_place = !in_place};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* morton_sort.h - sorting points by their Morton codes. */
+/* morton_sort.h - sorts points by their Morton codes. */
 #ifndef OCTREE_MORTON_SORT_H
 #define OCTREE_MORTON_SORT_H
 
@@ -11,22 +11,23 @@
 typedef struct morton_item {
     uint64_t code;
     uint32_t place; /* the index of the point in the caller's array */
-    uint32_t index; /* the index of a stored point in its leaf; MORTON_NEW for a point that is not stored */
+    /* the index of the point in its leaf if the tree stores it; MORTON_NEW for a point that is not stored */
+    uint32_t index;
 } morton_item;
 
 #define MORTON_NEW UINT32_MAX
 
-/* The greatest value of `unsorted` that callers may pass. */
+/* The maximum value of the parameter `unsorted`. */
 #define MORTON_UNSORTED 64
 
-/* Sort the items of a cell of this depth by code; items of equal code keep their order. Cells of at most `unsorted`
- * items (up to MORTON_UNSORTED) stay in any order, but with equal codes adjacent: they become leaves, whose items need
- * no order. `spare` has room for `count` items. Returns false if all codes differ, true if some may be equal.
- * Cost: O(count), in up to 21 passes, usually two or three. */
+/* Sort the items of a cell of this depth by code; items of equal code keep their order. A smaller cell of at most
+ * `unsorted` items (up to MORTON_UNSORTED) becomes a leaf, whose items need no order: they stay unsorted, but equal
+ * codes are adjacent. `spare` has room for `count` items. Returns false if all codes differ, true if some codes may be
+ * equal. Cost: O(count), in up to 21 passes, usually two or three. */
 bool morton_sort(morton_item *items, morton_item *spare, size_t count, unsigned depth, size_t unsorted);
 
-/* Sort the items of the whole world, by tasks if there are many. `differ` says that all ids differ: equal codes need
- * not be adjacent in unsorted cells then, and are not detected there. */
+/* Sort the items of the whole world, by tasks if there are many items. If `differ` is true, all ids differ: in unsorted
+ * cells equal codes then need not be adjacent, and are not detected. */
 struct octree;
 struct arena;
 bool morton_sort_tasks(const struct octree *tree, struct arena *memory, morton_item *items, morton_item *spare,

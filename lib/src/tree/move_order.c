@@ -1,19 +1,20 @@
 /* SPDX-License-Identifier: MIT */
-/* move_order.c - simulates moves one by one in the given order, and detects possibly full leaves.
+/* move_order.c - simulates moves one by one in the given order, and finds out whether moves might meet full leaves.
  *
  * Problem: the result of a batch must be that of single moves. Usually moves do not interact, and all leaving and
- * arriving points can be changed at once. They interact if an id occurs twice (A to B, then B to C), if a pair would
- * occur twice for a moment, or if a full leaf refuses a point depending on which points have left it before.
+ * arriving points can be changed at once. Moves interact if an id occurs twice (A to B, then B to C), if a pair
+ * (position, id) would occur twice for a moment, or if a full leaf may refuse a point, depending on which points have
+ * left the leaf before.
  *
- * Idea: simulate without the tree. A table holds each pair (position, id) that a move leaves or reaches, with its
- * current owner. Under OCTREE_REFUSE a second table holds the number of points in each indivisible cell that a move
- * leaves or reaches. A point is refused exactly if its indivisible cell is full, because any larger leaf would split.
- * Two leaves outside the tree serve as hash tables: leaf_find() returns the index of a pair or of a cell. Each move is
- * then O(1). At the end the table shows which stored points leave and which points arrive, and restructure.c makes the
- * change.
+ * Idea: simulate without the tree. A table holds each pair (position, id) that a move leaves or reaches, and the move
+ * whose point is currently there. If leaves refuse points (OCTREE_REFUSE), a second table holds the number of points in
+ * each indivisible cell that a move leaves or reaches. A point is refused exactly if its indivisible cell is full,
+ * because any larger leaf would split. Two leaves outside the tree serve as hash tables: leaf_find() returns the index
+ * of a pair or of a cell. Each move is then O(1). At the end the table shows which stored points leave and which points
+ * arrive, and restructure.c makes the change.
  *
- * Cost: about 250 bytes a move, so can_overflow() and can_overflow_when_rebuilt() first rule out full leaves where they
- * can.
+ * Cost: about 250 bytes a move. To avoid this cost, can_overflow() and can_overflow_when_rebuilt() first rule out full
+ * leaves where they can.
  */
 #include "batch.h"
 
@@ -24,21 +25,24 @@
 #define NO_OWNER UINT32_MAX
 #define FIRST_OWNER (UINT32_MAX - 1)
 
-/* A pair (position, id) from which or to which a move goes. */
+/* A pair (position, id) that is the origin or the destination of a move. */
 typedef struct pair {
     uint64_t code;
-    uint32_t owner; /* the index of the move whose point is at the pair; FIRST_OWNER: the point stored before the batch;
-                       NO_OWNER: no point */
+    /* index of the move whose point is at the pair; FIRST_OWNER: the point that was stored there before the batch;
+     * NO_OWNER: no point */
+    uint32_t owner;
     uint32_t index; /* the index of the pair in its leaf before the batch; MORTON_NEW: the pair was not stored */
 } pair;
 
 typedef struct simulation {
     batch *batch;
-    node points; /* a leaf that serves as a hash table of the pairs: its index i is the index of pairs[i] */
+    node points; /* a leaf that serves as a hash table of the pairs: the point with index i is pairs[i] */
     pair *pairs;
-    node cells;       /* a leaf that serves as a hash table of indivisible cells: its ids are the cells' addresses, its
-                         positions are 0 */
-    uint32_t *counts; /* the current number of points in each cell of `cells`; null if no leaf refuses points */
+    /* a leaf that serves as a hash table of indivisible cells: the ids of its points are the cells' addresses, the
+     * positions are 0 */
+    node cells;
+    /* for each cell in `cells`, the current number of points in the cell; null if no leaf refuses points */
+    uint32_t *counts;
 } simulation;
 
 static uint32_t find_stored_index(const octree *tree, const octree_point *point)
@@ -47,7 +51,7 @@ static uint32_t find_stored_index(const octree *tree, const octree_point *point)
     return find_point(tree, point->position, point->id, &found) ? found.index : MORTON_NEW;
 }
 
-/* Return the index of a point in a leaf that serves as a table. A missing point is added at the end. */
+/* Returns the index of a point in a leaf that serves as a hash table. A missing point is added at the end. */
 static uint32_t find_or_add(node *table, const octree_point *point)
 {
     const uint32_t index = leaf_find(table, point->position, point->id);
@@ -69,7 +73,7 @@ static pair *find_or_add_pair(simulation *r, const octree_point *point)
     return &r->pairs[at];
 }
 
-/* Return the address of the indivisible cell that contains a code. */
+/* Returns the address of the indivisible cell that contains a code. */
 static octree_address find_indivisible_cell(const octree *tree, uint64_t code)
 {
     cell c = root_cell();
@@ -98,9 +102,8 @@ static uint32_t *find_or_add_cell_count(simulation *r, uint64_t code)
     return &r->counts[at];
 }
 
-/* Subtract a point from the count of one indivisible cell and add it to the count of another. False if the other
- * cell is full. A full leaf that cannot split holds the points of one indivisible cell only, so the leaf refuses the
- * point. */
+/* Move a point from one indivisible cell to another in the counts of points. Returns false if the other cell is full. A
+ * full leaf that cannot split holds only points of one indivisible cell, so the leaf would refuse the point. */
 static bool move_between_cells(simulation *r, uint64_t from, uint64_t to)
 {
     if (!r->counts)
@@ -135,7 +138,7 @@ static int compare_places(const void *a, const void *b)
     return (p > q) - (p < q);
 }
 
-/* List the stored points that leave and the points that arrive, according to the final owner of each pair. */
+/* List the stored points that leave and the points that arrive, according to which point is at each pair in the end. */
 static void list_leaving_and_arriving(const simulation *r)
 {
     batch *b = r->batch;
@@ -184,8 +187,8 @@ bool simulate_moves_in_order(batch *b)
 
 /* ---- Overflow ----------------------------------------------------------------------------------------------- */
 
-/* Whether an indivisible cell of a leaf might become overfull. It might if more than `capacity` points lie in the cell,
- * counting the leaf's points, the origins of moves and their destinations. */
+/* Returns whether an indivisible cell of a leaf might get too many points: more than `capacity` points lie in the cell,
+ * counting the leaf's points, the origins of moves and the destinations of moves. */
 static bool can_overfill_leaf(const batch *b, const node *leaf, cell c, span arriving)
 {
     const size_t capacity = b->tree->def.leaf_capacity;
@@ -231,8 +234,8 @@ bool can_overflow(const batch *b, const node *old, cell c, span arriving)
 
 /* ---- Overflow of a rebuilt tree ---------------------------------------------------------------------------- */
 
-/* Store a distance for each axis. Two points that are farther apart on some axis are never in one indivisible cell:
- * such a cell has the greatest depth, or contains no double between its planes. */
+/* Compute a distance for each axis. Two points that are farther apart on some axis never lie in one indivisible cell.
+ * Such a cell has the greatest depth, or contains no double between its planes. */
 static void separating_distance(const octree *tree, double distance[3])
 {
     const octree_box *world = &tree->def.world;
@@ -249,8 +252,8 @@ static bool are_close(const octree_point *a, const octree_point *b, const double
            fabs(a->position[1] - b->position[1]) <= distance[1] && fabs(a->position[2] - b->position[2]) <= distance[2];
 }
 
-/* Return an upper bound of the number of points in one indivisible cell, among 2 * half points. Point i is paired with
- * point i + half. If the two are not close to each other, at most one of them can lie in the cell. */
+/* Returns an upper bound of the number of points in one indivisible cell, among 2 * half points. Point i is paired with
+ * point i + half. If the two points of a pair are not close to each other, at most one of them can lie in the cell. */
 static size_t max_paired_points_in_one_cell(const octree_point *points, uint32_t half, const double distance[3])
 {
     size_t most = half;
@@ -259,7 +262,7 @@ static size_t max_paired_points_in_one_cell(const octree_point *points, uint32_t
     return most;
 }
 
-/* Return an upper bound of the number of points in one indivisible cell, among the points of two leaves together. */
+/* Returns an upper bound of the number of points in one indivisible cell, among all points of two leaves. */
 static size_t max_points_in_one_cell(const node *old, const node *made, const double distance[3])
 {
     const octree_point *before = leaf_points(old), *after = leaf_points(made);

@@ -4,13 +4,13 @@
  * Problem: restructure.c plans one node after the other; a large batch should use several threads, with the same result
  * for any number of them.
  *
- * Idea: first walk the nodes as restructure.c would, without planning, down to nodes with few enough items for a task,
- * and list these as jobs. Tasks plan the jobs, each with memory pools of its own that borrow free blocks from the
- * tree's. Then plan the nodes above; where the walk reaches a job's node again, it takes the finished result. Both
- * walks have the same order, so that jobs are matched by counting. The division depends on counts only, never on
- * timing.
+ * Idea: first walk the nodes as restructure.c would, without planning, down to nodes with few enough items (points) for
+ * a task, and list these nodes as jobs. Tasks plan the jobs; each task has memory pools of its own, which borrow free
+ * blocks from the tree's pools. Then plan the nodes above the jobs' nodes. Where this second walk reaches a job's node
+ * again, it takes the job's result. Both walks have the same order, so the next result is always the right one. The
+ * division into jobs depends only on counts, never on timing.
  *
- * Carrying out a plan edits leaves, replaces nodes and frees the old ones. Nothing is allocated, so it cannot fail.
+ * Carrying out a plan edits leaves, replaces nodes and frees the old nodes. It allocates nothing, so it cannot fail.
  */
 #include "division.h"
 #include "grid_fill.h"
@@ -20,8 +20,8 @@
 
 /* ---- Jobs: the nodes that tasks plan ------------------------------------------------------------------------ */
 
-/* Add the jobs of build_node() to the list, in the order in which build_node() reaches their nodes. False when there is
- * no memory. */
+/* Add jobs to the list for the nodes that build_node() would build, in the order in which build_node() reaches these
+ * nodes. Returns false if memory runs out. */
 static bool add_build_jobs(batch *b, cell c, span items)
 {
     if (items.count <= b->division->grain)
@@ -36,8 +36,9 @@ static bool add_build_jobs(batch *b, cell c, span items)
     return true;
 }
 
-/* Add the jobs of change_node() to the list, in the order in which change_node() reaches their nodes. A leaf with very
- * many arriving items is one job, which build_node_by_tasks() divides later. False when there is no memory. */
+/* Add jobs to the list for the nodes that change_node() would change, in the order in which change_node() reaches these
+ * nodes. A leaf with very many arriving items is one job, which build_node_by_tasks() divides later. Returns false if
+ * memory runs out. */
 static bool add_change_jobs(batch *b, const node *old, cell c, span leaving, span arriving)
 {
     static const node empty = {0};
@@ -75,7 +76,7 @@ static void plan_jobs_of_part(size_t number, void *context)
     }
 }
 
-/* Free the list of jobs, and the results that were not used. */
+/* Free the list of jobs, and those results of jobs that were not used. */
 static void release_jobs(batch *b)
 {
     static const node none = {0};
@@ -87,7 +88,7 @@ static void release_jobs(batch *b)
     *work = (job_list){.ready = false};
 }
 
-/* Run all jobs. False when there is no memory; the jobs are then removed from the list. */
+/* Run all jobs. Returns false if memory runs out; the jobs are then removed from the list. */
 static bool run_jobs(batch *b)
 {
     job_list *work = &b->division->work;
@@ -115,7 +116,8 @@ bool take_job_result(batch *b, node *made)
     return true;
 }
 
-/* Build the node of one large leaf by jobs of its own. The job list of the whole tree is set aside meanwhile. */
+/* Build the node of one large leaf by jobs of its own. Meanwhile, the job list of the whole tree is stored
+ * elsewhere. */
 bool build_node_by_tasks(batch *b, cell c, span items, node *made)
 {
     if (!b->division)
@@ -130,13 +132,13 @@ bool build_node_by_tasks(batch *b, cell c, span items, node *made)
 
 /* ---- The plan ----------------------------------------------------------------------------------------------- */
 
-/* Edit a leaf in place. Arriving points first overwrite leaving points; the remaining ones are appended. If more points
- * leave than arrive, the last points of the leaf fill the gaps. */
+/* Edit a leaf in place. Arriving points first overwrite leaving points, and the remaining arriving points are appended.
+ * If more points leave than arrive, the last points of the leaf fill the gaps. */
 static void apply_leaf_edit(batch *b, const edit *e)
 {
     uint32_t count = e->count;
     size_t taken = 0;
-    /* fill the last gap first: then the leaf's last point is never a leaving one */
+    /* fill the last gap first, so that the leaf's last point is never a leaving point */
     for (size_t i = e->leaving.count; i-- > 0;) {
         octree_point *gap = &e->points[e->leaving.items[i].index];
         *gap = taken < e->arriving.count ? arriving_point(b, &e->arriving.items[taken++]) : e->points[--count];
@@ -178,7 +180,7 @@ static void release_plan_lists(batch *b)
     list_release(&b->store->memory, &b->edits, sizeof(edit));
 }
 
-/* Carry out the plans or drop them. The plans of the parts come first, because their nodes lie below the nodes of the
+/* Carry out the plans, or drop them. The plans of the parts come first, because their nodes lie below the nodes of the
  * batch's own plan. */
 static void apply_or_drop_plan(batch *b, bool succeeds)
 {
@@ -207,7 +209,7 @@ static void combine_part_flags(batch *b)
 
 /* ---- Building anew -------------------------------------------------------------------------------------- */
 
-/* Build a densely packed tree in new memory pools. If this succeeds, it replaces the old tree. */
+/* Build a densely packed tree in new memory pools. If this succeeds, the new tree replaces the old tree. */
 octree_status rebuild_from_batch(batch *b)
 {
     octree *tree = b->tree;
@@ -236,7 +238,7 @@ octree_status rebuild_from_batch(batch *b)
 
 /* ---- Restructuring ------------------------------------------------------------------------------------------ */
 
-/* Make the plan. False when there is no memory; the patches and edits made so far must then be dropped. */
+/* Make the plan. Returns false if memory runs out; the caller must then drop the patches and edits made so far. */
 static bool plan_changes(batch *b)
 {
     octree *tree = b->tree;

@@ -4,11 +4,12 @@
  * Problem: insertion, queries and drawing must agree on every plane to the last bit, in any world from subnormal to
  * near DBL_MAX. Halving boxes repeatedly accumulates rounding, overflows in (min + max), and costs a descent per point.
  *
- * Idea: number the 2^21 + 1 finest planes of an axis and compute plane k by one closed form, center + half * t with an
- * exact t in -1..1, from a few unevaluated terms (double-double arithmetic), so that only the last addition rounds. The
- * key of a coordinate, the largest k with plane(k) <= x, then comes from one multiplication: a guess with a proven
- * error bound. If the guess is farther than that from an integer it is certain; this holds for nearly
- * all coordinates. Otherwise the planes themselves decide between neighbours, or a binary search in extreme worlds.
+ * Idea: number the 2^21 + 1 finest planes of an axis. Compute plane k by one closed form, center + half * t with an
+ * exact t in -1..1. `center` and `half` are unevaluated sums of a few doubles (double-double arithmetic), so that only
+ * the last addition rounds. The key of a coordinate, the largest k with plane(k) <= x, then comes from one
+ * multiplication: a guess with a proven error bound. If the guess is farther from an integer than this bound, the key
+ * is certain; this holds for nearly all coordinates. Otherwise the planes themselves decide between neighbouring keys.
+ * In extreme worlds a binary search finds the key.
  *
  * Guesses are added to 2^21, so that the bits of the double are a fixed-point number (21 bits of key, 31 of fraction)
  * and two coordinates are processed at once with SSE2.
@@ -25,8 +26,8 @@ static void add_exactly(double a, double b, double sum[2])
     sum[1] = (a - (sum[0] - b_part)) + (b - b_part);
 }
 
-/* Return a double with only the 31 most significant bits of `value`. The product with a key, which has 22 bits, is
- * exact. */
+/* Returns a double with only the 31 most significant bits of `value`. The product of the result and a key, which has 22
+ * bits, is exact. */
 static double high_31_bits(double value)
 {
     uint64_t bits;
@@ -36,15 +37,15 @@ static double high_31_bits(double value)
     return value;
 }
 
-/* Set the range of fractions for which a guessed key is certain. Rounding to fixed point adds one more error. In
- * subnormal worlds no guess is certain, because the guess uses another product. */
+/* Set the range of fractions of a guessed key for which the key is certain. Rounding to fixed point adds one more
+ * error. In subnormal worlds no guess is certain, because the guess is computed from a different product. */
 static void set_certain_range(axis *a)
 {
     static const double first = (double)PLANE_GRID;
     const double error = a->guess_error * (double)(UINT64_C(1) << PLANE_FRACTION) + 2;
     const int64_t fraction = INT64_C(1) << PLANE_FRACTION;
     memcpy(&a->sure_from, &first, sizeof first);
-    if (a->subnormal || !(2 * error < (double)fraction)) /* true also if `error` is NaN */
+    if (a->subnormal || !(2 * error < (double)fraction)) /* the condition is also true if `error` is NaN */
         return;
     a->sure_from += (uint64_t)error;
     a->sure_span = (uint64_t)(fraction - 2 * (int64_t)error);
@@ -54,7 +55,7 @@ axis axis_make(double min, double max)
 {
     axis a = {.min = min, .max = max, .unit = 1, .keys_per_unit = (double)PLANE_GRID / (max - min)};
     a.subnormal = fabs(min) < SUBNORMAL_HALF && fabs(max) < SUBNORMAL_HALF;
-    /* Small coordinates are scaled, so that their halves are not subnormal. */
+    /* Small coordinates are multiplied by a power of two, so that half of a coordinate is not subnormal. */
     if (fabs(min) < 0x1p-900 && fabs(max) < 0x1p-900)
         a.unit = a.subnormal ? 0x1p-1074 : 0x1p-100;
     const double low = min / a.unit / 2, high = max / a.unit / 2;
@@ -82,7 +83,7 @@ double plane_at_precisely(const axis *a, double t)
     return a->subnormal ? subnormal_of(sum[0] + rest) : (sum[0] + rest) * a->unit;
 }
 
-/* Binary search for the largest key whose plane is at most x. */
+/* Find the largest key whose plane is at most x, by binary search. */
 static uint32_t search_key(const axis *a, double x)
 {
     uint32_t key = 0;
@@ -92,12 +93,13 @@ static uint32_t search_key(const axis *a, double x)
     return key;
 }
 
-/* Correct a guessed key. The guess has only rounding errors, so the planes decide between it and its neighbours. In
- * worlds a few ulps wide, or with an overflowing extent, the guess is useless and a binary search finds the key. */
+/* Returns the correct key of x, near the guessed key. A usable guess is wrong only by rounding errors, so the planes
+ * decide between the guess and its neighbours. In worlds that are a few ulps wide, or whose extent overflows, the guess
+ * is useless, and a binary search finds the key. */
 uint32_t plane_key_near(const axis *a, double x)
 {
     const double guess = plane_guess_key(a, x);
-    /* The guess needs no test for negative values: it never is negative. */
+    /* The guess needs no test for negative values, because it is never negative. */
     if (!(a->keys_per_unit > 0 && a->guess_error < 1 && guess < (double)PLANE_GRID))
         return search_key(a, x);
     uint32_t key = (uint32_t)guess;
@@ -136,7 +138,7 @@ static inline __m128i spread_two_bytes(__m128i x)
     return spread_step(x, 2, UINT64_C(0x1249249249249249));
 }
 
-/* The constants of an axis, each stored twice, to process two positions at once. */
+/* The constants of an axis. Each constant is stored twice, so that SSE2 processes two positions at once. */
 typedef struct axis_pair {
     __m128d min, keys_per_unit;
     __m128i sure_from, sure_last;
@@ -150,8 +152,8 @@ static inline void duplicate_axes(const axis axes[3], axis_pair pairs[3])
                                _mm_set1_epi64x((long long)(axes[i].sure_span - 1))};
 }
 
-/* Compute plane_fixed() of two coordinates at once. The highest bit of each half of *unsure is set as plane_unsure()
- * does. */
+/* Compute plane_fixed() of two coordinates at once. In *unsure, the highest bit of each 64-bit half is set as
+ * plane_unsure() sets it. */
 static inline __m128i fixed_of_two(const axis_pair *a, double p, double q, __m128i *unsure)
 {
     const __m128i fraction = _mm_set1_epi64x((long long)PLANE_FRACTION_MASK);
@@ -170,7 +172,8 @@ static inline __m128i all_ones_if_unsure(__m128i unsure)
     return _mm_sub_epi64(_mm_setzero_si128(), _mm_srli_epi64(unsure, 63));
 }
 
-/* Compute the Morton codes of two positions. A code is MORTON_UNSURE if a guessed key is not certain. */
+/* Compute the Morton codes of two positions. A code is MORTON_UNSURE if a guessed key of the position is not
+ * certain. */
 static inline void codes_of_two(const axis_pair axes[3], const double *p, const double *q, uint64_t codes[2])
 {
     __m128i sums = _mm_setzero_si128(), unsure = sums;
@@ -182,7 +185,7 @@ static inline void codes_of_two(const axis_pair axes[3], const double *p, const 
 }
 
 /* Compute the grid cells of two positions, from the most significant bits of each key. A cell is GRID_UNSURE if a
- * guessed key is not certain. */
+ * guessed key of the position is not certain. */
 static inline void cells_of_two(const axis_pair axes[3], unsigned depth, const double *p, const double *q,
                                 uint32_t cells[2])
 {

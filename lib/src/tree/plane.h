@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* plane.h - planes, cells, Morton codes and addresses: one closed form for insertion, queries and drawing.
+/* plane.h - computes planes, cells, Morton codes and addresses. Insertion, queries and drawing all use the same closed
+ * form.
  *
- * Each axis of the world has 2^21 + 1 grid planes. A cell of depth d spans 2^(21-d) of the gaps between them on each
- * axis. The key of a coordinate is the number of its gap: the largest k with plane(k) <= x. The Morton code of a point
- * is its three keys interleaved; its groups of three bits, from the highest, are the octants of the point's path.
+ * Each axis of the world has 2^21 + 1 grid planes. On each axis, a cell of depth d spans 2^(21-d) of the gaps between
+ * these planes. The key of a coordinate is the number of the gap that contains it: the largest k with plane(k) <= x.
+ * The Morton code of a point consists of the interleaved bits of its three keys. Its groups of three bits, from the
+ * highest group on, are the octants of the point's path.
  */
 #ifndef OCTREE_PLANE_H
 #define OCTREE_PLANE_H
@@ -17,25 +19,26 @@
 
 typedef struct axis {
     double min, max;
-    double unit;          /* a power of two, by which the terms below are multiplied */
-    double center[2];     /* (min + max) / 2 as an unevaluated sum of two terms */
-    double half[3];       /* (max - min) / 2 as an unevaluated sum of three terms; the first has 31 bits */
-    bool plain;           /* true: the first terms of `center` and `half` are exact without the others */
-    bool subnormal;       /* all coordinates and their differences are subnormal */
-    double keys_per_unit; /* the number of grid planes per unit of length, rounded; may be 0 or infinite in extreme
-                             worlds */
-    double guess_error;   /* an error bound of a guessed key, measured in keys; may be infinite or NaN */
-    uint64_t sure_from;   /* in fixed point: the offset from a plane to the first certain guess above it */
-    uint64_t sure_span;   /* in fixed point: the length of the range of certain guesses; 0: no guess is certain */
+    double unit;      /* a power of two: the unit in which `center` and `half` are stored */
+    double center[2]; /* (min + max) / 2, as an unevaluated sum of two terms */
+    double half[3];   /* (max - min) / 2, as an unevaluated sum of three terms; the first term has 31 bits */
+    bool plain;       /* true: the first terms of `center` and `half` are exact, and the other terms are 0 */
+    bool subnormal;   /* true: all coordinates of the world and their differences are subnormal */
+    /* the number of grid planes per unit of length, rounded; may be 0 or infinite in extreme worlds */
+    double keys_per_unit;
+    double guess_error; /* an error bound of a guessed key, as a number of keys; may be infinite or NaN */
+    /* in fixed point: the distance from a plane to the first position above it at which a guess is certain */
+    uint64_t sure_from;
+    uint64_t sure_span; /* in fixed point: the length of the range of certain guesses; 0: no guess is certain */
 } axis;
 
 axis axis_make(double min, double max);
 
-/* The plane at center + half * t for t in -1 .. 1, computed from all terms. */
+/* Returns the plane at center + half * t for t in -1 .. 1, computed from all terms of `center` and `half`. */
 double plane_at_precisely(const axis *a, double t);
 
-/* The plane at center + half * t, clamped to the world. Only the first terms are used if they suffice. Not valid for
- * the world's own faces. */
+/* Returns the plane at center + half * t, clamped to the world. Only the first terms of `center` and `half` are used if
+ * they are exact. Not valid for the faces of the world. */
 static inline double plane_inside(const axis *a, double t)
 {
     const double plane = a->plain ? a->center[0] + a->half[0] * t : plane_at_precisely(a, t);
@@ -44,25 +47,25 @@ static inline double plane_inside(const axis *a, double t)
     return plane > a->min ? plane : a->min;
 }
 
-/* The k-th grid plane, 0 <= k <= PLANE_GRID: center + half * t with the exact t = k / 2^20 - 1. The terms are summed to
- * some 80 bits and rounded once.
+/* The k-th grid plane, 0 <= k <= PLANE_GRID: center + half * t with the exact t = k / 2^20 - 1. The terms of center and
+ * half are summed with about 80 bits and rounded once.
  *
- * So a plane equals the paper's repeated (min + max) / 2 wherever that is a double. Planes ascend with k, because
- * neighbours are 2^-21 of the extent apart. Nothing overflows. */
+ * So a plane equals the result of the paper's repeated (min + max) / 2 wherever that result is a double. Planes ascend
+ * with k, because neighbours are 2^-21 of the extent apart. Nothing overflows. */
 static inline double plane_at(const axis *a, uint32_t k)
 {
     return k == 0 ? a->min : k == PLANE_GRID ? a->max : plane_inside(a, (double)k * 0x1p-20 - 1);
 }
 
-/* A guess of a coordinate's key, as a double with a fraction. It differs from the real value by rounding errors
- * only. */
+/* Returns a guess of a coordinate's key, as a double with a fraction. The guess differs from the exact value only by
+ * rounding errors. */
 static inline double plane_guess_key(const axis *a, double x)
 {
     const double above = x - a->min;
     return (a->subnormal ? subnormal_count(above) : above) * a->keys_per_unit;
 }
 
-/* The key of a coordinate near a plane, where the guessed key may be wrong. plane_key() calls this function. */
+/* Returns the key of a coordinate near a plane, where the guessed key may be wrong. plane_key() calls this function. */
 uint32_t plane_key_near(const axis *a, double x);
 
 /* A fixed-point number has 21 bits of a key and PLANE_FRACTION bits of fraction. Together they are the mantissa of a
@@ -71,7 +74,7 @@ uint32_t plane_key_near(const axis *a, double x);
 #define PLANE_FRACTION_MASK ((UINT64_C(1) << PLANE_FRACTION) - 1)
 #define PLANE_FIXED_BITS (OCTREE_MAX_DEPTH + PLANE_FRACTION)
 
-/* The guessed key in fixed point, minus the possible error. */
+/* Returns the guessed key in fixed point, minus its possible error. */
 static inline uint64_t plane_fixed(const axis *a, double x)
 {
     const double guess = (x - a->min) * a->keys_per_unit + (double)PLANE_GRID;
@@ -80,25 +83,25 @@ static inline uint64_t plane_fixed(const axis *a, double x)
     return bits - a->sure_from;
 }
 
-/* The highest bit of the result is set if the guess is not certain. For a coordinate outside the world it is always
- * set. */
+/* The highest bit of the result is set if the guessed key is not certain. The bit is always set for a coordinate
+ * outside the world. */
 static inline uint64_t plane_unsure(uint64_t span, uint64_t fixed)
 {
     return (span - 1 - (fixed & PLANE_FRACTION_MASK)) | (0 - (fixed >> PLANE_FIXED_BITS));
 }
 
-/* The key of a coordinate of the world, 0 <= key < PLANE_GRID.
+/* Returns the key of a coordinate inside the world, 0 <= key < PLANE_GRID.
  *
- * A guess is certain if it is farther from an integer than its error. The error has two parts: four roundings of a
- * number below 2^21, less than 2^-29 in all; and a plane is at most one ulp of the world's coordinates off its ideal
- * position. */
+ * The guessed key is certain if it is farther from an integer than its error. The error has two parts: four roundings
+ * of a number below 2^21, less than 2^-29 in all; and a plane is at most one ulp of the world's coordinates off its
+ * ideal position. */
 static inline uint32_t plane_key(const axis *a, double x)
 {
     const uint64_t fixed = plane_fixed(a, x);
     return plane_unsure(a->sure_span, fixed) >> 63 ? plane_key_near(a, x) : (uint32_t)(fixed >> PLANE_FRACTION);
 }
 
-/* A cell: its lowest grid plane on each axis, and its depth. */
+/* A cell: the number of its lowest grid plane on each axis, and its depth. */
 typedef struct cell {
     uint32_t low[3];
     unsigned depth;
@@ -125,16 +128,17 @@ static inline cell cell_child(cell parent, unsigned octant)
 
 octree_box cell_bounds(const axis axes[3], cell c);
 
-/* Whether at least one of the cell's three splitting planes lies strictly inside it. depth < OCTREE_MAX_DEPTH. */
+/* Returns whether at least one of the cell's three splitting planes lies strictly inside the cell. The cell's depth
+ * must be less than OCTREE_MAX_DEPTH. */
 bool cell_divisible(const axis axes[3], cell c);
 
-/* The Morton code of three keys: 63 bits, with x in the highest bit of each group of three. */
+/* Returns the Morton code of three keys: 63 bits, with the bit of x as the highest bit of each group of three. */
 static inline uint64_t morton_interleave(const uint32_t keys[3])
 {
     return bits_spread(keys[0]) << 2 | bits_spread(keys[1]) << 1 | bits_spread(keys[2]);
 }
 
-/* The Morton code of a position in the world. */
+/* Returns the Morton code of a position inside the world. */
 static inline uint64_t morton_code(const axis axes[3], const double position[3])
 {
     const uint32_t keys[3] = {plane_key(&axes[0], position[0]), plane_key(&axes[1], position[1]),
@@ -142,16 +146,16 @@ static inline uint64_t morton_code(const axis axes[3], const double position[3])
     return morton_interleave(keys);
 }
 
-/* Stands in place of a code if the guessed keys of the position are not certain or the position is outside the
- * world. */
+/* This value replaces a Morton code if the guessed keys of the position are not certain, or if the position is outside
+ * the world. */
 #define MORTON_UNSURE UINT64_MAX
 
 /* Compute the Morton codes of `count` positions, which are `stride` doubles apart. A position whose code is not certain
- * gets MORTON_UNSURE. If it lies in the world, call morton_code() for it. */
+ * gets MORTON_UNSURE. If such a position lies in the world, call morton_code() for it. */
 void compute_morton_codes(const axis axes[3], const double *positions, size_t stride, size_t count, uint64_t *codes);
 
-/* The greatest depth of a grid: it has 2 million cells. A cell's number is the most significant bits of its Morton
- * codes. */
+/* The maximum depth of a grid; such a grid has 2 million cells. A cell's number consists of the most significant bits
+ * of its points' Morton codes. */
 #define GRID_DEEPEST 7
 #define GRID_UNSURE UINT32_MAX
 
@@ -160,20 +164,21 @@ void compute_morton_codes(const axis axes[3], const double *positions, size_t st
 void compute_grid_cells(const axis axes[3], unsigned depth, const double *positions, size_t stride, size_t count,
                         uint32_t *cells);
 
-/* The grid cell of one position of the world. */
+/* Returns the grid cell of one position inside the world. */
 static inline uint32_t compute_grid_cell(const axis axes[3], unsigned depth, const double position[3])
 {
     return (uint32_t)(morton_code(axes, position) >> 3 * (OCTREE_MAX_DEPTH - depth));
 }
 
-/* The octant, in a node of this depth, that a Morton code belongs to. */
+/* Returns the octant, in a node of this depth, that contains a Morton code. */
 static inline unsigned morton_octant(uint64_t code, unsigned depth)
 {
     return (unsigned)(code >> (3 * (OCTREE_MAX_DEPTH - 1 - depth))) & 7;
 }
 
-/* Conversions. morton_cell() and morton_address() return the cell of a depth that contains a code, and this cell's
- * address. morton_of_address() returns the lowest code in the cell at an address. */
+/* Conversions between Morton codes and cells. morton_cell() returns the cell of this depth that contains a code, and
+ * morton_address() returns the address of that cell. morton_of_address() returns the lowest code in the cell at an
+ * address. */
 cell morton_cell(uint64_t code, unsigned depth);
 
 static inline octree_address morton_address(uint64_t code, unsigned depth)
@@ -187,10 +192,11 @@ static inline uint64_t morton_of_address(octree_address address)
     return (address ^ UINT64_C(1) << 3 * depth) << 3 * (OCTREE_MAX_DEPTH - depth);
 }
 
-/* A comparison function for qsort(): the order in which octree_walk() visits nodes, parents first. */
+/* A comparison function for qsort(). It sorts addresses in the order in which octree_walk() visits their nodes: parents
+ * before children. */
 int compare_addresses(const void *a, const void *b);
 
-/* Whether a word is a valid address: the position of its leading 1 is a multiple of three. */
+/* Returns whether a word is a valid address: the position of its leading 1 bit is a multiple of three. */
 bool is_address(octree_address address);
 
 #endif

@@ -4,16 +4,16 @@
  * Problem: a tree allocates and frees many small blocks of 1 to 64 units, in any order. malloc adds a header and
  * alignment to each.
  *
- * Idea: slabs of units, and one free list per block size. A block comes from the list of its size, from a larger block
- * that is split, or from the unused end of the newest slab. A freed block only enters a list, which takes a few
- * instructions.
+ * Idea: slabs of units, and one free list per block size. A block is taken from the free list of its size, from a
+ * larger free block that is split, or from the unused end of the newest slab. A freed block only enters a list, which
+ * takes a few instructions.
  *
- * When an eighth of the pool is free and half of that was freed recently, adjacent free blocks are joined: all free
- * units are marked in bit maps, and the runs of marks become the new free lists. Buddy allocation was no option: it
- * wastes up to half of a block. Joining costs O(pool), but is amortized over the blocks freed since.
+ * When an eighth of the pool is free, and half of this eighth was freed recently, adjacent free blocks are joined. All
+ * free units are marked in bit maps, and the runs of marked units become the new free lists. Buddy allocation would
+ * waste up to half of each block. Joining costs O(pool), but is amortized over the blocks freed since.
  *
- * Tasks have pools of their own. While the tree's pool has much free memory, they borrow blocks from it under a
- * lock.
+ * Each task has pools of its own. While the tree's pool has much free memory, the pools of tasks borrow blocks from it
+ * under a lock.
  */
 #include "pool.h"
 #include "bits.h"
@@ -26,7 +26,7 @@
 #define SLAB_MAX_BYTES (1u << 22)
 #define CACHE_LINE 64
 
-/* The header of a slab. After it come one bit per unit, used to join free blocks, and then the units. */
+/* The header of a slab. One bit per unit follows, which is used to join free blocks, and then the units. */
 struct slab {
     struct slab *next;
     size_t size; /* the size of the whole slab in bytes */
@@ -56,7 +56,7 @@ octree_allocator default_allocator(void)
     return (octree_allocator){.allocate = default_allocate, .release = default_release};
 }
 
-/* Return the arena that counts the bytes, and lock it if tasks share it. */
+/* Returns the arena that counts the allocated bytes. Locks this arena if tasks share it. */
 static arena *lock_owner(arena *a)
 {
     if (a->shared)
@@ -161,7 +161,7 @@ static int compare_slabs(const void *a, const void *b)
 
 enum { FEW_SLABS = 64 };
 
-/* Return an array of all slabs sorted by address. Null if there are few slabs or there is no memory. */
+/* Returns an array of all slabs, sorted by address. Returns null if there are few slabs or if memory runs out. */
 static struct slab **sort_slabs(pool *p)
 {
     struct slab **sorted = p->slab_count > FEW_SLABS ? arena_allocate(p->memory, p->slab_count * sizeof *sorted) : NULL;
@@ -173,7 +173,7 @@ static struct slab **sort_slabs(pool *p)
     return sorted;
 }
 
-/* Return the slab that contains a block. `guess` is the slab of the previous block, which is usually the same. */
+/* Returns the slab that contains a block. `guess` is the slab of the previous block, which is usually the same slab. */
 static struct slab *find_slab(const pool *p, struct slab **sorted, const void *block, struct slab *guess)
 {
     if (is_in_slab(p, guess, block))
@@ -184,7 +184,8 @@ static struct slab *find_slab(const pool *p, struct slab **sorted, const void *b
             slab = slab->next;
         return slab;
     }
-    size_t low = 0, high = p->slab_count; /* the last slab that begins before the block is in [low, high) */
+    /* invariant: the index of the last slab that begins before the block is in [low, high) */
+    size_t low = 0, high = p->slab_count;
     while (high - low > 1) {
         const size_t middle = low + (high - low) / 2;
         if ((uintptr_t)sorted[middle] <= (uintptr_t)block)
@@ -225,7 +226,7 @@ static uint64_t read_marks(struct slab *slab, size_t unit)
     return bits[0] >> shift | (more ? bits[1] << (64 - shift) : 0);
 }
 
-/* Add each run of free units, whose bits are set, to the free lists, in blocks of at most POOL_MAX_UNITS. */
+/* Add each run of free units to the free lists, in blocks of at most POOL_MAX_UNITS. The bits of free units are set. */
 static void add_free_runs(pool *p, struct slab *slab)
 {
     for (size_t unit = 0; unit < slab->units;) {
@@ -250,8 +251,8 @@ static void join_free_blocks(pool *p)
     arena_free(p->memory, sorted, p->slab_count * sizeof *sorted);
 }
 
-/* Return the size of the next slab. It is an eighth of the pool, so that at most an eighth of the pool is unused. The
- * first slab of a task's pool has the expected size. */
+/* Returns the size of the next slab in bytes. The size is an eighth of the pool, so that at most an eighth of the pool
+ * is unused. The first slab of a task's pool has the expected size. */
 static size_t next_slab_bytes(const pool *p)
 {
     const size_t least = p->lender ? POOL_MAX_UNITS * p->unit : SLAB_MIN_BYTES;
@@ -269,7 +270,7 @@ static bool add_slab(pool *p)
     struct slab *slab = arena_allocate(p->memory, size);
     if (!slab)
         return false;
-    /* Fewer than POOL_MAX_UNITS units are unused; with more of them no new slab would be needed. */
+    /* Fewer than POOL_MAX_UNITS units are unused. If there were more, no new slab would be needed. */
     add_free_block(p, p->fresh, (unsigned)p->fresh_units);
     const uintptr_t end_of_header = (uintptr_t)slab + header;
     const size_t skip = (size_t)(-end_of_header & (CACHE_LINE - 1));
@@ -294,14 +295,15 @@ static void *take_free_block(pool *p, unsigned units)
     return block;
 }
 
-/* Whether to join free blocks: an eighth of the pool is free, and half of that was freed since the last time. Joining
- * takes time in proportion to the free blocks, so its amortized cost per freed block is constant. */
+/* Returns whether free blocks should be joined: an eighth of the pool is free, and half of this eighth was freed since
+ * blocks were last joined. The time for joining is proportional to the number of free blocks, so the amortized cost per
+ * freed block is constant. */
 static bool is_worth_joining(const pool *p)
 {
     return p->free_units > p->total_units / 8 && p->freed_units > p->free_units / 2;
 }
 
-/* Take a free block from the lending pool; null if it has none. */
+/* Take a free block from the pool that lends blocks. Returns null if that pool has no suitable block. */
 static void *borrow_block(pool *p, unsigned units)
 {
     arena_lock(p->memory->shared);
@@ -344,7 +346,7 @@ void pool_borrow(pool *p, arena *memory, pool *lender, size_t expected_units)
     p->borrows = is_much_free(lender);
 }
 
-/* Move the unused units of the newest slab to the free lists, such that later allocations use its first units first. */
+/* Move the unused units of the newest slab to the free lists. Later allocations use the first of these units first. */
 static void free_unused_units(pool *p)
 {
     while (p->fresh_units > 0) {

@@ -4,14 +4,14 @@
  * Problem: when a fifth of the points or more move, as in every step of a simulation, nearly every leaf changes.
  * Finding each moved point by descent and then editing its leaf costs more than building a tree.
  *
- * Idea: read all stored points once, in memory order. A table by id tells for each stored point whether it
- * moves; if not, it is copied as staying, else its address is noted for the move. Then go through the
- * moves in the caller's order, check each against its noted point, and hand destinations and staying points to
- * grid_fill.c or a sort.
+ * Idea: read all stored points once, in memory order. A table of ids shows whether a stored point moves. If it does not
+ * move, it is copied to the staying points; otherwise its address is entered in the table. Then go through the moves in
+ * the caller's order, and check each move with the point that the table has for it. Finally grid_fill.c or a sort
+ * builds the new tree from the destinations and the staying points.
  *
- * The table is a bit map with one pointer per id where ids are dense, else a hash table. If an id moves twice
- * or is stored twice, moves depend on one another; the function gives up and move_order.c simulates them. Cost:
- * O(n) with 90 to 140 bytes a point while it runs.
+ * The table is a bit map with one pointer per id where ids are dense, else a hash table. If an id moves twice or is
+ * stored twice, moves depend on one another; this method is then abandoned, and move_order.c simulates the moves. Cost:
+ * O(n) time, and 90 to 140 bytes a point during the call.
  */
 #include "grid_fill.h"
 #include "tasks.h"
@@ -19,31 +19,35 @@
 #include <stdatomic.h>
 #include <string.h>
 
-/* A table of the ids that move, with the address of the stored point of each id. If the ids are dense, they index the
- * table directly; otherwise it is a hash table with linear probing. */
+/* A table of the ids that move. It has the address of the stored point of each id. If the ids are dense, an id is an
+ * index into the table; otherwise the table is a hash table with linear probing. */
 typedef struct id_table {
-    const octree_point *_Atomic *stored; /* for each slot from `first` on, the stored point; null: not found. If two
-                                            tasks write one slot, the id is stored twice, and the table is not used */
-    uint64_t *bits;                      /* dense ids: bit i is set if a move has the id least + i; else null */
-    uint32_t *places; /* other ids: for each slot the index + 1 of the move, or 0; null if the ids are dense */
+    /* for each slot from `first` on, the address of the stored point; null: not found. If two tasks write one slot, the
+     * id is stored twice, and the table is not used */
+    const octree_point *_Atomic *stored;
+    uint64_t *bits; /* for dense ids: bit i is set if a move has the id least + i; else null */
+    /* for other ids: for each slot, 1 + the index of the move, or 0 if the slot is empty; null if the ids are dense */
+    uint32_t *places;
     size_t slot_count, first, stored_count;
     uint64_t least;
 } id_table;
 
 /* The results of one task. */
 typedef struct findings {
-    size_t first;           /* index of the first stored point that the task reads */
-    size_t stay, looked_up; /* the number of stored points that stay, and the number that the task has read */
-    size_t seen, moved;     /* the number of moves whose id is stored, and the number of valid moves */
+    size_t first; /* index of the first stored point that the task reads */
+    /* stay: the number of stored points that stay; looked_up: the number of stored points that the task has read */
+    size_t stay, looked_up;
+    size_t seen, moved; /* seen: the number of moves whose id is stored; moved: the number of valid moves */
 } findings;
 
 typedef struct remake {
     batch *whole; /* the batch of moves */
     id_table ids;
-    /* copies of the points that stay. Each task writes its copies from the index of its first point on */
+    /* copies of the points that stay; each task writes its copies from the index of the first point that it reads */
     octree_point *staying;
-    uint32_t *cells; /* the grid cell of each move, then of each staying point; without a grid all are 0 */
-    size_t count;    /* the number of moves */
+    /* the grid cells of all moves, followed by the grid cells of all staying points; without a grid all cells are 0 */
+    uint32_t *cells;
+    size_t count; /* the number of moves */
     unsigned move_tasks;
     forest stored; /* the tree before the moves */
     findings found[TASKS_AT_MOST];
@@ -59,7 +63,7 @@ bool ids_ascend(const batch *b)
     return true;
 }
 
-/* Return the slot of an id in a hash table. For an id that is not in the table, return the empty slot for it. */
+/* Returns the slot of an id in a hash table. If the id is not in the table, returns the empty slot for it. */
 static size_t find_id_slot(const id_table *t, const octree_point *points, uint64_t id)
 {
     size_t slot = (size_t)((id ^ id >> 32) * UINT64_C(0x9e3779b97f4a7c15) >> 16) & (t->slot_count - 1);
@@ -68,7 +72,8 @@ static size_t find_id_slot(const id_table *t, const octree_point *points, uint64
     return slot;
 }
 
-/* Return the table entry of an id, which holds the address of its stored point. Null if no move has this id. */
+/* Returns the table entry of an id, which holds the address of its stored point. Returns null if no move has this
+ * id. */
 static inline const octree_point *_Atomic *find_stored_entry(const id_table *t, const octree_point *points, uint64_t id)
 {
     size_t slot = (size_t)(id - t->least);
@@ -93,8 +98,8 @@ static void release_id_table(arena *memory, id_table *t)
     *t = (id_table){0};
 }
 
-/* Set the bits of all ids, which must lie within a range around the first id. False if an id is outside the range.
- * *differ becomes false if an id occurs twice before the end. */
+/* Set the bits of all ids. The ids must lie within a range around the first id. Returns false if an id is outside the
+ * range. *differ becomes false if an id occurs twice. */
 static bool set_id_bits(const batch *b, id_table *t, bool *differ)
 {
     size_t least = SIZE_MAX, most = 0;
@@ -112,7 +117,7 @@ static bool set_id_bits(const batch *b, id_table *t, bool *differ)
     return true;
 }
 
-/* Enter all ids into the hash table. False if two are equal. */
+/* Enter all ids into the hash table. Returns false if two ids are equal. */
 static bool enter_ids_by_hash(const batch *b, id_table *t)
 {
     for (size_t i = 0; i < b->count; i++) {
@@ -124,9 +129,9 @@ static bool enter_ids_by_hash(const batch *b, id_table *t)
     return true;
 }
 
-/* Enter the ids of a batch into an empty table. The table becomes dense if all ids are among the `reach` * count ids
- * around the first one. False when there is no memory. *differ becomes false if two ids are equal; the table must
- * then not be used. */
+/* Enter the ids of a batch into an empty table. The table is dense if all ids are among the `reach` * count ids around
+ * the first id. Returns false if memory runs out. *differ becomes false if two ids are equal; the table must then not
+ * be used. */
 static bool fill_id_table(const batch *b, id_table *t, size_t reach, bool *differ)
 {
     arena *memory = &b->tree->store.memory;
@@ -161,7 +166,8 @@ bool check_ids_differ(const batch *b, bool *differ)
     return ok;
 }
 
-/* Make the table of all moves. False when there is no memory. *differ becomes false if two moves have the same id. */
+/* Make the table of the ids of all moves. Returns false if memory runs out. *differ becomes false if two moves have the
+ * same id. */
 static bool make_move_table(const batch *b, id_table *t, bool *differ)
 {
     if (!fill_id_table(b, t, 8, differ))
@@ -176,7 +182,7 @@ static bool make_move_table(const batch *b, id_table *t, bool *differ)
 
 /* ---- The stored points -------------------------------------------------------------------------------------- */
 
-/* Find the grid cells of staying points. */
+/* Find the grid cells of a range of staying points. */
 static void find_staying_cells(const remake *r, size_t first, size_t count)
 {
     find_grid_cells(r->whole, r->staying + first, count, r->cells + r->count + first, NULL);
@@ -184,7 +190,7 @@ static void find_staying_cells(const remake *r, size_t first, size_t count)
 
 static void separate_moving_in_leaf(const remake *r, const node *leaf, findings *f)
 {
-    /* a local copy, because the compiler then knows that the stores below do not change it */
+    /* a local copy, so that the compiler knows that the stores below do not change the table */
     const id_table ids = r->ids;
     const octree_point *moves = r->whole->points;
     for (uint32_t i = 0; i < leaf->count; i++) {
@@ -225,7 +231,7 @@ static void separate_moving_of_share(size_t number, void *context)
 
 /* ---- The moves ---------------------------------------------------------------------------------------------- */
 
-/* Return the error of an invalid move. */
+/* Returns the error of an invalid move, by checking its origin and its destination. */
 static octree_status find_move_error(const batch *b, size_t place)
 {
     octree_status status = check_in_world(b->tree, b->points[place].position);
@@ -234,7 +240,7 @@ static octree_status find_move_error(const batch *b, size_t place)
     return status == OCTREE_OK ? OCTREE_NOT_FOUND : status;
 }
 
-/* Whether a move is valid; *to receives the grid cell of its destination. */
+/* Returns whether a move is valid. *to receives the grid cell of the move's destination. */
 static bool is_valid_move(const remake *r, size_t place, const octree_point *stored, uint32_t *to)
 {
     const batch *b = r->whole;
@@ -248,7 +254,8 @@ static bool is_valid_move(const remake *r, size_t place, const octree_point *sto
     return true;
 }
 
-/* Check a group of moves. Their stored points are prefetched before the first check, so that cache misses overlap. */
+/* Check a group of moves. The stored points of all moves are prefetched before the first move is checked, so that cache
+ * misses overlap. */
 static void check_move_group(const remake *r, size_t first, size_t count, findings *f)
 {
     const batch *b = r->whole;
@@ -259,7 +266,7 @@ static void check_move_group(const remake *r, size_t first, size_t count, findin
         if (stored[i])
             prefetch_memory(stored[i]);
     }
-    /* Without a grid all cells are GRID_NONE at first. */
+    /* without a grid, the cells of all moves are GRID_NONE at first */
     if (b->grid)
         compute_grid_cells(b->tree->axes, b->grid, b->to[first], 3, count, r->cells + first);
     else
@@ -286,8 +293,8 @@ static void check_moves_of_share(size_t number, void *context)
 
 /* ---- The new tree ------------------------------------------------------------------------------------------ */
 
-/* Add the stored points of invalid moves to the staying points. They are stored in the parts of tasks that have
- * room. */
+/* Add the stored points of invalid moves to the staying points, which these points join unmoved. The copies are written
+ * where the parts of tasks have room left. */
 static void keep_points_of_invalid_moves(remake *r)
 {
     unsigned task = 0;
@@ -305,7 +312,7 @@ static void keep_points_of_invalid_moves(remake *r)
     }
 }
 
-/* Sort all points and build the tree from them. Sorting also decides exactly whether a leaf may be full. */
+/* Sort all points and build the tree from them. Sorting also finds out exactly whether a leaf may be full. */
 static octree_status sort_and_build(batch *b, size_t total)
 {
     arena *memory = &b->store->memory;
@@ -325,7 +332,7 @@ static octree_status build_moved_tree(remake *r, bool *settled)
     const batch *whole = r->whole;
     const size_t total = whole->tree->root.count;
     batch b = *whole;
-    b.statuses = NULL; /* the caller's statuses are final and must not change */
+    b.statuses = NULL; /* the caller's statuses are final, and building the tree must not change them */
     b.stored = r->staying;
     b.stored_count = total;
     b.cells = r->cells;
@@ -360,7 +367,7 @@ static octree_status check_moves_and_build(remake *r, bool *settled)
         seen += r->found[i].seen;
         b->done += r->found[i].moved;
     }
-    *settled = looked_up - stay == seen; /* if the numbers differ, an id that moves is stored twice */
+    *settled = looked_up - stay == seen; /* if the two numbers differ, an id that moves is stored twice */
     return *settled && b->done > 0 ? build_moved_tree(r, settled) : OCTREE_OK;
 }
 

@@ -4,11 +4,11 @@
  * Problem: after a batch the nodes must be those that single changes would have produced (the canonical form, tree.h),
  * and a failure halfway must leave the tree as it was.
  *
- * Idea: one recursion from the root, with the leaving and arriving items sorted by Morton code. At each node the items
- * are divided among the octants by binary search, so untouched subtrees cost nothing. The new count decides each node's
- * fate at once: unchanged, edited in place, merged into a leaf, divided, or built anew; no node is split and merged
- * again within the batch. Nothing is changed yet. Successors are allocated beside the old nodes and entered in a plan
- * (patches and edits); plan.c carries the plan out, which cannot fail.
+ * Idea: one recursion from the root, with the leaving and arriving points as items sorted by Morton code. At each node
+ * the items are divided among the octants by binary search, so unchanged subtrees cost nothing. The node's new number
+ * of points decides at once what happens to it: it stays, is edited in place, becomes a leaf, is divided, or is built
+ * anew. No node is split and merged again within the batch. Nothing is changed yet. Successors are allocated beside the
+ * old nodes, and entered in a plan of patches and edits. plan.c carries out the plan, which cannot fail.
  *
  * Under OCTREE_REFUSE a leaf takes the first points in the caller's order, as single insertions would.
  * Cost: O(items * D + points of the changed leaves).
@@ -42,7 +42,7 @@ static int compare_indices(const void *a, const void *b)
     return (p->index > q->index) - (p->index < q->index);
 }
 
-/* Sort leaving items by their index in the leaf. */
+/* Sort the items of leaving points by the points' indices in the leaf. */
 static void sort_by_index(span s)
 {
     if (s.count > POOL_MAX_UNITS) {
@@ -60,8 +60,8 @@ static void sort_by_index(span s)
 
 /* ---- Leaves ------------------------------------------------------------------------------------------------- */
 
-/* Compare by the order of insertion: stored points come first, then the caller's points in their given order. In this
- * order a leaf refuses the same points as with single insertions. */
+/* A comparison function that sorts items in the order of insertion: stored points come first, then the caller's points
+ * in their given order. In this order a full leaf refuses the same points as with single insertions. */
 static int compare_insertion_order(const void *a, const void *b)
 {
     const morton_item *p = a, *q = b;
@@ -69,8 +69,8 @@ static int compare_insertion_order(const void *a, const void *b)
     return p_new != q_new ? p_new - q_new : (p->place > q->place) - (p->place < q->place);
 }
 
-/* Make a leaf of the items. Under OCTREE_REFUSE the leaf takes items up to its capacity and refuses the rest of the
- * items. False when there is no memory. */
+/* Make a leaf of the items. Under OCTREE_REFUSE, the leaf takes items up to its capacity and refuses the other items.
+ * Returns false if memory runs out. */
 static bool make_leaf_of_items(batch *b, span items, node *made)
 {
     const size_t capacity = b->tree->def.leaf_capacity;
@@ -98,7 +98,8 @@ static bool make_leaf_of_items(batch *b, span items, node *made)
     return true;
 }
 
-/* Append the points of one leaf to another leaf, except the leaving points. The list `leaving` is sorted by index. */
+/* Append the points of one leaf to another leaf, except the leaving points. The list `leaving` is sorted by the points'
+ * index in the leaf. */
 static void append_staying(node *made, const node *leaf, span leaving)
 {
     for (uint32_t i = 0; i < leaf->count; i++) {
@@ -128,7 +129,8 @@ static bool remake_leaf(batch *b, const node *old, span leaving, span arriving, 
     return true;
 }
 
-/* Plan to edit a leaf in place. Its block must have room for the resulting points. False when there is no memory. */
+/* Plan to edit a leaf in place. The leaf's block must have room for the resulting points. Returns false if memory runs
+ * out. */
 static bool plan_leaf_edit(batch *b, const node *old, span leaving, span arriving, node *made)
 {
     edit *e = list_append(&b->store->memory, &b->edits, sizeof *e);
@@ -156,8 +158,9 @@ bool is_inseparable(const octree *tree, cell c, const morton_item *items, size_t
 /* Build an inner node from items only. */
 static bool build_children(batch *b, cell c, span items, node *made);
 
-/* Under OCTREE_REFUSE, inseparable items stay in one leaf, which refuses the items beyond its capacity. A node never
- * splits only because of refused points. Separable items fill more than one leaf, so the node must split. */
+/* Returns whether the items of a cell become a leaf. Under OCTREE_REFUSE, inseparable items stay in one leaf, which
+ * refuses the items beyond its capacity: a node never splits only because of refused points. Separable items fill more
+ * than one leaf, so the node must split. */
 bool must_be_leaf(const batch *b, cell c, span items)
 {
     const octree_def *def = &b->tree->def;
@@ -191,8 +194,8 @@ static bool build_children(batch *b, cell c, span items, node *made)
     return true;
 }
 
-/* Divide a leaf: build a node from its staying points and the arriving items. If the cell is indivisible, the node is a
- * hashed leaf. The items of a hashed leaf need no order. */
+/* Divide a leaf: build a node from the leaf's staying points and the arriving items. If the cell is indivisible, the
+ * node is a hashed leaf, whose items need no order. */
 static bool divide_leaf(batch *b, const node *old, cell c, span leaving, span arriving, node *made)
 {
     const size_t sum = old->count - leaving.count + arriving.count, room = 2 * sum * sizeof(morton_item);
@@ -223,7 +226,8 @@ static bool divide_leaf(batch *b, const node *old, cell c, span leaving, span ar
 
 static bool is_leaving(span leaving, uint32_t index)
 {
-    size_t low = 0, high = leaving.count; /* the first item with at least this index is in [low, high] */
+    /* invariant: the position in the list of the first item with at least this index is in [low, high] */
+    size_t low = 0, high = leaving.count;
     while (low < high) {
         const size_t middle = low + (high - low) / 2;
         if (leaving.items[middle].index < index)
@@ -234,7 +238,7 @@ static bool is_leaving(span leaving, uint32_t index)
     return low < leaving.count && leaving.items[low].index == index;
 }
 
-/* Remove from `arriving` the items that the leaf already holds and that are not leaving it. */
+/* Remove from `arriving` the items of points that the leaf already holds, unless these points leave the leaf. */
 static void drop_already_stored(batch *b, const node *leaf, span leaving, span *arriving)
 {
     size_t left = 0;
@@ -251,7 +255,7 @@ static void drop_already_stored(batch *b, const node *leaf, span leaving, span *
     arriving->count = left;
 }
 
-/* Set `overflow` if arriving points may meet a full leaf when they are moved one by one in some order. */
+/* Set `overflow` if arriving points might meet a full leaf when they are moved one by one in some order. */
 static void note_overflow(batch *b, const node *old, cell c, span arriving)
 {
     b->overflow = b->overflow || (b->to && can_overflow(b, old, c, arriving));
@@ -273,7 +277,7 @@ static bool change_leaf(batch *b, const node *old, cell c, span leaving, span ar
     return remake_leaf(b, old, leaving, arriving, made);
 }
 
-/* Append the points that stay in and below a node to a leaf. */
+/* Append to a leaf the points in and below a node that stay. */
 static void append_staying_below(const node *old, unsigned depth, span leaving, node *made)
 {
     if (!old->octants) {
@@ -288,7 +292,7 @@ static void append_staying_below(const node *old, unsigned depth, span leaving, 
             append_staying_below(child_at(old, octant), depth + 1, shares[octant], made);
 }
 
-/* Merge a node whose points fit one leaf into this leaf, *made. False when there is no memory. */
+/* Merge a node whose remaining points fit into one leaf. The new leaf is *made. Returns false if memory runs out. */
 static bool merge_into_leaf(batch *b, const node *old, cell c, span leaving, span arriving, node *made)
 {
     note_overflow(b, old, c, arriving);
@@ -303,7 +307,7 @@ static bool merge_into_leaf(batch *b, const node *old, cell c, span leaving, spa
 
 bool plan_replacement(batch *b, node *at, const node *made)
 {
-    /* the child is unchanged: if the blocks are equal, so are octants and room */
+    /* the child is unchanged: if the blocks are the same, octants and room are the same too */
     if (at->below == made->below && at->count == made->count)
         return true;
     const patch p = {at, *made};
@@ -313,8 +317,8 @@ bool plan_replacement(batch *b, node *at, const node *made)
     return false;
 }
 
-/* Make the successor of one child of a node, in *made. If `made` is null, plan to replace the child instead. False when
- * there is no memory. */
+/* Make the successor of one child of a node in *made. If `made` is null, add the successor to the plan instead. Returns
+ * false if memory runs out. */
 static bool change_child(batch *b, const node *old, cell c, unsigned octant, const span leaving[8],
                          const span arriving[8], node *made, uint32_t *count)
 {
@@ -330,7 +334,7 @@ static bool change_child(batch *b, const node *old, cell c, unsigned octant, con
     return ok && plan_replacement(b, child, &successor);
 }
 
-/* Change some children of a node. The node keeps the same set of octants. False when there is no memory. */
+/* Change some children of a node whose set of octants stays the same. Returns false if memory runs out. */
 static bool change_same_children(batch *b, const node *old, cell c, const span leaving[8], const span arriving[8],
                                  node *made)
 {
@@ -346,7 +350,7 @@ static bool change_same_children(batch *b, const node *old, cell c, const span l
     return true;
 }
 
-/* Prefetch the leaves in which items arrive, and the first of the items for each leaf. */
+/* Prefetch the leaves in which items arrive, and the first items that arrive in each of these leaves. */
 static void prefetch_arrival_leaves(const batch *b, const node *parent, const span arriving[8])
 {
     for (unsigned octant = 0; octant < 8; octant++) {
@@ -382,7 +386,7 @@ static bool change_children(batch *b, const node *old, cell c, span leaving, spa
     return true;
 }
 
-/* If no point of a node stays, the successor is built from the arriving items only. */
+/* If all points of a node leave, the successor is built from the arriving items only. */
 bool change_node(batch *b, const node *old, cell c, span leaving, span arriving, node *made)
 {
     const bool is_emptied = leaving.count == old->count;

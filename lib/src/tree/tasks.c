@@ -7,7 +7,7 @@
 #include <string.h>
 
 #ifndef OCTREE_LEAST_SHARE
-#define OCTREE_LEAST_SHARE 1024 /* the least number of points for each task */
+#define OCTREE_LEAST_SHARE 1024 /* the minimum number of points for each task */
 #endif
 
 unsigned count_tasks(const octree *tree, size_t points)
@@ -20,12 +20,13 @@ typedef struct tasks {
     octree_task *task;
     void *context;
     unsigned count;
-    atomic_bool started[TASKS_AT_MOST]; /* started[i] is set when task i starts: an executor that repeats a number must
-                                           not run the task twice */
+    /* started[i] is set when task i starts, because an executor that calls a number twice must not run the task
+     * twice */
+    atomic_bool started[TASKS_AT_MOST];
 } tasks;
 
-/* Run one task in the default floating-point mode, because a thread of the executor may have any mode. The call goes
- * through a pointer, so the compiler cannot move the task's arithmetic out of it. */
+/* Run one task in the default floating-point mode, because a thread of the executor may have any mode. The task is
+ * called through a pointer, so that the compiler cannot move the task's arithmetic out of the call. */
 static void run_task(size_t number, void *context)
 {
     tasks *all = context;
@@ -39,7 +40,7 @@ static void run_task(size_t number, void *context)
         float_mode_leave();
 }
 
-/* The executor runs in the caller's mode, like all of the caller's functions. */
+/* Call the executor in the caller's floating-point mode, like all functions of the caller. */
 static void call_executor(const octree_executor *executor, size_t count, tasks *all)
 {
     const bool paused = float_mode_pause();

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* tree.c - creates, rebuilds and destroys trees, finds points, and names statuses. */
+/* tree.c - creates, rebuilds and destroys trees, finds points, and returns the names and sentences of statuses. */
 #include "tree.h"
 #include "float_mode.h"
 #include "metric.h"
@@ -7,7 +7,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* In a tree with fewer points, choosing a capacity gains nothing. */
+/* In a tree with fewer points than this, choosing a capacity gains nothing. */
 #define TUNE_LEAST 1024
 
 /* ---- Creating and destroying ------------------------------------------------------------------------------------- */
@@ -38,7 +38,7 @@ static octree_status check_definition(const octree_def *def)
 
 static octree_def clamp_definition(octree_def def)
 {
-    /* The capacity that is used until the tree has points. */
+    /* the capacity of a tree under OCTREE_AUTO that has no points yet */
     if (def.leaf_capacity == OCTREE_AUTO)
         def.leaf_capacity = octree_def_default().leaf_capacity;
     if (def.leaf_capacity > UINT32_MAX)
@@ -124,7 +124,7 @@ void tune_if_due(octree *tree)
 
 /* ---- Rebuilding --------------------------------------------------------------------------------------------- */
 
-/* Insert all points into an empty tree. Returns OUTSIDE or FULL if one of them does not fit. */
+/* Insert all points into an empty tree. Returns OUTSIDE or FULL if a point does not fit into the tree. */
 static octree_status insert_all_points(octree *tree, const octree_point *points, size_t count)
 {
     size_t inserted;
@@ -135,7 +135,7 @@ static octree_status insert_all_points(octree *tree, const octree_point *points,
     return status == OCTREE_OK && inserted < count ? OCTREE_FULL : status;
 }
 
-/* Swap the contents of two trees with the same allocator. `tree` keeps its tuning, and its version increases. */
+/* Swap the contents of two trees with the same allocator. `tree` keeps its own tuning, and its version increases. */
 static void swap_contents(octree *tree, octree *other)
 {
     change_log_stop(&tree->changes, &tree->store.memory);
@@ -159,7 +159,7 @@ octree_status rebuild_tree(octree *tree, const octree_def *def)
     octree_point *points = arena_allocate(&other->store.memory, size);
     status = OCTREE_NO_MEMORY;
     if (points) {
-        /* a visit of `tree`, because its executor runs tasks of the other tree */
+        /* mark `tree` as visited, because its executor runs tasks of the other tree */
         const unsigned begun = begin_visit(tree);
         node_copy_points(&tree->root, points);
         status = insert_all_points(other, points, count);
@@ -205,7 +205,7 @@ octree_status check_position(const octree *tree, const double position[3])
 
 path find_path(const octree *tree, uint64_t code)
 {
-    /* const is cast away only here. A caller that changes nodes has a tree that is not const. */
+    /* The cast removes const, only here. A caller that changes nodes through the path has a tree that is not const. */
     path p;
     p.nodes[0] = (node *)(uintptr_t)&tree->root;
     for (p.depth = 0; path_end(&p)->octants; p.depth++) {

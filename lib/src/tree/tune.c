@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* tune.c - chooses the leaf capacity by a cost model: octree_tune().
  *
- * Problem: the best capacity depends on the points and on their use: small leaves suit searches, large ones suit
- * changes and ranges. Timing trial trees would choose differently on every machine and every run.
+ * Problem: the best capacity depends on the points and on how the tree is used: small leaves suit searches, large
+ * leaves suit changes and ranges. If trial trees were timed, the choice would differ between machines and runs.
  *
  * Idea: count instead of timing. Build trees with capacities 4, 8 ... 256 on a sample, run the operations of the mix on
  * each, and compare weighted counts of visited inner nodes, leaves and points. The weights are fitted to measured times
@@ -18,9 +18,9 @@
 
 /* ---- The model ---------------------------------------------------------------------------------------------- */
 
-/* Costs in nanoseconds: to enter an inner node, to enter a leaf, and to read a point. They were fitted to the times of
- * all operations on 5e4 and 1e6 uniform, gaussian, clustered and surface points at capacities from 1 to 128. The fit
- * gave 30, 15 and 1 ns within the caches, and 32, 23 and less than 1 ns beyond them. */
+/* Costs in nanoseconds: of entering an inner node, of entering a leaf, and of reading a point. The costs were fitted to
+ * the times of all operations on 5e4 and 1e6 uniform, gaussian, clustered and surface points, at capacities from 1 to
+ * 128. The fit gave 30, 15 and 1 ns for trees within the caches, and 32, 23 and less than 1 ns for larger trees. */
 static const double inner_weight = 30, leaf_weight = 20, point_weight = 1;
 
 static double weigh_cost(const octree_cost *cost)
@@ -33,8 +33,8 @@ enum { LEAST_CAPACITY = 4, MOST_CAPACITY = 256 };
 
 /* ---- A sample of whole cells, with the density of the tree --------------------------------------------- */
 
-/* A cell has at least 16 points for each result of a query. So a range around a point of a cell stays mostly inside the
- * cell. The larger the cells are, the fewer are sampled. */
+/* A cell of the sample has at least 16 points for each result of a query. So a range around a point of the cell stays
+ * mostly inside the cell. The larger the cells are, the fewer cells are sampled. */
 enum { LEAST_CELL = 4096, MOST_CELL = 32768, TARGETS = 128 };
 
 static size_t choose_cell_points(const octree_mix *mix)
@@ -48,7 +48,7 @@ typedef struct sample {
     size_t count, room;
     octree_mix mix;
     octree_neighbor *neighbors; /* an array with room for the results of any search of the mix */
-    double extents[TARGETS];    /* for each target, half the side of the range around it */
+    double extents[TARGETS];    /* for each target, half the side of the box of the range query around the target */
 } sample;
 
 static bool add_sample_point(const octree_point *point, void *context)
@@ -59,17 +59,17 @@ static bool add_sample_point(const octree_point *point, void *context)
     return s->count < s->room;
 }
 
-/* The state of the walk that selects cells for the sample. In a tree with more points than the sample, the selected
- * cells are `step` points apart. */
+/* The state of the walk that selects cells for the sample. If the tree has more points than the sample can hold, the
+ * walk selects one cell in every `step` points. */
 typedef struct cell_picker {
     sample *sample;
     const octree *tree;
-    size_t cell; /* the greatest number of points in a selected cell */
+    size_t cell; /* the maximum number of points in a selected cell */
     size_t points_before, step;
 } cell_picker;
 
-/* Copy the points of a selected cell. Also copy the points on its upper faces, although these belong to neighbouring
- * cells. */
+/* Copy the points of a selected cell. Also copy the points on the cell's upper faces, although these points belong to
+ * neighbouring cells. */
 static octree_walk_order copy_selected_cell(const octree_node *seen, void *context)
 {
     cell_picker *p = context;
@@ -91,7 +91,7 @@ static bool make_sample(sample *s, octree *tree)
         return false;
     octree_walk(tree, copy_selected_cell,
                 &(cell_picker){s, tree, cell, 0, count <= s->room ? 1 : count / (MOST_CELL / cell)});
-    /* The points are sorted, so that the sample does not depend on their order in leaves. */
+    /* sort the points, so that the sample does not depend on their order in leaves */
     qsort(s->points, s->count, sizeof *s->points, octree_compare_points);
     return true;
 }
@@ -103,8 +103,8 @@ static const octree_point *target_of(const sample *s, size_t i)
 
 /* ---- Trials ------------------------------------------------------------------------------------------------- */
 
-/* For each target, find the ball that contains `hits` points and store the size of the cube with the same volume. The
- * searches cannot fail. */
+/* For each target, find the ball that contains `hits` points, and store half the side of the cube with the same volume.
+ * The searches cannot fail. */
 static void measure_ranges(sample *s, const octree *trial)
 {
     for (size_t i = 0; i < TARGETS; i++) {
@@ -130,8 +130,8 @@ static octree_cost cost_of_nearest(const sample *s, const octree *trial, const o
     return cost;
 }
 
-/* The cost of a range search. octree_cost does not include the nodes below a node that is taken whole; a tracer adds
- * them. */
+/* The cost of a range search. octree_cost does not count the nodes below a node that is taken whole; a tracer adds
+ * these nodes. */
 typedef struct range_cost {
     const octree *trial;
     octree_cost all;
@@ -165,7 +165,7 @@ static octree_cost cost_of_range(const octree *trial, const octree_point *target
     return r.all;
 }
 
-/* The cost of the mix in a trial tree. */
+/* Returns the cost of the mix of operations in a trial tree. */
 static double cost_of_mix(const sample *s, const octree *trial)
 {
     double sum = 0;
@@ -224,8 +224,8 @@ static octree_status check_mix(const octree_mix *mix)
     return none || mix->changes < 0 || mix->nearest < 0 || mix->ranges < 0 ? OCTREE_BAD_SIZE : OCTREE_OK;
 }
 
-/* Divide the shares of the mix by the largest share. This cannot overflow, and cannot make all shares 0. Limit k and
- * hits to the size of the sample. */
+/* Divide the shares of the mix by the largest share. The division cannot overflow, and cannot make all shares 0. Limit
+ * k and `hits` to the size of the sample. */
 static octree_mix clamp_mix(octree_mix mix, size_t most)
 {
     const double largest = fmax(fmax(mix.changes, mix.nearest), mix.ranges);
@@ -242,7 +242,7 @@ static octree_status choose_by_sample(octree *tree, const octree_mix *mix, size_
     sample s = {.mix = clamp_mix(*mix, LEAST_CELL)};
     arena *memory = &tree->store.memory;
     const size_t size = ((s.mix.k > s.mix.hits ? s.mix.k : s.mix.hits) + 1) * sizeof *s.neighbors;
-    /* a visit of `tree`, because its executor runs tasks of the trial trees */
+    /* mark `tree` as visited, because its executor runs tasks of the trial trees */
     const unsigned begun = begin_visit(tree);
     s.neighbors = arena_allocate(memory, size);
     const bool ok = s.neighbors && make_sample(&s, tree);
@@ -263,7 +263,8 @@ octree_status octree_tune(octree *tree, const octree_mix *mix)
     const octree_mix asked = mix ? *mix : octree_mix_default();
     octree_def def = tree->def;
     octree_status status = is_visited(tree) ? OCTREE_BUSY : check_mix(&asked);
-    def.leaf_capacity = octree_def_default().leaf_capacity; /* the capacity for a tree without points */
+    /* the tree has no points, so it gets the default capacity */
+    def.leaf_capacity = octree_def_default().leaf_capacity;
     if (status == OCTREE_OK && octree_count(tree) > 0)
         status = choose_by_sample(tree, &asked, &def.leaf_capacity);
     if (status == OCTREE_OK && def.leaf_capacity != tree->def.leaf_capacity)

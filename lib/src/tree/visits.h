@@ -4,40 +4,41 @@
  * Problem: a visitor, a tracer or an executor that changes the tree frees nodes or changes that the query around it
  * still reads.
  *
- * Idea: each thread lists the trees whose callbacks it is running. Every public change looks for its tree in the list
- * of its thread and returns OCTREE_BUSY if it finds it. A change on another thread during a visit is outside the rule
- * that changes run alone, and is not detected.
+ * Idea: each thread lists the trees whose callbacks it is running. Every public function that changes a tree looks for
+ * this tree in the list of its thread, and returns OCTREE_BUSY if the tree is in the list. A change on another thread
+ * during a visit is not detected: the caller must ensure that a change of a tree runs alone.
  *
  * Why not a counter in the tree: queries take a const tree and run on many threads, which would compete for the
  * counter's cache line at every query. Threads do not share their lists, so the lists need no atomics.
  *
  * Cost: a walk, a query of a region or a traced search writes three words of its thread's memory (15 instructions), a
- * change reads one. Other queries pay nothing.
+ * change reads one word. Other queries pay nothing.
  */
 #ifndef OCTREE_VISITS_H
 #define OCTREE_VISITS_H
 
 #include "octree/types.h"
 
-/* With glibc, thread-local memory of this model is read without a function call, in the shared library too. glibc
- * reserves room for it. */
+/* The thread-local storage model "initial-exec": with glibc, such memory is read without a function call, in the shared
+ * library too. glibc reserves room for it. */
 #if defined(__GLIBC__) && defined(__GNUC__)
 #define THREAD_LOCAL _Thread_local __attribute__((tls_model("initial-exec")))
 #else
 #define THREAD_LOCAL _Thread_local
 #endif
 
-/* Visits nested deeper than this are not listed; every tree then counts as visited. */
+/* The maximum number of nested visits that are listed. During a deeper visit every tree counts as visited. */
 enum { VISITS_AT_MOST = 15 };
 
 typedef struct visits {
-    const octree *trees[VISITS_AT_MOST]; /* the trees of nested visits: a visitor may ask this or another tree */
+    /* the trees of the nested visits; a visitor may query this tree or another tree */
+    const octree *trees[VISITS_AT_MOST];
     unsigned depth;
 } visits;
 
 extern THREAD_LOCAL visits visits_of_thread;
 
-/* Call before callbacks of the tree. Returns the argument of end_visit(). */
+/* Must be called before callbacks of the tree. Returns the argument for end_visit(). */
 static inline unsigned begin_visit(const octree *tree)
 {
     const unsigned depth = visits_of_thread.depth;
@@ -54,7 +55,7 @@ static inline void end_visit(unsigned begun)
 
 bool is_listed_visit(const octree *tree);
 
-/* Whether this thread runs a callback of the tree. */
+/* Returns whether this thread is running a callback of the tree. */
 static inline bool is_visited(const octree *tree)
 {
     return visits_of_thread.depth > 0 && is_listed_visit(tree);

@@ -24,7 +24,7 @@ typedef struct walk {
     void *context;
 } walk;
 
-/* Prefetch the children or points of each child: a large tree does not fit the caches. */
+/* Prefetch the children or points of each child, because a large tree does not fit into the caches. */
 static void prefetch_children(const node *n)
 {
     const unsigned children = bits_count8(n->octants);
@@ -32,7 +32,7 @@ static void prefetch_children(const node *n)
         prefetch_node(&children_of(n)[i]);
 }
 
-/* The splitting planes of a cell. */
+/* Store the splitting planes of a cell in middle[]. */
 static inline void find_splitting_planes(const octree *tree, cell c, double middle[3])
 {
     for (int i = 0; i < 3; i++)
@@ -47,7 +47,7 @@ static inline octree_box octant_box(const octree_box *box, const double middle[3
     return below;
 }
 
-/* Visit a node and the nodes below it. False if the visitor has stopped the walk. */
+/* Visit a node and the nodes below it. Returns false if the visitor has stopped the walk. */
 static bool walk_subtree(walk *w, const node *n, octree_address address, cell c, const octree_box *box)
 {
     const octree_node description = describe_node(n, address, c.depth, box);
@@ -79,7 +79,7 @@ octree_status octree_walk(const octree *tree, octree_node_visitor visit, void *c
     return OCTREE_OK;
 }
 
-/* Describe the node at this depth on the path to a code. */
+/* Returns a description of the node at this depth on the path to a code. */
 static octree_node describe_path_node(const octree *tree, const path *p, uint64_t code, unsigned depth)
 {
     const octree_box bounds = cell_bounds(tree->axes, morton_cell(code, depth));
@@ -134,8 +134,8 @@ static const char *check_inner_node(const octree *tree, const node *n, cell c)
     return NULL;
 }
 
-/* The closed box in which the points of a leaf lie. A cell does not contain its upper planes, except those on the
- * world's upper faces. */
+/* Returns the closed box in which the points of a leaf lie. A cell does not contain its upper planes, except planes on
+ * the world's upper faces. */
 static octree_box closed_box_of_cell(octree_box box, cell c)
 {
     for (int i = 0; i < 3; i++)
@@ -144,8 +144,8 @@ static octree_box closed_box_of_cell(octree_box box, cell c)
     return box;
 }
 
-/* Whether the point at an index of a leaf is also stored at a lower index. Ids are compared first, because they usually
- * differ. */
+/* Returns whether the point at an index of a leaf is also stored at a lower index. Ids are compared first, because they
+ * usually differ. */
 static bool is_stored_twice(const node *n, uint32_t index)
 {
     const octree_point *points = leaf_points(n), *point = &points[index];
@@ -177,12 +177,12 @@ static const char *check_leaf(const octree *tree, const node *n, cell c, const o
 
 typedef struct validation {
     const octree *tree;
-    const char *broken; /* a sentence about the first violation; null: no invariant is violated */
+    const char *broken; /* a sentence about the first violated invariant; null: no invariant is violated */
     octree_address where;
 } validation;
 
-/* Check a node and the nodes below it, in the order of octree_walk(). No visitor is used, because its calls would
- * double the time. */
+/* Check a node and the nodes below it, in the order of octree_walk(). No visitor is used, because calls of a visitor
+ * would double the time. */
 static void check_subtree(validation *v, const node *n, octree_address address, cell c, const octree_box *box)
 {
     v->broken = n->octants ? check_inner_node(v->tree, n, c) : check_leaf(v->tree, n, c, box);
@@ -200,7 +200,7 @@ static void check_subtree(validation *v, const node *n, octree_address address, 
     }
 }
 
-/* Keep the violation whose node comes first in the order of the walk. */
+/* Keep the earlier of two violations: the one whose node comes first in the order of the walk. */
 static void keep_first_violation(validation *first, const char *broken, octree_address where)
 {
     if (broken && (!first->broken || compare_addresses(&where, &first->where) < 0)) {
@@ -209,17 +209,19 @@ static void keep_first_violation(validation *first, const char *broken, octree_a
     }
 }
 
-/* A tree whose nodes are read by tasks. */
+/* A tree whose nodes are read by tasks: checked or digested. */
 typedef struct reading {
     forest forest;
-    validation first[TASKS_AT_MOST + 1]; /* the first violation that each task found; the last element is that of the
-                                            nodes above the subtrees */
-    uint64_t sums[TASKS_AT_MOST + 1]; /* the sum of the node digests of each task; the last element is that of the nodes
-                                         above the subtrees */
+    /* the first violation that each task found; the element after the last task's is for the nodes above the
+     * subtrees */
+    validation first[TASKS_AT_MOST + 1];
+    /* for each task, the sum of the digests of its nodes; the element after the last task's is for the nodes above the
+     * subtrees */
+    uint64_t sums[TASKS_AT_MOST + 1];
 } reading;
 
-/* Check a node before it is divided. Returns false if it violates an invariant, because its children may then be
- * invalid pointers. */
+/* Check a node before it is divided into its children. Returns false if the node violates an invariant, because its
+ * children may then be invalid pointers. */
 static bool check_divided_node(const subtree *s, void *context)
 {
     reading *r = context;
@@ -308,7 +310,7 @@ uint64_t digest_node(const node *n, octree_address address)
     return sum;
 }
 
-/* The sum of the digests of an inner node and the nodes below it. */
+/* Returns the sum of the digests of an inner node and all nodes below it. */
 static uint64_t sum_digests_below(const node *n, octree_address address)
 {
     uint64_t sum = digest_node(n, address);
