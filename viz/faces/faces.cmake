@@ -6,7 +6,7 @@ set(OCTREEL_FONTS "" CACHE PATH "Where spleen-8x16.psfu and its other sizes are,
 set(fonts "")
 foreach(size 5x8 6x12 8x16 12x24 16x32) # FACE_MAP of scene/lettering.h
   find_file(OCTREEL_FONT_${size} NAMES spleen-${size}.psfu.gz spleen-${size}.psfu HINTS ${OCTREEL_FONTS}
-            PATHS /usr/share/consolefonts /usr/share/kbd/consolefonts)
+            PATHS /usr/share/consolefonts /usr/share/kbd/consolefonts NO_CACHE)
   if(NOT OCTREEL_FONT_${size})
     message(FATAL_ERROR "Octreel's letters are made of the fonts of Spleen, and spleen-${size}.psfu.gz is not found: "
                         "install them (Debian: fonts-spleen), or name their folder with -DOCTREEL_FONTS=FOLDER")

@@ -55,6 +55,36 @@ static void read_header(font *f, const char *path)
     }
 }
 
+/* Replaces letters of 12 x 24 that differ between releases of Spleen by our own drawings: release 2.2 moved them to the
+ * left. */
+static void replace_letters(font *f)
+{
+    static const struct {
+        unsigned letter;
+        unsigned char rows[48];
+    } own[] = {{'<', {0,    0, 0,   0, 0, 0, 0, 0, 0, 0x60, 0, 0xc0, 1, 0x80, 3, 0, 6, 0, 0xc, 0, 0x18, 0, 0x30, 0,
+                      0x18, 0, 0xc, 0, 6, 0, 3, 0, 1, 0x80, 0, 0xc0, 0, 0x60, 0, 0, 0, 0, 0,   0, 0,    0, 0,    0}},
+               {'}', {0, 0,    0x3c, 0,    6, 0, 3, 0, 3, 0, 3, 0, 3, 0, 3, 0, 3, 0, 3, 0, 1,    0x80, 0, 0xe0,
+                      0, 0xe0, 1,    0x80, 3, 0, 3, 0, 3, 0, 3, 0, 3, 0, 3, 0, 3, 0, 6, 0, 0x3c, 0,    0, 0}}};
+    for (size_t i = 0; f->width == 12 && f->height == 24 && i < sizeof own / sizeof *own; i++)
+        memcpy(f->bytes + f->at + own[i].letter * f->each, own[i].rows, sizeof own[i].rows);
+}
+
+/* Stops if a face of Spleen has other letters than all frames. */
+static void check_letters(const font *f, const char *path)
+{
+    static const struct {
+        unsigned width, height;
+        unsigned long digest; /* the CRC-32 of the letters' rows */
+    } faces[] = {
+        {5, 8, 0x9a1c850}, {6, 12, 0xd90cbb7}, {8, 16, 0x15c4e5c3}, {12, 24, 0xd3b4d4a5}, {16, 32, 0x80deb6f3}};
+    const unsigned long digest = crc32(0, f->bytes + f->at + GLYPH_FIRST * f->each, GLYPH_COUNT * f->each);
+    for (size_t i = 0; i < sizeof faces / sizeof *faces; i++)
+        if (faces[i].width == f->width && faces[i].height == f->height && faces[i].digest != digest)
+            stop(path, "has other letters than Octreel's frames; download Spleen 2.1.0 from "
+                       "https://github.com/fcambus/spleen/releases and configure with -DOCTREEL_FONTS=FOLDER");
+}
+
 static void read_font(font *f, const char *path)
 {
     gzFile in = gzopen(path, "rb");
@@ -69,6 +99,8 @@ static void read_font(font *f, const char *path)
         stop(path, "has letters larger than 16 x 32 pixels or of a wrong size");
     if (f->count < GLYPH_FIRST + GLYPH_COUNT || f->at > f->size || (f->size - f->at) / f->each < f->count)
         stop(path, "is truncated, or has too few glyphs");
+    replace_letters(f);
+    check_letters(f, path);
 }
 
 static bitmap glyph_of(const font *f, unsigned letter)

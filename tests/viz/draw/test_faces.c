@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: MIT */
-/* test_faces.c - the build's program that turns fonts into rectangles: fonts of both versions, and files that are not
- * fonts. */
+/* test_faces.c - the build's program that turns fonts into rectangles: fonts of both versions, releases of Spleen,
+ * and files that are not fonts. */
 #include "commands.h"
 #include "files.h"
 #include "fixture.h"
 #include "glyphs.h"
+#include "lettering.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { GLYPHS = 256, HEIGHT = 4, HEADER = 32, ROOM = HEADER + GLYPHS * 2 * HEIGHT };
+enum { GLYPHS = 256, HEIGHT = 4, HEADER = 32, MOST_HEIGHT = 24, ROOM = HEADER + GLYPHS * 2 * MOST_HEIGHT };
 
 typedef struct font {
     unsigned char bytes[ROOM];
@@ -33,15 +34,22 @@ static font make_first(void)
     return f;
 }
 
-/* Version 2: letters of 12 x 4. The first letter has a line across the border between two bytes. */
-static font make_second(void)
+/* Version 2: empty letters of 12 pixels in width. */
+static font make_empty(unsigned height)
 {
-    font f = {.bytes = {0x72, 0xb5, 0x4a, 0x86}, .size = HEADER + GLYPHS * 2 * HEIGHT};
+    font f = {.bytes = {0x72, 0xb5, 0x4a, 0x86}, .size = HEADER + GLYPHS * 2 * height};
     put(&f, 8, HEADER);
     put(&f, 16, GLYPHS);
-    put(&f, 20, 2 * HEIGHT);
-    put(&f, 24, HEIGHT);
+    put(&f, 20, 2 * height);
+    put(&f, 24, height);
     put(&f, 28, 12);
+    return f;
+}
+
+/* Letters of 12 x 4. The first letter has a line across the border between two bytes. */
+static font make_second(void)
+{
+    font f = make_empty(HEIGHT);
     unsigned char *letter = f.bytes + HEADER + GLYPH_FIRST * 2 * HEIGHT;
     letter[2] = 0x03;
     letter[3] = 0xc0;
@@ -73,12 +81,59 @@ static void letters_are_split_into_the_largest_rectangles_first(void **state)
     assert_converted(*state, &second, "parts_0[] = {\n{6, 1, 4, 1},\n};\n", "{12, 4, parts_0, {0, 1, 1,");
 }
 
+static unsigned char *find_rows(font *f, char letter)
+{
+    return f->bytes + HEADER + (unsigned char)letter * 2 * MOST_HEIGHT;
+}
+
+/* Letters of 12 x 24 as the frames have them. */
+static font make_spleen(void)
+{
+    const glyph_set *set = &glyph_sets[FACE_12X24];
+    font f = make_empty(MOST_HEIGHT);
+    for (unsigned i = 0; i < GLYPH_COUNT; i++)
+        for (const glyph_part *p = set->parts + set->first[i]; p < set->parts + set->first[i + 1]; p++)
+            for (int y = p->y; y < p->y + p->height; y++)
+                for (int x = p->x; x < p->x + p->width; x++)
+                    find_rows(&f, (char)(GLYPH_FIRST + i))[2 * y + x / 8] |= 128 >> x % 8;
+    return f;
+}
+
+/* Moves a letter to the left by a pixel, as Spleen 2.2 does with two letters. */
+static void move_left(font *f, char letter)
+{
+    unsigned char *rows = find_rows(f, letter);
+    for (int i = 0; i < 2 * MOST_HEIGHT; i++)
+        rows[i] = (unsigned char)(rows[i] << 1 | (i % 2 ? 0 : rows[i + 1] >> 7));
+}
+
+static void letters_are_the_same_with_every_release_of_spleen(void **state)
+{
+    const font old = make_spleen();
+    font new = old;
+    move_left(&new, '<');
+    move_left(&new, '}');
+    command_result made = convert(*state, &old);
+    assert_done(&made);
+    command_release(&made);
+    char *text = file_read(place_in(*state, "glyphs.c").path, NULL);
+    assert_converted(*state, &new, text, "parts_0");
+    free(text);
+}
+
 static void assert_refused(const temp_folder *own, const font *f, const char *why)
 {
     command_result made = convert(own, f);
     assert_int_equal(made.status, 2);
     assert_contains(made.err, why);
     command_release(&made);
+}
+
+static void letters_that_frames_do_not_have_are_refused(void **state)
+{
+    font f = make_spleen();
+    move_left(&f, '>');
+    assert_refused(*state, &f, "font.psf has other letters than Octreel's frames; download Spleen 2.1.0 from");
 }
 
 static void files_that_are_not_fonts_are_refused(void **state)
@@ -147,6 +202,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         TEST(letters_are_split_into_the_largest_rectangles_first),
+        TEST(letters_are_the_same_with_every_release_of_spleen),
+        TEST(letters_that_frames_do_not_have_are_refused),
         TEST(files_that_are_not_fonts_are_refused),
         TEST(letters_without_pixels_are_refused),
         TEST(unreadable_and_unwritable_files_are_named),
