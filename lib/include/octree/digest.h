@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* digest.h - a 64-bit digest of trees, scenes and pixels. Equal data gives equal digests on every machine. The digest
- * is not cryptographic.
+/* digest.h - computes 64-bit digests, for example of trees, scenes and pixels. Equal data gives equal digests on every
+ * machine. The digest is not cryptographic.
  *
- * Start with OCTREE_DIGEST_START and add words or bytes; their order matters. Example:
+ * Start with OCTREE_DIGEST_START, and add words or bytes. The order of words and bytes matters. Example:
  *
  *     uint64_t digest = octree_digest_word(OCTREE_DIGEST_START, id);
  */
@@ -27,7 +27,8 @@ static inline uint64_t octree_digest_word(uint64_t digest, uint64_t word)
 /* Add a double by its value: -0.0 and +0.0 give the same digest. Returns the new digest. */
 static inline uint64_t octree_digest_double(uint64_t digest, double value)
 {
-    /* The bits are tested: arithmetic on doubles would depend on the compiler flags of the including program. */
+    /* The bits of the double are tested, because the result of arithmetic would depend on the compiler flags of the
+     * including program. */
     uint64_t bits;
     memcpy(&bits, &value, sizeof bits);
     return octree_digest_word(digest, bits << 1 ? bits : 0);
@@ -37,7 +38,7 @@ static inline uint64_t octree_digest_double(uint64_t digest, double value)
 static inline uint64_t octree_digest_words(uint64_t digest, const void *bytes, size_t size)
 {
     const unsigned char *at = (const unsigned char *)bytes;
-    /* A compiler turns this into one load instruction on little-endian machines. */
+    /* compilers turn this expression into one load instruction on little-endian machines */
     for (; size >= 8; at += 8, size -= 8) {
         const uint64_t word = (uint64_t)at[0] | (uint64_t)at[1] << 8 | (uint64_t)at[2] << 16 | (uint64_t)at[3] << 24 |
                               (uint64_t)at[4] << 32 | (uint64_t)at[5] << 40 | (uint64_t)at[6] << 48 |

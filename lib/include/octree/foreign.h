@@ -2,8 +2,8 @@
 /* foreign.h - the nodes of a foreign index: a user's own spatial index whose answers and nodes are checked.
  *
  * The nodes of a kd-tree, an R-tree, a bounding volume hierarchy, an octree or a grid are all boxes with parents. A
- * game shows these nodes (octree_session.foreign, octree_input.foreign), shows which of them queries visited and pruned
- * (octree_query.visits), and lists what is provably wrong with them (octree_foreign_state).
+ * game shows these nodes (octree_session.foreign, octree_input.foreign), and shows which nodes queries visited and
+ * pruned (octree_query.visits). It also lists the nodes that are provably wrong (octree_foreign_state).
  */
 #ifndef OCTREE_FOREIGN_H
 #define OCTREE_FOREIGN_H
@@ -14,16 +14,17 @@
 extern "C" {
 #endif
 
-/* The positions for which a foreign index promises right answers.
+/* The precision of the positions for which a foreign index promises right answers.
  *
- * DOUBLES: the positions of points and queries as they are. FLOATS: all positions, bounds and radii are first rounded
- * to the nearest float; a number beyond the range of floats becomes the largest finite float.
+ * DOUBLES: answers are judged for the positions of points and queries as they are. FLOATS: before an answer is judged,
+ * all positions, bounds and radii are rounded to the nearest float; a number beyond the range of floats becomes the
+ * largest finite float.
  *
  * FLOATS is for an index that stores floats and computes exactly with them. An index that also computes in floats has a
  * relative error of about 4e-7 in its distances; octree_query.epsilon can allow this error. */
 typedef enum octree_precision { OCTREE_DOUBLES, OCTREE_FLOATS, OCTREE_PRECISIONS } octree_precision;
 
-/* The name of a precision: "double" or "float". Null for precision >= OCTREE_PRECISIONS. */
+/* Returns the name of a precision: "double" or "float". Returns null for precision >= OCTREE_PRECISIONS. */
 const char *octree_precision_name(octree_precision precision);
 
 /* An array of ids that the caller owns. `ids` may be null if count is 0. */
@@ -32,7 +33,8 @@ typedef struct octree_ids {
     size_t count;
 } octree_ids;
 
-/* Exclusive upper bound of the ids of foreign nodes: a JSON number (a double) holds every smaller integer exactly. */
+/* Exclusive upper bound of the ids of foreign nodes. Session files store ids as JSON numbers (doubles), which hold
+ * every integer below this bound exactly. */
 #define OCTREE_NODE_ID_LIMIT (UINT64_C(1) << 53)
 
 #define OCTREE_NODE_KIND 16
@@ -40,22 +42,25 @@ typedef struct octree_ids {
 /* A node of a foreign index. If all members except the id and the box are zero, it is a root without points and
  * depth. */
 typedef struct octree_foreign_node {
-    uint64_t id; /* unique among the nodes, below OCTREE_NODE_ID_LIMIT */
+    uint64_t id; /* unique among the nodes of the array, below OCTREE_NODE_ID_LIMIT */
     /* false: the node is a root. An index may have any number of roots; a grid has one for each cell */
     bool has_parent;
     uint64_t parent; /* the id of the parent node, which may be anywhere in the same array */
-    octree_box box;  /* finite and closed. The box may be flat, overlap other boxes, and reach outside the world */
-    bool has_depth;  /* false: the depth is the parent's depth plus 1, and 0 for a root */
-    int depth;       /* >= 0; read only if has_depth is true */
-    bool has_points; /* true: `points` lists the points in the node itself, without its descendants; the list may be
-                        empty */
+    /* a closed box with finite corners. It may be flat, overlap other boxes, and reach outside the world */
+    octree_box box;
+    bool has_depth; /* false: the depth is the parent's depth plus 1, or 0 for a root */
+    int depth;      /* >= 0; read only if has_depth is true */
+    /* true: `points` lists the points that the node itself holds, without the points of its descendants; the list may
+     * be empty */
+    bool has_points;
     octree_ids points;
     char kind[OCTREE_NODE_KIND]; /* a word in printable ASCII with its final zero, such as "leaf"; may be "" */
-    /* FLOATS: points and boxes are rounded to floats before they are compared with this box */
+    /* FLOATS: points and other boxes are rounded to floats before they are compared with this box */
     octree_precision precision;
 } octree_foreign_node;
 
-/* All nodes of a foreign index. They are current from tick `tick` until the session gives other nodes. */
+/* All nodes of a foreign index. They are valid from tick `tick` until a later tick for which the session gives other
+ * nodes. */
 typedef struct octree_foreign_tree {
     uint64_t tick;
     /* the nodes in any order; null if node_count is 0, which means that the foreign index is empty */
@@ -72,7 +77,7 @@ typedef struct octree_foreign_tree {
  * Cost: O(n log n) time, and about 100 bytes for each node from malloc() during the call. */
 octree_status octree_foreign_check(const octree_foreign_tree *tree, size_t *place);
 
-/* What a query did with a foreign node. */
+/* What a query of the foreign index did with a foreign node. */
 typedef enum octree_node_visit {
     OCTREE_NODE_VISITED, /* the query examined the node */
     OCTREE_NODE_PRUNED,  /* the query skipped the node and all its descendants */
@@ -80,71 +85,77 @@ typedef enum octree_node_visit {
     OCTREE_NODE_VISITS
 } octree_node_visit;
 
-/* The name of a visit in session files: "visited", "pruned" or "hit". Null for visit >= OCTREE_NODE_VISITS. */
+/* Returns the name of a visit in session files: "visited", "pruned" or "hit". Returns null for visit >=
+ * OCTREE_NODE_VISITS. */
 const char *octree_node_visit_name(octree_node_visit visit);
 
-/* How a foreign node is provably wrong. A node holds the points that it lists. A leaf for which has_points is false
- * holds all points in its box. */
+/* How a foreign node is provably wrong. A node holds the points that it lists. A leaf whose has_points is false holds
+ * all points in its box. */
 typedef enum octree_wrong_node_kind {
     OCTREE_NODE_OUTSIDE_PARENT, /* the node's box reaches outside its parent's box */
     OCTREE_NODE_UNKNOWN_POINT,  /* the node lists an id that no point has at this tick */
     OCTREE_NODE_OUTSIDE_POINT,  /* the node lists a point that is outside the node's box */
     OCTREE_NODE_REPEATED_POINT, /* the node lists a point more than once */
-    OCTREE_NODE_LOST_POINT,     /* no node holds the point. The player's point is exempt if keys move it */
-    OCTREE_NODE_UNKNOWN_NODE,   /* a query names the id of a node that does not exist */
-    OCTREE_NODE_PRUNED_POINT, /* a query pruned the node and so lost a point: every right answer contains the point, and
-                                 no node outside the pruned ones holds it. A node counts as pruned if its nearest
-                                 ancestor, or itself, that the query names was pruned and not visited */
+    /* no node holds the point. The player's point may be missing if key presses move the player */
+    OCTREE_NODE_LOST_POINT,
+    OCTREE_NODE_UNKNOWN_NODE, /* a query names the id of a foreign node that does not exist */
+    /* A query pruned the node and so lost a point: every right answer contains the point, and no node that the query
+     * did not prune holds it. A node counts as pruned if the query pruned and did not visit it; if the query does not
+     * name the node, its nearest ancestor that the query names decides. */
+    OCTREE_NODE_PRUNED_POINT,
     OCTREE_WRONG_NODE_KINDS
 } octree_wrong_node_kind;
 
-/* The name of a kind: "outside_parent", "unknown_point", "outside_point", "repeated_point", "lost_point",
- * "unknown_node" or "pruned_point". Null for kind >= OCTREE_WRONG_NODE_KINDS. */
+/* Returns the name of a kind: "outside_parent", "unknown_point", "outside_point", "repeated_point", "lost_point",
+ * "unknown_node" or "pruned_point". Returns null for kind >= OCTREE_WRONG_NODE_KINDS. */
 const char *octree_wrong_node_name(octree_wrong_node_kind kind);
 
-/* A description of a few words, such as "its box leaves its parent's". Null for kind >= OCTREE_WRONG_NODE_KINDS. */
+/* Returns a description of a few words, such as "its box leaves its parent's". Returns null for kind >=
+ * OCTREE_WRONG_NODE_KINDS. */
 const char *octree_wrong_node_words(octree_wrong_node_kind kind);
 
 typedef struct octree_wrong_node {
     octree_wrong_node_kind kind;
-    uint64_t node;  /* the id of the wrong node; 0 for LOST_POINT, which has no node */
-    uint64_t point; /* the id of the point; 0 for OUTSIDE_PARENT and UNKNOWN_NODE, which have no point */
-    size_t answer;  /* UNKNOWN_NODE, PRUNED_POINT: the index of the query's answer in octree_tick.answers; else 0 */
+    uint64_t node;  /* the id of the wrong node; 0 for LOST_POINT, because no node holds the point */
+    uint64_t point; /* the id of the point; 0 for OUTSIDE_PARENT and UNKNOWN_NODE, which concern no point */
+    /* for UNKNOWN_NODE and PRUNED_POINT: the index in octree_tick.answers of the answer to the query; else 0 */
+    size_t answer;
 } octree_wrong_node;
 
-/* A foreign node at a tick, with its place in the forest of nodes. */
+/* A foreign node at a tick, and its relation to the other nodes. */
 typedef struct octree_foreign_place {
     const octree_foreign_node *node;
-    size_t parent;   /* the index of the node's parent in octree_foreign_state.nodes; SIZE_MAX for a root */
-    unsigned depth;  /* the given depth if has_depth is true; else the parent's depth plus 1, or 0 for a root */
-    unsigned kind;   /* the index of the node's kind in octree_foreign_state.kinds */
+    size_t parent;   /* index of the parent node in octree_foreign_state.nodes; SIZE_MAX for a root */
+    unsigned depth;  /* the node's own depth if has_depth is true; else the parent's depth plus 1, or 0 for a root */
+    unsigned kind;   /* index of the node's kind in octree_foreign_state.kinds */
     bool leaf;       /* true: the node has no children */
-    size_t points;   /* the number of points that the node and all its descendants list */
+    size_t points;   /* the sum of the numbers of points that the node and all its descendants list */
     unsigned visits; /* bit mask, bit 1 << octree_node_visit: what the tick's queries did with the node */
     unsigned wrong;  /* bit mask, bit 1 << octree_wrong_node_kind: how the node is wrong at this tick */
 } octree_foreign_place;
 
-/* The largest number of wrong nodes that a tick lists. Further wrong nodes are counted but not listed. */
+/* The maximum number of wrong nodes that a tick lists. Further wrong nodes are counted but not listed. */
 #define OCTREE_LISTED_WRONG_NODES 100
 
-/* The largest number of different kinds of nodes. Nodes of any further kind count as nodes of the last kind. */
+/* The maximum number of different kinds of nodes. Nodes of all further kinds count as nodes of the last kind. */
 #define OCTREE_NODE_KINDS 10
 
-/* The nodes of the foreign index at a tick, and how they are wrong. */
+/* The nodes of the foreign index at a tick, and the errors in these nodes. */
 typedef struct octree_foreign_state {
-    bool given; /* true: the session gave nodes at this tick or earlier. If false, all members are 0 */
-    bool fresh; /* true: the session gave nodes at this tick */
-    const octree_foreign_place *nodes; /* the current nodes, in the order in which they were given */
+    bool given; /* true: the session gave foreign nodes at this tick or earlier. If false, all members are 0 */
+    bool fresh; /* true: the session gave foreign nodes at this tick */
+    /* the foreign nodes that are valid at this tick, in the order in which the session gave them */
+    const octree_foreign_place *nodes;
     size_t node_count, leaf_count;
-    unsigned depth;                        /* the largest depth of a node */
-    uint64_t digest;                       /* the digest of the nodes as they were given */
-    size_t visits[OCTREE_NODE_VISITS];     /* visits[v] is the number of nodes with which the tick's queries did v:
-                                              OCTREE_NODE_VISITED, PRUNED or HIT */
+    unsigned depth;  /* the greatest depth of a foreign node */
+    uint64_t digest; /* the digest of the foreign nodes as the session gave them */
+    /* visits[v], with v an octree_node_visit: the number of nodes that the tick's queries visited, pruned or hit */
+    size_t visits[OCTREE_NODE_VISITS];
     size_t wrong[OCTREE_WRONG_NODE_KINDS]; /* the number of wrong nodes of each kind */
-    /* the first wrong nodes, at most OCTREE_LISTED_WRONG_NODES. Faults of the nodes themselves come first, sorted by
-     * node and point; faults of queries follow, in the order of the queries */
+    /* the first wrong nodes, at most OCTREE_LISTED_WRONG_NODES. Errors of the nodes themselves come first, sorted by
+     * node and point; errors of queries follow, in the order of the queries */
     const octree_wrong_node *listed;
-    size_t listed_count, wrong_count;      /* wrong_count is the number of all wrong nodes, listed or not */
+    size_t listed_count, wrong_count;      /* wrong_count is the number of all wrong nodes, whether listed or not */
     const char (*kinds)[OCTREE_NODE_KIND]; /* the kinds of all nodes up to this tick, in the order in which they first
                                               appeared */
     size_t kind_count;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* query.h - queries as data: one struct for a query of any kind, one for its answer, and one table of the kinds.
+/* query.h - queries as data: a struct for a query of any kind, a struct for its answer, and a table of all kinds of
+ * queries.
  *
  * Session files, games, audits and pictures work on these structs. A program that only searches a tree calls the
  * functions of octree.h instead.
@@ -15,8 +16,8 @@ extern "C" {
 
 /* ---- The tables --------------------------------------------------------------------------------------------- */
 
-/* The types of the members in the table below. The type decides how a member is checked, read, written, printed and
- * rounded to floats. */
+/* The types of the rows of OCTREE_QUERY_MEMBER_MAP. The type of a member decides how the member is checked, read,
+ * written, printed and rounded to floats. */
 typedef enum octree_member_type {
     OCTREE_MEMBER_BOX,      /* octree_box: six numbers, NaN is refused, infinities are allowed */
     OCTREE_MEMBER_POSITION, /* double[3]: finite */
@@ -24,9 +25,9 @@ typedef enum octree_member_type {
     OCTREE_MEMBER_LENGTH,   /* double: finite, >= 0 */
 } octree_member_type;
 
-/* The members of octree_query and octree_answer that only some kinds of query read. Each row has the member, its type,
- * and its key in session files. Answers list their members in this order. To add a member, add a row here and a field
- * to both structs. */
+/* The members of octree_query and octree_answer that only some kinds of query read. A row has the member, the member's
+ * type, and its key in session files. Answers list their members in this order. To add a member, add a row here and a
+ * field to both structs. */
 #define OCTREE_QUERY_MEMBER_MAP(X)                                                                                     \
     X(BOX, box, BOX, "box")                                                                                            \
     X(TARGET, target, POSITION, "at")                                                                                  \
@@ -40,7 +41,8 @@ enum {
         OCTREE_QUERY_MEMBERS
 };
 
-/* One bit for each member of the table. An OR of such bits is the set of members that a kind of query reads. */
+/* One bit for each row of OCTREE_QUERY_MEMBER_MAP. The set of members that a kind of query reads is an OR of such
+ * bits. */
 typedef enum octree_query_member {
 #define OCTREE_QUERY_MEMBER_BIT(member, ...) OCTREE_QUERY_HAS_##member = 1 << OCTREE_QUERY_MEMBER_##member,
     OCTREE_QUERY_MEMBER_MAP(OCTREE_QUERY_MEMBER_BIT)
@@ -56,12 +58,12 @@ typedef struct octree_query_member_traits {
     size_t in_answer; /* the member's offset in octree_answer, in bytes */
 } octree_query_member_traits;
 
-/* Row `index` of OCTREE_QUERY_MEMBER_MAP, in static storage. Null for index >= OCTREE_QUERY_MEMBERS. */
+/* Returns row `index` of OCTREE_QUERY_MEMBER_MAP, in static storage. Returns null for index >= OCTREE_QUERY_MEMBERS. */
 const octree_query_member_traits *octree_query_member_at(size_t index);
 
-/* The kinds of query, one row each: its name; the members that it reads; the member whose key in a session file is the
- * kind's name; POINTS or NEIGHBORS, the array of octree_answer that holds its result; its meaning in a few words; the
- * noun for the region that it searches.
+/* One row for each kind of query. The columns: the kind's name; the members of octree_query that the kind reads; the
+ * member whose key in a session file is the kind's name; POINTS or NEIGHBORS, the array of octree_answer that holds the
+ * result; the kind's meaning in a few words; a noun for the searched region.
  *
  * To add a kind: a row here; a file lib/src/query/kind_NAME.c, which defines ask_NAME() and, for POINTS,
  * contains_NAME() and bound_NAME(); a row of viz/scene/query_looks.h; a layer_NAME in viz/layers; a test. If one of
@@ -85,78 +87,85 @@ typedef enum octree_query_kind {
 /* A row of OCTREE_QUERY_MAP. */
 typedef struct octree_query_traits {
     const char *name;             /* the kind's name in session files and ticks.jsonl, such as "range" */
-    unsigned members;             /* bit mask of octree_query_member: the members that the kind reads */
+    unsigned members;             /* bit mask of octree_query_member: the members of octree_query that the kind reads */
     octree_query_member named_by; /* the member whose key in a session file is the kind's name */
-    bool neighbors;               /* true: octree_answer.neighbors holds the result; false: octree_answer.points does */
-    const char *words;            /* the meaning of the kind, such as "the points in a box" */
-    const char *region;           /* a noun for the searched region, such as "box" */
+    /* true: octree_answer.neighbors holds the result; false: octree_answer.points holds it */
+    bool neighbors;
+    const char *words;  /* the meaning of the kind, such as "the points in a box" */
+    const char *region; /* a noun for the searched region, such as "box" */
 } octree_query_traits;
 
-/* The table row of a kind, in static storage. Null for kind >= OCTREE_QUERY_KINDS. */
+/* Returns the table row of a kind of query, in static storage. Returns null for kind >= OCTREE_QUERY_KINDS. */
 const octree_query_traits *octree_query_about(octree_query_kind kind);
 
-/* The name of a kind, such as "range". Null for kind >= OCTREE_QUERY_KINDS. */
+/* Returns the name of a kind of query, such as "range". Returns null for kind >= OCTREE_QUERY_KINDS. */
 const char *octree_query_name(octree_query_kind kind);
 
 /* ---- Queries ------------------------------------------------------------------------------------------------ */
 
 #define OCTREE_EVERY_TICK UINT64_MAX
 
-/* A query. A game asks it at the end of a tick, after all changes of the tree. Queries for neighbours skip the game's
- * player; other queries find the player like any other point. In a tick without a player, queries with at_player are
- * not asked. */
+/* A query. A game asks the query at the end of a tick, after all changes of the tree. Queries for neighbours skip the
+ * game's player; other queries find the player like any other point. In a tick without a player, queries with at_player
+ * are not asked. */
 typedef struct octree_query {
     uint64_t tick; /* a tick number, or OCTREE_EVERY_TICK */
     octree_query_kind kind;
-    bool at_player;   /* true: the box is relative to the player's position, and the target is this position */
-    octree_box box;   /* the closed box of a range query */
-    double target[3]; /* the position whose neighbours are sought, or the center of the ball. Not read if at_player is
-                         true */
-    size_t k;         /* the number of neighbours; a tree with fewer points returns all of them */
-    double radius;    /* the radius of the closed ball, >= 0 */
-    octree_skip skip; /* the points that no answer may contain. NONE skips only the player, and only among neighbours.
-                         COINCIDENT skips points at the target; a query without a target must not have it */
+    bool at_player; /* true: the player's position is the target, and `box` is relative to this position */
+    octree_box box; /* the closed box of a range query */
+    /* the position whose neighbours are searched, or the center of the ball. Not read if at_player is true */
+    double target[3];
+    size_t k;      /* the number of neighbours to find; if the tree has fewer points, all points are found */
+    double radius; /* the radius of the closed ball, >= 0 */
+    /* the points that no answer may contain. NONE skips only the game's player, and only in queries for neighbours.
+     * COINCIDENT skips points at the target, and is an error in a query without a target */
+    octree_skip skip;
     uint64_t skip_id; /* read only with OCTREE_SKIP_ID */
     double epsilon; /* the permitted error of the answer, finite and >= 0: a ratio for neighbours, a length for regions;
                        see octree_search.epsilon */
-    bool answered; /* true: the session holds the answer of a foreign index. The game compares it with the exact answer,
-                      for which the game ignores epsilon */
-    octree_precision precision; /* read if `answered` is true: the precision that the foreign index promises */
+    /* true: the session has the answer of a foreign index to this query. The game compares it with the exact answer,
+     * for which it ignores epsilon */
+    bool answered;
+    /* read if `answered` is true: the precision for which the foreign index promises right answers */
+    octree_precision precision;
     const uint64_t *answer; /* read if `answered` is true: the ids that the foreign index returned, in any order; null
                                if answer_count is 0 */
     size_t answer_count;
-    /* the ids of the foreign nodes that the query visited, pruned and hit. The exact answer, with precision and
-     * epsilon, shows whether pruning a node was wrong */
+    /* visits[v]: the ids of the foreign nodes that the query visited, pruned or hit. The exact answer, with precision
+     * and epsilon, shows whether pruning a node was wrong */
     octree_ids visits[OCTREE_NODE_VISITS];
 } octree_query;
 
-/* Check whether a query can be asked; its tick is not read. Errors: NULL_ARGUMENT (an array of ids may be null only if
- * its count is 0); BAD_OPTION (kind, precision or skip is invalid, or COINCIDENT without a target); NOT_FINITE,
+/* Check whether a query can be asked. The member `tick` is not read. Errors: NULL_ARGUMENT (an array of ids may be null
+ * only if its count is 0); BAD_OPTION (kind, precision or skip is invalid, or COINCIDENT without a target); NOT_FINITE,
  * BAD_RANGE, BAD_SIZE (epsilon, or a member that the kind reads); BAD_SIZE (the id of a foreign node is not below
  * OCTREE_NODE_ID_LIMIT). */
 octree_status octree_query_check(const octree_query *query);
 
 /* ---- Answers ------------------------------------------------------------------------------------------------ */
 
-/* How the answer of a foreign index is wrong. The values are ordered: if several apply, the lowest is reported. */
+/* How the answer of a foreign index is wrong. The values are ordered: if an answer is wrong in several ways, the lowest
+ * value is reported. */
 typedef enum octree_wrong_kind {
     OCTREE_WRONG_NONE,
-    OCTREE_WRONG_UNKNOWN,   /* the answer contains an id that no point has at this tick, such as a removed point's */
+    /* the answer contains an id that no point has at this tick, such as the id of a removed point */
+    OCTREE_WRONG_UNKNOWN,
     OCTREE_WRONG_DUPLICATE, /* the answer contains a point twice */
     OCTREE_WRONG_SKIPPED,   /* the answer contains a point that the query skips */
-    OCTREE_WRONG_COUNT,     /* neighbours: the number of neighbours is neither k nor, in a smaller tree, the number of
-                               points */
-    OCTREE_WRONG_FARTHER, /* neighbours: the neighbour at some rank is farther than the exact neighbour at this rank */
-    OCTREE_WRONG_MISSING, /* regions: a point in the region is not in the answer */
-    OCTREE_WRONG_EXTRA,   /* regions: a point of the answer is outside the region */
+    /* only for neighbours: the number of neighbours is neither k nor, in a smaller tree, the number of points */
+    OCTREE_WRONG_COUNT,
+    /* only for neighbours: at some rank, the neighbour is farther than the exact neighbour of this rank */
+    OCTREE_WRONG_FARTHER,
+    OCTREE_WRONG_MISSING, /* only for regions: a point in the region is not in the answer */
+    OCTREE_WRONG_EXTRA,   /* only for regions: a point of the answer is outside the region */
     OCTREE_WRONG_KINDS
 } octree_wrong_kind;
 
-/* The name of a kind: "none", "unknown", "duplicate", "skipped", "count", "farther", "missing" or "extra". Null for
- * wrong >= OCTREE_WRONG_KINDS. */
+/* Returns the name of a kind of error: "none", "unknown", "duplicate", "skipped", "count", "farther", "missing" or
+ * "extra". Returns null for wrong >= OCTREE_WRONG_KINDS. */
 const char *octree_wrong_name(octree_wrong_kind wrong);
 
-/* The answer of a foreign index, judged by the exact answer.
+/* The result of comparing the answer of a foreign index with the exact answer.
  *
  * Regions (a box, a ball) are compared as sets of points. Neighbours are sorted by distance, whatever their order in
  * the answer, and compared rank by rank; if several points have the same distance, each of them is right. Real numbers
@@ -165,43 +174,49 @@ const char *octree_wrong_name(octree_wrong_kind wrong);
 typedef struct octree_judgement {
     bool judged; /* false: the query has no foreign answer, and the other members are 0 */
     octree_wrong_kind wrong;
-    uint64_t wrong_id;     /* UNKNOWN, DUPLICATE, SKIPPED: the lowest id that is wrong in this way */
-    const uint64_t *given; /* the ids of the foreign answer, in its order */
+    uint64_t wrong_id;     /* for UNKNOWN, DUPLICATE and SKIPPED: the lowest id that is wrong in this way */
+    const uint64_t *given; /* the ids of the foreign answer, in the order of this answer */
     size_t given_count;
-    size_t expected;             /* the number of points in the exact answer */
-    const octree_point *missing; /* points that every right answer contains and the foreign answer does not. Sorted by
-                                    id for regions, by distance for neighbours */
-    size_t missing_count;        /* the recall of the answer is 1 - missing_count / expected */
-    const octree_point *extra;   /* points that the foreign answer contains and no right answer does, sorted like
-                                    `missing`. UNKNOWN and SKIPPED points are not listed here */
+    size_t expected; /* the number of points in the exact answer */
+    /* points that every right answer contains but the foreign answer does not; sorted by id for regions, by distance
+     * for neighbours */
+    const octree_point *missing;
+    /* the number of missing points; the recall of the answer is 1 - missing_count / expected */
+    size_t missing_count;
+    /* points that the foreign answer contains but no right answer does; sorted like `missing`. UNKNOWN and SKIPPED
+     * points are not in this list */
+    const octree_point *extra;
     size_t extra_count;
-    size_t rank;  /* neighbours: the first rank with a wrong neighbour; the nearest neighbour has rank 1; 0: no rank is
-                     wrong */
-    double ratio; /* neighbours: the largest quotient, over all ranks, of the foreign distance and the exact distance. 1
-                     for an exact answer; infinite if an exact distance is 0 or the answer is empty */
+    /* only for neighbours: the first rank at which the neighbour is wrong. The nearest neighbour has rank 1; 0: no rank
+     * is wrong */
+    size_t rank;
+    /* only for neighbours: the largest ratio, over all ranks, of the foreign distance to the exact distance. 1 for an
+     * exact answer; infinite if an exact distance is 0 or if the answer is empty */
+    double ratio;
 } octree_judgement;
 
 typedef struct octree_answer {
     octree_query_kind kind;
-    bool by_key;    /* true: the key n asked the query */
-    octree_box box; /* the members that the kind reads, in world coordinates */
+    bool by_key;    /* true: the query was asked by the key n, not by the session */
+    octree_box box; /* the members of octree_query that the kind reads, in world coordinates */
     double target[3];
-    size_t k; /* the number of neighbours that were asked for; 1 for nearest */
+    size_t k; /* the number of neighbours that the query asked for; 1 for a query of kind nearest */
     double radius;
-    octree_skip skip; /* skip, skip_id and epsilon are those of the query; NONE if only the player is skipped */
+    octree_skip skip; /* skip, skip_id and epsilon of the query; skip is NONE if only the player is skipped */
     uint64_t skip_id;
     double epsilon;
-    const octree_point *points;       /* kinds whose result is points: sorted by id */
-    const octree_neighbor *neighbors; /* kinds whose result is neighbours: sorted by distance, then by id */
-    size_t count;                     /* the number of points or neighbours */
+    const octree_point *points; /* the result of a kind whose result is points, sorted by id */
+    /* the result of a kind whose result is neighbours, sorted by distance, then by id */
+    const octree_neighbor *neighbors;
+    size_t count; /* the number of points or neighbours */
     octree_cost cost;
     octree_precision precision;
-    octree_judgement judgement; /* in a game: the judgement of the foreign answer, if the query has one */
+    octree_judgement judgement; /* only in a game: the judgement of the foreign answer, if the query has one */
 } octree_answer;
 
-/* Answer a query outside a game. `player` is the position for at_player; it may be null if at_player is false. `how`
- * may be null; its skip and epsilon apply if the query has none. A foreign answer is not judged. The cost is stored in
- * answer->cost; how->cost is not used. Release the answer with octree_answer_release.
+/* Answer a query outside a game. `player` is the player's position, for a query with at_player; it may be null for
+ * other queries. `how` may be null; how->skip and how->epsilon apply if the query itself has none. A foreign answer is
+ * not judged. The cost is stored in answer->cost; how->cost is not used. Release the answer with octree_answer_release.
  *
  * Errors: those of octree_query_check and octree_range_search, NULL_ARGUMENT, NO_MEMORY; the answer is then empty. The
  * memory comes from the tree's allocator, which must be safe to call from this thread. */
@@ -209,8 +224,8 @@ octree_status octree_query_answer(const octree *tree, const octree_query *query,
                                   const octree_search *how, octree_answer *answer);
 void octree_answer_release(const octree *tree, octree_answer *answer);
 
-/* Store a box that contains the region of an answer. Returns false if the result is neighbours, which may lie anywhere.
- * The box of a large ball may be infinite. */
+/* Store a box that contains the region of an answer in *bound. Returns false if the result is neighbours, which may lie
+ * anywhere. The box of a large ball may be infinite. */
 bool octree_answer_bound(const octree_answer *answer, octree_box *bound);
 
 #ifdef __cplusplus

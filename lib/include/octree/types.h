@@ -10,7 +10,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* One row per status: its name, the word for it in files, and its sentence. */
+/* One row for each status: the status, its name in files, and its sentence. */
 #define OCTREE_STATUS_MAP(X)                                                                                           \
     X(OK, "ok", "done")                                                                                                \
     X(NOT_FOUND, "not_found", "the tree has no such point or node")                                                    \
@@ -53,8 +53,8 @@ typedef struct octree_point {
     uint64_t id;
 } octree_point;
 
-/* The greatest depth of a node; the root has depth 0. An address of 21 octants with three bits each and a leading 1 bit
- * fits 64 bits. */
+/* The greatest depth of a node; the root has depth 0. An address has three bits for each of its 21 octants and a
+ * leading 1 bit, so it fits into 64 bits. */
 #define OCTREE_MAX_DEPTH 21
 
 /* The address of a node: a leading 1 bit, then three bits per octant from the root down (Morton order). */
@@ -66,14 +66,15 @@ typedef struct octree_node {
     octree_address address;
     unsigned depth;
     bool leaf;
-    uint8_t octants; /* bit i is set when octant i has a node; 0 for a leaf */
-    octree_box box;  /* the box of the node's cell. Faces inside the world are the planes with which insertion compares
-                        coordinates */
-    size_t count;    /* the number of points in and below this node */
-    const octree_point *points; /* the points of a leaf; the tree owns them, and they are valid until its next change.
-                                   Null for an inner node and for the root of an empty tree. Their order is unspecified:
-                                   trees with equal contents can have different orders. Sort the points, for example by
-                                   octree_compare_points, if their order matters */
+    uint8_t octants; /* bit i is set if octant i has a node; 0 for a leaf */
+    /* the box of the node's cell. Its faces inside the world are the planes with which insertion compares
+     * coordinates */
+    octree_box box;
+    size_t count; /* the number of points in and below this node */
+    /* The points of a leaf. The tree owns the points, and they are valid until the tree's next change. Null for an
+     * inner node and for the root of an empty tree. The order of the points is unspecified: trees with equal contents
+     * can have different orders. If the order matters, sort the points, for example by octree_compare_points. */
+    const octree_point *points;
 } octree_node;
 
 typedef struct octree_stats {
@@ -84,23 +85,23 @@ typedef struct octree_stats {
     size_t largest_leaf; /* the number of points in the fullest leaf */
     size_t nodes_at_depth[OCTREE_MAX_DEPTH + 1];
     size_t leaves_at_depth[OCTREE_MAX_DEPTH + 1];
-    size_t memory; /* the number of bytes that the tree has allocated and not released yet */
+    size_t memory; /* the number of bytes that the tree has allocated and not yet released */
 } octree_stats;
 
 /* ---- Definition of a tree ----------------------------------------------------------------------------------- */
 
 typedef struct octree octree;
 
-/* The treatment of a point whose leaf is full and cannot split. Under REFUSE, as in the paper, the tree refuses the
- * point with OCTREE_FULL. Under GROW, the default, the leaf grows beyond its capacity. */
+/* The treatment of a new point whose leaf is full and cannot split. OCTREE_REFUSE, as in the paper: the tree refuses
+ * the point with OCTREE_FULL. OCTREE_GROW, the default: the leaf grows beyond its capacity. */
 typedef enum octree_full_leaf {
     OCTREE_REFUSE,
     OCTREE_GROW,
 } octree_full_leaf;
 
 /* The memory functions of a tree. `allocate` returns memory with the alignment of malloc, or null. `release` receives a
- * pointer that is not null and the size that was requested for it. Setting only one of the two functions is BAD_OPTION.
- * The context must outlive the tree.
+ * pointer that is not null, and the size that was requested from `allocate`. Setting only one of the two functions is
+ * BAD_OPTION. The context must outlive the tree.
  *
  * Changes of a tree call the allocator from one thread at a time. octree_nearest_batch and octree_query_answer
  * (query.h) also allocate: a program that runs them on several threads at once needs a thread-safe allocator, such as
@@ -114,9 +115,9 @@ typedef struct octree_allocator {
 typedef void octree_task(size_t number, void *context);
 
 /* The caller's threads. `run` calls the task once for each number below `count` (at most 64), on any threads and in any
- * order. It returns when all calls have returned; it must not call the task later. A number for which `run` does not
- * call the task runs on the calling thread. A repeated number runs once. A number >= count is ignored. Inside `run`,
- * changes of the tree on the calling thread return OCTREE_BUSY.
+ * order. It returns when all calls have returned; it must not call the task later. If `run` omits a number, the task
+ * with this number runs on the calling thread. If `run` repeats a number, its task runs only once. A number >= count is
+ * ignored. Inside `run`, changes of the tree on the calling thread return OCTREE_BUSY.
  *
  * Bulk changes, octree_nearest_batch, octree_digest and octree_check divide large work, of some thousand points or
  * more, into tasks. Nodes, statuses, answers and digests do not depend on the number of threads. Memory use may differ
@@ -128,24 +129,26 @@ typedef struct octree_executor {
     void *context;
 } octree_executor;
 
-/* A leaf capacity that the tree chooses itself, as octree_tune does: first when the tree reaches 1024 points, then each
- * time the number of points has doubled. The mix is the one last given to octree_tune, or the default mix. OCTREE_AUTO
- * requires OCTREE_GROW, because a point must not be refused on account of a choice. The nodes then depend on the
- * contents and the chosen capacity only. */
+/* The value of leaf_capacity with which the tree chooses its capacity itself, as octree_tune does: first when the tree
+ * reaches 1024 points, then each time the number of points has doubled. The mix of operations is the mix that was last
+ * given to octree_tune, or the default mix. OCTREE_AUTO requires OCTREE_GROW, because a chosen capacity must not cause
+ * the tree to refuse a point. The contents of the tree and the chosen capacity determine the nodes. */
 #define OCTREE_AUTO (SIZE_MAX - 1)
 
 /* Everything that defines an empty tree. Start from octree_def_default() and change some members. */
 typedef struct octree_def {
-    octree_box world;     /* min < max on every axis; any finite doubles, +-DBL_MAX included */
-    size_t leaf_capacity; /* the number of points in a leaf before it splits; at least 1, clamped to 2^32 - 1; or
-                             OCTREE_AUTO */
-    size_t max_depth;     /* the greatest depth of a node, clamped to OCTREE_MAX_DEPTH; 0: the root never splits */
+    /* the bounds of all points: min < max on every axis; any finite doubles, +-DBL_MAX included */
+    octree_box world;
+    /* the number of points in a leaf above which the leaf splits; at least 1, clamped to 2^32 - 1; or OCTREE_AUTO */
+    size_t leaf_capacity;
+    size_t max_depth; /* the greatest depth of a node, clamped to OCTREE_MAX_DEPTH; 0: the root never splits */
     octree_full_leaf full_leaf; /* the treatment of points whose leaf is full and cannot split */
-    octree_allocator allocator; /* null functions mean malloc and free */
-    octree_executor executor;   /* a null function means that all work runs on the calling thread */
+    octree_allocator allocator; /* the memory functions of the tree; null functions mean malloc and free */
+    /* the caller's threads; a null function means that all work runs on the calling thread */
+    octree_executor executor;
 } octree_def;
 
-/* A reader's position in a tree's change log. All members zero means that the reader has read nothing yet. */
+/* A reader's position in a tree's change log. If all members are zero, the reader has read nothing yet. */
 typedef struct octree_cursor {
     size_t log;        /* the name of the log that the reader has read */
     uint64_t position; /* the number of the first change that the reader has not read */
@@ -153,30 +156,32 @@ typedef struct octree_cursor {
 
 /* ---- Queries ------------------------------------------------------------------------------------------------ */
 
-/* The points that are skipped in a search for neighbours of a target. */
+/* The points that a search for neighbours of a target skips. */
 typedef enum octree_skip {
     OCTREE_SKIP_NONE,       /* skip no point */
-    OCTREE_SKIP_ID,         /* skip points with the given id, such as the target's own point */
-    OCTREE_SKIP_COINCIDENT, /* skip points at the target's coordinates, as in the paper */
+    OCTREE_SKIP_ID,         /* skip points with the id skip_id, such as the target's own point */
+    OCTREE_SKIP_COINCIDENT, /* skip points whose coordinates equal the target's, as in the paper */
 } octree_skip;
 
-/* How distances are compared: EXACT compares them as real numbers, FAST as doubles. If two distances differ by less
- * than a rounding error, FAST may take the farther point for the nearer. FAST is 1.6 to 6 times as fast where many
- * distances are equal, as on a lattice. Elsewhere it is about as fast as EXACT. */
+/* How distances are compared. EXACT compares distances as real numbers, FAST compares them as doubles. If two distances
+ * differ by less than a rounding error, FAST may take the farther point for the nearer. FAST is 1.6 to 6 times as fast
+ * where many distances are equal, as on a lattice. For other points FAST is about as fast as EXACT. */
 typedef enum octree_mode {
     OCTREE_EXACT,
     OCTREE_FAST,
 } octree_mode;
 
 /* The work of a query, as counts that are the same on every machine. A query adds to the counts, so that one struct can
- * sum many queries. */
+ * sum the work of many queries. */
 typedef struct octree_cost {
-    uint64_t nodes;  /* visited nodes, leaves included */
-    uint64_t leaves; /* visited leaves */
-    uint64_t points; /* points that were compared with the query one by one */
-    uint64_t pruned; /* nodes that were skipped because their box is out of reach; their descendants are not counted */
-    uint64_t taken; /* nodes whose box is inside the range, so that all their points match without comparison. The other
-                       counts do not include these nodes and points */
+    uint64_t nodes;  /* the number of visited nodes, leaves included */
+    uint64_t leaves; /* the number of visited leaves */
+    uint64_t points; /* the number of points that were compared with the query one by one */
+    /* the number of nodes that were skipped because their box is out of reach, without their descendants */
+    uint64_t pruned;
+    /* the number of nodes whose box is inside the range, so that all their points match without comparison. The other
+     * counts do not include these nodes and their points */
+    uint64_t taken;
 } octree_cost;
 
 /* What a query did with a node. */
@@ -188,26 +193,28 @@ typedef enum octree_trace_kind {
     OCTREE_TRACE_KINDS
 } octree_trace_kind;
 
-/* Called for each node that a query visits, prunes or takes whole. Changes of the tree inside the tracer return
- * OCTREE_BUSY. */
+/* A function that is called for each node that a query visits, prunes or takes whole. Changes of the tree inside the
+ * tracer return OCTREE_BUSY. */
 typedef void (*octree_tracer)(octree_address node, octree_trace_kind kind, void *context);
 
-/* Options of a query. All zero, or a null pointer to the options, means an exact search that skips no point. */
+/* Options of a search. A zeroed struct, or a null pointer to the options, means an exact search that skips no point. */
 typedef struct octree_search {
-    octree_skip skip;    /* read only by searches for neighbours */
-    uint64_t skip_id;    /* read only with OCTREE_SKIP_ID */
-    octree_mode mode;    /* how distances are compared; boxes are compared exactly in both modes */
-    double epsilon;      /* the permitted error, finite and >= 0: a ratio for neighbours, a length for ranges; see each
-                            function */
-    octree_cost *cost;   /* the counts to add to; null: do not count */
-    octree_tracer trace; /* the function to call for each node; null: do not trace */
+    octree_skip skip; /* the points to skip; read only by searches for neighbours */
+    uint64_t skip_id; /* read only with OCTREE_SKIP_ID */
+    octree_mode mode; /* how distances are compared; boxes are compared exactly in both modes */
+    /* the permitted error, finite and >= 0: a ratio for neighbours, a length for ranges; each search function explains
+     * its meaning */
+    double epsilon;
+    octree_cost *cost;   /* the counts to which the work of the search is added; null: do not count */
+    octree_tracer trace; /* the function to call for each node that the search reaches; null: do not trace */
     void *trace_context;
 } octree_search;
 
 typedef struct octree_neighbor {
     octree_point point;
-    double distance; /* the Euclidean distance, within 4 ulp, computed without overflow or underflow. It is rounded: a
-                        search with this distance as its radius may miss the very point */
+    /* the Euclidean distance, within 4 ulp, computed without overflow or underflow. The distance is rounded, so a
+     * search with this distance as its radius may miss this very point */
+    double distance;
 } octree_neighbor;
 
 #endif

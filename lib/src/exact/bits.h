@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* A table of 16 entries of four bits each. Entry i is the number of set bits of i, which is 0..15. */
+/* A table of 16 entries of four bits each. Entry i is the number of set bits in the number i, from 0 to 15. */
 #define BITS_COUNTS UINT64_C(0x4332322132212110)
 
 static inline unsigned bits_count8(unsigned mask)
@@ -14,8 +14,8 @@ static inline unsigned bits_count8(unsigned mask)
     return (unsigned)((BITS_COUNTS >> 4 * (mask & 15) & 15) + (BITS_COUNTS >> 4 * (mask >> 4) & 15));
 }
 
-/* The number of set bits. Partial sums are taken over 2, 4 and 8 bits; the product then adds all bytes into the highest
- * byte. */
+/* Returns the number of set bits. Partial sums are taken over 2, 4 and 8 bits; a multiplication then adds all bytes
+ * into the highest byte. */
 static inline unsigned bits_count(uint64_t mask)
 {
     mask -= mask >> 1 & UINT64_C(0x5555555555555555);
@@ -24,7 +24,7 @@ static inline unsigned bits_count(uint64_t mask)
     return (unsigned)(mask * UINT64_C(0x0101010101010101) >> 56);
 }
 
-/* The index of the lowest set bit, 0..63. mask must not be 0. */
+/* Returns the index of the lowest set bit, 0..63. `mask` must not be 0. */
 static inline unsigned bits_lowest(uint64_t mask)
 {
 #if defined(__GNUC__)
@@ -37,7 +37,7 @@ static inline unsigned bits_lowest(uint64_t mask)
 #endif
 }
 
-/* The index of the highest set bit, 0..63. mask must not be 0. */
+/* Returns the index of the highest set bit, 0..63. `mask` must not be 0. */
 static inline unsigned bits_highest(uint64_t mask)
 {
 #if defined(__GNUC__)
@@ -50,8 +50,8 @@ static inline unsigned bits_highest(uint64_t mask)
 #endif
 }
 
-/* Insert two zero bits before each of the low 21 bits. Three such words, shifted by 0, 1 and 2 bits, combine to a
- * Morton code. */
+/* Insert two zero bits before each of the low 21 bits. The results for three numbers, shifted by 0, 1 and 2 bits,
+ * combine to a Morton code. */
 static inline uint64_t bits_spread(uint64_t x)
 {
     x = (x | x << 32) & UINT64_C(0x001f00000000ffff);
@@ -62,7 +62,7 @@ static inline uint64_t bits_spread(uint64_t x)
     return x;
 }
 
-/* Return `mask` if the condition holds, else 0, without a branch. */
+/* Returns `mask` if the condition holds, else 0. The function has no branch. */
 static inline unsigned bits_if(bool condition, unsigned mask)
 {
     return (0u - condition) & mask;

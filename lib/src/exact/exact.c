@@ -1,24 +1,25 @@
 /* SPDX-License-Identifier: MIT */
 /* exact.c - exact sums of products of doubles, and directed rounding of a sum.
  *
- * Problem: the sign of a sum such as |a - t|^2 - |b - t|^2 decides which point is nearer. Rounding can turn it around
- * or hide a tie. Long double or compensated sums only make that rarer.
+ * Problem: the sign of a sum such as |a - t|^2 - |b - t|^2 decides which point is nearer. Rounding can reverse this
+ * sign or hide a tie. Long double or compensated sums only make such errors rarer.
  *
  * Idea (Kulisch's long accumulator): a double is an integer times a power of two, so a product of two doubles is an
- * integer at a fixed bit position of one very wide fixed-point number. Adding integers loses nothing. The number is
- * kept in digits of 32 bits in signed 64-bit cells, which absorb 2^20 additions before any carry must be propagated;
- * exact_sign() propagates carries once. Only the digits in use are initialized, a few for terms of similar size.
+ * integer at a fixed bit position of one very wide fixed-point number. Adding integers loses nothing. The fixed-point
+ * number is stored in digits of 32 bits. Each digit is a signed 64-bit integer, which absorbs 2^20 additions before a
+ * carry must be propagated; exact_sign() propagates all carries once. Only the digits in use are initialized, and terms
+ * of similar size use only a few digits.
  *
- * Why not multi-precision integers or expansions (Shewchuk): they allocate, or need branches per term, and neither is
- * simpler. Cost: three additions of digits per product and one pass over the digits in use. Callers compare doubles
- * first and use exact sums only for near ties.
+ * Why not multi-precision integers or expansions (Shewchuk): the former allocate memory, the latter need branches for
+ * each term, and neither is simpler. Cost: three additions of digits per product and one pass over the digits in use.
+ * Callers compare doubles first and use exact sums only for near ties.
  */
 #include "exact.h"
 
 /* A finite double as mantissa * 2^exponent and a sign. The mantissa is an integer below 2^53. */
 typedef struct decomposed {
     uint64_t mantissa;
-    int exponent; /* the exponent of the lowest bit of the mantissa, at least -1074 */
+    int exponent; /* the exponent of the mantissa's lowest bit, at least -1074 */
     int sign;
 } decomposed;
 
@@ -40,7 +41,8 @@ void exact_clear(exact_sum *sum)
     sum->first = sum->end = 0;
 }
 
-/* Return the three digits from index `place` on. The range of digits in use grows to include them; new digits are 0. */
+/* Returns a pointer to the three digits from index `place` on. If necessary, the range of digits in use grows to
+ * include these three; new digits are 0. */
 static int64_t *digits_at(exact_sum *sum, int place)
 {
     if (sum->first == sum->end)
@@ -52,7 +54,8 @@ static int64_t *digits_at(exact_sum *sum, int place)
     return sum->digits + place;
 }
 
-/* Add sign * value * 2^offset to the sum. An offset of 0 is the lowest bit of the fixed-point number; offset >= 0. */
+/* Add sign * value * 2^offset to the sum. With an offset of 0, the lowest bit of `value` is added to the lowest bit of
+ * the fixed-point number. The offset must not be negative. */
 static void add_shifted(exact_sum *sum, int sign, uint64_t value, int offset)
 {
     const int shift = offset % 32;
@@ -86,7 +89,7 @@ int exact_sign(exact_sum *sum)
         carry = (digit - sum->digits[i]) / (INT64_C(1) << 32);
         any |= sum->digits[i] != 0;
     }
-    /* the last carry is never positive: products leave 23 bits free in their highest digit */
+    /* the last carry is never positive, because products leave 23 bits free in their highest digit */
     return carry < 0 ? -1 : any;
 }
 
@@ -99,8 +102,8 @@ int exact_sign_of_sum(const double terms[], int count)
     return exact_sign(&sum);
 }
 
-/* The exact rounding error of sum = fl(a + b), by Dekker's FastTwoSum. Knuth's TwoSum needs no ordered operands, but an
- * intermediate result can overflow. */
+/* Returns the exact rounding error of sum = fl(a + b), by Dekker's FastTwoSum. Knuth's TwoSum would not need ordered
+ * operands, but one of its intermediate results can overflow. */
 static double sum_error(double a, double b, double sum)
 {
     return fabs(a) >= fabs(b) ? b - (sum - a) : a - (sum - b);

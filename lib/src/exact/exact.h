@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* exact.h - exact sums: no rounding, no overflow.
+/* exact.h - exact sums of doubles and of products of doubles, without rounding or overflow.
  *
- * exact_sum holds any sum of up to 2^20 products of two doubles, as a fixed-point number wide enough for the smallest
- * and the largest of them (4300 bits): the "long accumulator" of U. Kulisch, Computer Arithmetic and Validity (2013).
+ * exact_sum holds any sum of up to 2^20 products of two doubles. It is a fixed-point number of 4300 bits, wide enough
+ * for the smallest and the largest product: the "long accumulator" of U. Kulisch, Computer Arithmetic and Validity
+ * (2013).
  */
 #ifndef OCTREE_EXACT_H
 #define OCTREE_EXACT_H
@@ -13,8 +14,8 @@
 
 #define EXACT_DIGITS 140
 
-/* Digits of 32 bits in signed 64-bit cells. exact_sign() propagates the carries. Only the digits [first, end) are in
- * use; all others count as 0 and are not initialized. */
+/* Digits of 32 bits, each stored in a signed 64-bit integer. exact_sign() propagates the carries. Only the digits
+ * [first, end) are in use; all other digits count as 0 and are not initialized. */
 typedef struct exact_sum {
     int first, end;
     int64_t digits[EXACT_DIGITS];
@@ -25,19 +26,20 @@ void exact_clear(exact_sum *sum);
 /* Add factor * a * b exactly. The factor is -2, -1, 1 or 2; a and b are finite. */
 void exact_add_product(exact_sum *sum, int factor, double a, double b);
 
-/* The sign of the sum: -1, 0 or 1. The call normalizes the digits, so the sum must be cleared before it is used
+/* Returns the sign of the sum: -1, 0 or 1. The call changes the digits, so the sum must be cleared before it is used
  * again. */
 int exact_sign(exact_sum *sum);
 
-/* The sign of the exact sum of `count` terms: -1, 0 or 1. */
+/* Returns the sign of the exact sum of `count` terms: -1, 0 or 1. */
 int exact_sign_of_sum(const double terms[], int count);
 
-/* For the real sum a + b, exact_add_down() returns the largest double <= a + b, exact_add_up() the smallest double >= a
- * + b. A sum beyond the range of doubles gives +-DBL_MAX, or an infinity if no finite double is a bound. */
+/* exact_add_down() returns the largest double that is not above the real sum a + b. exact_add_up() returns the smallest
+ * double that is not below it. A sum beyond the range of doubles gives +-DBL_MAX, or an infinity if no finite double is
+ * a bound. */
 double exact_add_down(double a, double b);
 double exact_add_up(double a, double b);
 
-/* The next double below a finite value. */
+/* Returns the next double below a finite value. */
 static inline double exact_step_down(double value)
 {
     uint64_t bits;

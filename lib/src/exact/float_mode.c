@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* float_mode.c - sets and restores the floating-point mode, and calls the caller's functions in it. See float_mode.h.
- */
+/* float_mode.c - sets and restores the floating-point mode, and calls the caller's functions in the caller's mode. See
+ * float_mode.h. */
 #include "float_mode.h"
 
-/* True while a public function that changed the thread's mode is running. A thread has at most one such function: inner
- * calls find the default mode, and `changed` is false while a caller's function runs. */
+/* True while a public function that changed the thread's mode is running. A thread runs at most one such function:
+ * inner calls find the default mode, and `changed` is false while a function of the caller runs. */
 static _Thread_local bool changed;
 
 /* ---- The control register ------------------------------------------------------------------------------------ */
@@ -67,8 +67,9 @@ static void write_default(void)
     fesetenv(FE_DFL_ENV);
 }
 
-/* Test the mode by its effect on some operations. The operands are volatile, so that the compiler does not fold the
- * operations. A mode that fesetenv() could not change counts as the default, because nothing more can be done. */
+/* Detect the floating-point mode by its effect on some operations. The operands are volatile, so that the compiler does
+ * not fold the operations. If fesetenv() could not change a mode, this mode counts as the default, because nothing more
+ * can be done. */
 bool float_mode_is_default(void)
 {
     static const volatile double one = 1, half_ulp = 0x1p-53, more = 0x1.8p-53, least = 0x1p-1074, normal = 0x1p-1022;
@@ -79,7 +80,7 @@ bool float_mode_is_default(void)
 
 /* ---- The caller's mode --------------------------------------------------------------------------------------- */
 
-/* The mode to restore, while `changed` is true. */
+/* the floating-point mode to restore; valid while `changed` is true */
 static _Thread_local float_control caller_control;
 
 void float_mode_enter(void)

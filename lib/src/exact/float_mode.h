@@ -7,11 +7,11 @@
  * FENV_ACCESS, and a volatile asm statement orders only memory accesses and other volatile statements, not operations
  * on doubles.
  *
- * Idea: a public function only reads the mode (about 1 ns). In the default mode, which is the rule, it simply runs. In
- * any other mode it sets the default mode, calls itself through a volatile pointer, and restores the caller's mode
- * (some 10 ns). The compiler cannot look through such a pointer, so the arithmetic of the inner call stays within this
- * call. The outer call's own body is used in the default mode only, so the compiler may move its arithmetic. All
- * results of the inner call are complete before the mode is restored.
+ * Idea: a public function first reads the mode (about 1 ns). In the default mode, which is the usual case, the function
+ * simply runs. In any other mode the function sets the default mode, calls itself through a volatile pointer, and
+ * restores the caller's mode (some 10 ns). The compiler cannot look through such a pointer, so the arithmetic of the
+ * inner call stays within this call. The rest of the outer call runs only in the default mode, so the compiler may move
+ * its arithmetic. All results of the inner call are complete before the mode is restored.
  *
  * The caller's functions - visitors, tracers, allocators, executors - run in the caller's mode. If the library itself
  * calls a public function, it does so in the default mode, and the library's own visitors run in this mode.
@@ -22,14 +22,15 @@
 
 #include "octree/octree.h"
 
-/* Whether the thread's mode is the default: it rounds to nearest, keeps subnormal numbers, and traps no floating-point
- * exception. */
+/* Returns whether the thread's floating-point mode is the default: it rounds to nearest, keeps subnormal numbers, and
+ * traps no floating-point exception. */
 #if defined(__SSE2__)
 #include <xmmintrin.h>
 
 static inline bool float_mode_is_default(void)
 {
-    /* The tested bits are flush to zero, rounding, the exception masks, and denormals are zero. */
+    /* The tested bits of the register MXCSR are: flush to zero, rounding, the exception masks, and denormals are
+     * zero. */
     return (_mm_getcsr() & 0xffc0u) == 0x1f80u;
 }
 #elif defined(__aarch64__) && defined(__GNUC__)
@@ -40,7 +41,7 @@ static inline bool float_mode_is_default(void)
     return control == 0;
 }
 #else
-bool float_mode_is_default(void); /* Finds out the mode by trying some operations. */
+bool float_mode_is_default(void); /* Detects the floating-point mode by trying some operations. */
 #endif
 
 /* float_mode_enter() saves the thread's mode as the caller's mode and sets the default mode. float_mode_leave()
@@ -48,14 +49,15 @@ bool float_mode_is_default(void); /* Finds out the mode by trying some operation
 void float_mode_enter(void);
 void float_mode_leave(void);
 
-/* Call these functions before and after a function of the caller. float_mode_pause() restores the caller's mode if the
- * library has changed it. float_mode_resume() sets the default mode again. The caller's function may call the library.
- * If it does not return (longjmp, a C++ exception), the thread keeps the caller's mode. */
+/* The library calls these functions before and after it calls a function of the caller. float_mode_pause() restores the
+ * caller's mode if the library has changed it. float_mode_resume() sets the default mode again. The caller's function
+ * may call the library. If the caller's function does not return (longjmp, a C++ exception), the thread keeps the
+ * caller's mode. */
 bool float_mode_pause(void);
 void float_mode_resume(bool paused);
 
-/* Declare a pointer `again` to the function. It is volatile, so the compiler cannot know which function it calls.
- * Without __typeof__ the call is a plain recursion. */
+/* Declare a volatile pointer `again` to the function, so that the compiler cannot know which function a call through
+ * the pointer calls. Without __typeof__ the call is an ordinary recursion. */
 #if defined(__GNUC__)
 #define POINTER_TO_ITSELF(function) __typeof__(&(function)) volatile again = (function)
 #define CALL_ITSELF(function) again
@@ -66,8 +68,8 @@ void float_mode_resume(bool paused);
 #define RARELY(condition) (condition)
 #endif
 
-/* The first statement of a public function that computes with doubles: unless the mode is the default, call the
- * function again in the default mode with these arguments, and return its result. */
+/* The first statement of a public function that computes with doubles. If the floating-point mode is not the default,
+ * the statement calls the function again in the default mode with these arguments, and returns its result. */
 #define RETURN_IN_DEFAULT_MODE(type, function, ...)                                                                    \
     do {                                                                                                               \
         if (RARELY(!float_mode_is_default())) {                                                                        \
@@ -92,7 +94,8 @@ typedef struct caller_node_visitor {
 } caller_node_visitor;
 
 typedef struct caller_search {
-    octree_search search; /* a copy of the caller's options with another tracer, which calls the caller's tracer */
+    /* a copy of the caller's search options; its tracer calls the caller's tracer in the caller's mode */
+    octree_search search;
     octree_tracer trace;
     void *context;
 } caller_search;
@@ -101,8 +104,8 @@ bool visit_in_caller_mode(const octree_point *point, void *context);
 octree_walk_order visit_node_in_caller_mode(const octree_node *node, void *context);
 const octree_search *trace_in_caller_mode(const octree_search *how, caller_search *copy);
 
-/* The two arguments that replace a visitor and its context in the inner call. They are a function that calls the
- * visitor in the caller's mode, and its context. A null visitor stays null. */
+/* Two arguments for the inner call, which replace the caller's visitor and its context: a function that calls the
+ * caller's visitor in the caller's mode, and the context of this function. A null visitor stays null. */
 #define CALLER_VISITOR(visit, context)                                                                                 \
     (visit) ? visit_in_caller_mode : NULL, &(caller_visitor)                                                           \
     {                                                                                                                  \
@@ -114,8 +117,8 @@ const octree_search *trace_in_caller_mode(const octree_search *how, caller_searc
         visit, context                                                                                                 \
     }
 
-/* The argument that replaces search options in the inner call: a copy with a tracer that calls the caller's tracer in
- * the caller's mode. */
+/* An argument for the inner call, which replaces the caller's search options: a copy whose tracer calls the caller's
+ * tracer in the caller's mode. */
 #define CALLER_SEARCH(how) trace_in_caller_mode(how, &(caller_search){.context = NULL})
 
 #endif

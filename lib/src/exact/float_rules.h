@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* float_rules.h - the floating-point rules that the library's answers depend on, checked at compile time. Every source
- * file that computes with positions includes it.
+/* float_rules.h - checks at compile time the floating-point rules on which the library's answers depend. Every source
+ * file that computes with positions includes this file.
  *
- * The library is compiled without fast-math, and doubles are evaluated in double precision. The mode in which it runs
- * is set by float_mode.h. On x86-64 SSE2 processes two doubles at once; OCTREE_PORTABLE selects the portable code
- * instead, and the tests build both. Subnormal numbers are converted to integers, because processors multiply them
- * slowly.
+ * The library must be compiled without fast-math, and doubles must be evaluated in double precision. float_mode.h sets
+ * the floating-point mode in which the library runs. On x86-64 SSE2 processes two doubles at once; OCTREE_PORTABLE
+ * selects the portable code instead, and the tests build both. Subnormal numbers are converted to integers, because
+ * processors multiply them slowly.
  */
 #ifndef OCTREE_FLOAT_RULES_H
 #define OCTREE_FLOAT_RULES_H
@@ -19,9 +19,9 @@
 #if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
 #error "Octreel's answers are exact: it must not be compiled with -ffast-math or -ffinite-math-only"
 #endif
-/* FLT_EVAL_METHOD 0 evaluates each type in its own precision. 1 evaluates float as double (s390x under -std=c17); this
- * does no harm, because the library computes in double. 16 to 64 widen only types of fewer bits than this number. 2
- * means long double and is not supported. */
+/* Accepted values of FLT_EVAL_METHOD. 0: each type is evaluated in its own precision. 1: floats are evaluated as
+ * doubles (s390x under -std=c17), which does no harm, because the library computes in double. 16 to 64: only types of
+ * fewer bits than this number are widened. The value 2, long double, is not supported. */
 #if FLT_EVAL_METHOD < 0 || FLT_EVAL_METHOD == 2 || FLT_EVAL_METHOD > 64
 #if defined(__i386__)
 #error "Octreel needs doubles that are evaluated as doubles, which the x87 does not: compile with -msse2 -mfpmath=sse"
@@ -35,10 +35,10 @@
 #include <emmintrin.h>
 #endif
 
-/* Subnormal numbers are converted to normal ones. Many processors multiply subnormal numbers in microcode, at some 150
- * cycles each (measured: a nearest-neighbour search in a world at 1e-310 took 21 times as long as elsewhere). A
- * subnormal number is an integer multiple of 2^-1074, and this integer is a normal double. The difference of two
- * numbers below SUBNORMAL_HALF is subnormal or 0. */
+/* Subnormal numbers are converted to normal numbers, because many processors multiply subnormal numbers in microcode,
+ * at some 150 cycles each. (In a measurement, a nearest-neighbour search in a world at 1e-310 took 21 times as long as
+ * in other worlds.) A subnormal number is an integer multiple of 2^-1074, and this integer is a normal double. The
+ * difference of two numbers below SUBNORMAL_HALF is subnormal or 0. */
 #define SUBNORMAL_HALF 0x1p-1023
 
 static inline bool is_subnormal(double x)
@@ -46,7 +46,8 @@ static inline bool is_subnormal(double x)
     return fabs(x) < 0x1p-1022;
 }
 
-/* Return x * 2^1074, exactly, for a subnormal x. The result is an integer: the bits of x without the sign bit. */
+/* Returns x * 2^1074, exactly, for a subnormal x. The result is an integer, whose value is the bits of x without the
+ * sign bit. */
 static inline double subnormal_count(double x)
 {
     uint64_t bits;
@@ -55,10 +56,11 @@ static inline double subnormal_count(double x)
     return bits >> 63 ? -count : count;
 }
 
-/* Return count * 2^-1074, rounded to nearest even as a product would be; |count| < 2^51. */
+/* Returns count * 2^-1074, rounded to nearest even, as the product of the two numbers would be rounded. |count| must be
+ * below 2^51. */
 static inline double subnormal_of(double count)
 {
-    const double sum = fabs(count) + 0x1p52; /* this addition rounds to an integer */
+    const double sum = fabs(count) + 0x1p52; /* adding 2^52 rounds to an integer */
     uint64_t bits;
     double x;
     memcpy(&bits, &sum, sizeof bits);

@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /* metric.c - squared distances in scaled doubles, and their exact comparison.
  *
- * Problem: a search compares thousands of distances. Squares of coordinates near 1e200 overflow, those near 1e-200
- * underflow, and rounding makes the farther of two close points look nearer.
+ * Problem: a search compares thousands of distances. Squares of coordinates near 1e200 overflow, and squares of
+ * coordinates near 1e-200 underflow. Rounding can make the farther of two points at nearly the same distance look
+ * nearer.
  *
- * Idea: multiply coordinates by a power of two that brings the world's extent near 1, which loses nothing. Compute
+ * Idea: multiply coordinates by a power of two, so that the world's extent is near 1; this loses nothing. Compute
  * squares in doubles with a proven error bound (metric.h). Only when two squares are closer than the bound, compare the
- * real distances with exact sums (exact.h). So nearly every comparison is one of doubles, and none is wrong.
+ * real distances with exact sums (exact.h). So nearly every comparison only compares doubles, and no comparison is
+ * wrong.
  *
  * Why not exact arithmetic throughout: it is far too slow. Why not an epsilon: it has no right value,
  * and ties would depend on the order of insertion. Cost: metric_scan_points() compares two points at a time with SSE2;
@@ -64,8 +66,8 @@ static inline void scan_pair(pair_scan *s, const octree_point *points, unsigned 
     _mm_storeu_pd(&squares[i], pair);
 }
 
-/* Scan points in pairs. If the count is odd, the last pair overlaps the pair before it, so no branch depends on the
- * parity. */
+/* Scan points in pairs. If the count is odd, the last pair overlaps the previous pair, so that no branch depends on
+ * whether the count is odd. */
 static metric_scan scan_pairs(const metric *m, const octree_point *points, unsigned count, double reach,
                               double squares[])
 {
@@ -97,8 +99,8 @@ metric_scan metric_scan_points(const metric *m, const octree_point *points, unsi
 
 int metric_compare(const double target[3], const double a[3], const double b[3])
 {
-    /* |a - t|^2 - |b - t|^2 is the sum of a^2 - 2at - b^2 + 2bt over the axes. These are twelve exact products, fewer
-     * if coordinates are equal. */
+    /* |a - t|^2 - |b - t|^2 is the sum of a^2 - 2at - b^2 + 2bt over the axes: twelve exact products, or fewer if
+     * coordinates are equal. */
     /* Many points may share one position, so equal positions are compared often. */
     if (same_position(a, b))
         return 0;

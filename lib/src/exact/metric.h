@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* metric.h - squared distances in doubles, with a proven error, that neither overflow nor underflow in any world.
+/* metric.h - computes squared distances in doubles, with a proven error bound. They neither overflow nor underflow in
+ * any world.
  *
- * Coordinates are multiplied by a power of two that brings the world's extent near 1. For points of the world the
- * product is exact, or has an error below 2^-1074 if it is subnormal. The computed square s of a real scaled square S
- * satisfies |s - S| <= 6u s + 2^-1000 with u = 2^-53: one rounding in each difference, one in each product, two in the
- * sum. A target far outside the world may give infinity or NaN; comparisons with those decide nothing.
+ * Coordinates are multiplied by a power of two, so that the world's extent is near 1. For points of the world this
+ * product is exact, or has an error below 2^-1074 if the product is subnormal. The computed square s of a real scaled
+ * square S satisfies |s - S| <= 6u s + 2^-1000 with u = 2^-53: one rounding in each difference, one in each product,
+ * two in the sum. A target far outside the world may give infinity or NaN; comparisons with infinity or NaN decide
+ * nothing.
  */
 #ifndef OCTREE_METRIC_H
 #define OCTREE_METRIC_H
@@ -16,23 +18,23 @@ typedef struct metric {
     double target[3]; /* the target in world units, not scaled */
     double scaled[3]; /* the target multiplied by `scale` */
     double scale;
-    double grain; /* scale * 2^-1074 in a world of subnormal coordinates, else 0 */
+    double grain; /* in a world of subnormal coordinates: scale * 2^-1074; else 0 */
 } metric;
 
-/* The power of two by which the coordinates of a world are multiplied. It is between 2^-1020 and 2^1000, so that it is
- * a normal double. */
+/* Returns the power of two by which the coordinates of a world are multiplied. The power is between 2^-1020 and 2^1000,
+ * so that it is a normal double. */
 double metric_scale(const octree_box *world);
 
 metric metric_make(double scale, bool subnormal, const double target[3]);
 
-/* A coordinate of the world multiplied by the scale. */
+/* Returns a coordinate of the world multiplied by the scale. */
 static inline double metric_scaled(const metric *m, double x)
 {
     return m->grain > 0 ? subnormal_count(x) * m->grain : x * m->scale;
 }
 
-/* The scaled squared distance of a point from the target. It is (dx^2 + dy^2) + dz^2, added in this order on every
- * machine. */
+/* Returns the scaled squared distance of a point from the target, (dx^2 + dy^2) + dz^2. The terms are added in this
+ * order on every machine. */
 static inline double metric_square(const metric *m, const double p[3])
 {
     const double x = metric_scaled(m, p[0]) - m->scaled[0];
@@ -41,8 +43,8 @@ static inline double metric_square(const metric *m, const double p[3])
     return (x * x + y * y) + z * z;
 }
 
-/* The result of computing the squares of up to 64 points: the least square, and a mask of the points whose square is
- * not above a limit. Each square equals that of metric_square() in every bit. */
+/* The result of computing the squared distances of up to 64 points. It has the least square, and a bit mask of the
+ * points whose square is not above a limit. Each square equals the result of metric_square() in every bit. */
 typedef struct metric_scan {
     uint64_t within;
     double least;
@@ -51,7 +53,8 @@ typedef struct metric_scan {
 metric_scan metric_scan_points(const metric *m, const octree_point *points, unsigned count, double reach,
                                double squares[]);
 
-/* A mask of the squares that are not above `reach`. Computed without branches, because they would be unpredictable. */
+/* Returns a bit mask of the squares that are not above `reach`. The function has no branches, because the branches
+ * would be unpredictable. */
 static inline uint64_t metric_mask_within(const double squares[], unsigned count, double reach)
 {
     uint64_t within = 0;
@@ -66,7 +69,8 @@ static inline uint64_t metric_mask_within(const double squares[], unsigned count
     return within;
 }
 
-/* The scaled distance from the target to an interval on axis i; 0 if the target is inside the interval. */
+/* Returns the scaled distance from the target to an interval on axis i. Returns 0 if the target is inside the
+ * interval. */
 static inline double metric_gap(const metric *m, int i, double min, double max)
 {
     const double below = metric_scaled(m, min) - m->scaled[i];
@@ -74,11 +78,12 @@ static inline double metric_gap(const metric *m, int i, double min, double max)
     return below > 0 ? below : above > 0 ? above : 0;
 }
 
-/* A square below this limit has not overflowed. For a larger square the real number may be any larger number. */
+/* A computed square below this limit has not overflowed. If a computed square is larger, the real square may be any
+ * larger number. */
 #define METRIC_FINITE 0x1p1020
 
-/* Bounds for certain comparisons. As real numbers, a square above metric_above(b) is certainly greater than b, and a
- * square below metric_below(b) certainly less.
+/* Bounds for comparisons of two computed squares a and b that are certain in spite of rounding. If a > metric_above(b),
+ * the real square of a is certainly greater than the real square of b. If a < metric_below(b), it is certainly less.
  *
  * The band is 64u wide: 12u for the errors of both squares, 3u for the roundings of the bound itself, and the rest
  * covers the 16u by which nearest.c may visit siblings out of order. No square is above an infinite b, and NaN is above
@@ -93,14 +98,16 @@ static inline double metric_below(double b)
     return (b < METRIC_FINITE ? b : METRIC_FINITE) * (1 - 0x1p-47) - 0x1p-998;
 }
 
-/* The sign of |a - target|^2 - |b - target|^2 in real numbers: -1, 0 or 1. Exact for all finite doubles. */
+/* Returns the sign of |a - target|^2 - |b - target|^2, computed in real numbers: -1, 0 or 1. Exact for all finite
+ * doubles. */
 int metric_compare(const double target[3], const double a[3], const double b[3]);
 
-/* The sign of |p - target| - radius in real numbers. Exact for all finite doubles, radius >= 0. */
+/* Returns the sign of |p - target| - radius, computed in real numbers: -1, 0 or 1. Exact for all finite doubles. The
+ * radius must not be negative. */
 int metric_compare_radius(const double target[3], const double p[3], double radius);
 
-/* The Euclidean distance, within 4 ulp. Differences are scaled by the largest one, so the result is infinite only if
- * the distance is beyond DBL_MAX. */
+/* Returns the Euclidean distance, within 4 ulp. Differences are divided by the largest difference, so that the result
+ * is infinite only if the distance is beyond DBL_MAX. */
 double metric_distance(const double a[3], const double b[3]);
 
 #endif

@@ -6,8 +6,8 @@
 #include "float_rules.h"
 #include "octree/types.h"
 
-/* Whether two positions are equal. One branch decides for all coordinates: on a lattice, where points share some
- * coordinates, three branches would be unpredictable. */
+/* Returns whether two positions are equal. A single branch decides for all coordinates: if points share some
+ * coordinates, as on a lattice, three branches would be unpredictable. */
 static inline bool same_position(const double a[3], const double b[3])
 {
 #ifdef OCTREE_SSE2
@@ -24,7 +24,7 @@ static inline bool is_finite_position(const double p[3])
     return isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]);
 }
 
-/* Whether a box can be the world of a tree. */
+/* Returns whether a box can be the world of a tree. */
 static inline bool is_world(const octree_box *box)
 {
     bool good = true;
@@ -44,14 +44,14 @@ static inline bool box_contains(const octree_box *box, const double p[3])
     return _mm_movemask_pd(_mm_and_pd(above_min, below_max)) == 3;
 #else
     bool inside = true;
-    for (int i = 0; i < 3; i++) /* one result without branches, because branches would be unpredictable */
+    for (int i = 0; i < 3; i++) /* computes a single result without branches, because branches would be unpredictable */
         inside &= (box->min[i] <= p[i]) & (p[i] <= box->max[i]);
     return inside;
 #endif
 }
 
-/* Round to the nearest float. Finite values beyond FLT_MAX become FLT_MAX with their sign; infinities stay. volatile
- * works around a bug of GCC 12, which at -O3 drops one of three adjacent roundings. */
+/* Round to the nearest float. Finite values beyond FLT_MAX become FLT_MAX with their sign; infinities stay infinite.
+ * `volatile` works around a bug of GCC 12, which at -O3 drops one of three adjacent roundings. */
 static inline double round_to_float(double x)
 {
     const volatile float rounded = (float)(x > FLT_MAX ? FLT_MAX : x < -FLT_MAX ? -FLT_MAX : x);

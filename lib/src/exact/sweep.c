@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-/* sweep.c - whether a moving box touches a moving point.
+/* sweep.c - decides whether a moving box touches a moving point.
  *
  * Problem: a box and a point move in straight lines during the time 0..1. Testing the two end positions misses fast
- * points; testing several moments in between only makes that rarer. A rounded time of contact gives wrong answers at
- * grazing contacts.
+ * points; testing several moments in between only makes such errors rarer. A rounded time of contact gives wrong
+ * answers at grazing contacts.
  *
  * Idea (slab test): subtract the box's motion, so that only the point moves, from u = p - a to w = q - b, where p, q
  * are the point's ends and a, b the box's. On an axis with d = u - w > 0 the point is within the half size r of the box
- * from the time enter = (u - r) / d to leave = (u + r) / d; for d < 0 everything is mirrored. They touch if and only if
- * the three intervals and 0..1 share a moment: every enter <= 1, every enter <= every leave, every leave >= 0.
+ * from the time enter = (u - r) / d to leave = (u + r) / d; for d < 0 everything is mirrored. Box and point touch if
+ * and only if the three intervals and the interval 0..1 share a moment: every enter <= 1, every enter <= every leave,
+ * every leave >= 0.
  *
  * Times are first compared in doubles with an error bound. If the bound does not decide, fractions are compared by
  * their cross products in exact sums (exact.h). Cost: a few divisions; exact sums only for grazing contacts.
@@ -16,7 +17,7 @@
 #include "sweep.h"
 #include "exact.h"
 
-/* The ends of both motions on one axis: the box moves from a to b, the point from p to q. */
+/* The two ends of both motions on one axis: the box moves from a to b, the point moves from p to q. */
 typedef struct ends {
     double a, b, p, q;
 } ends;
@@ -28,21 +29,22 @@ static ends ends_on_axis(const sweep *box, const double from[3], const double to
 
 /* ---- In doubles --------------------------------------------------------------------------------------------- */
 
-/* The interval of time during which the point is within the box on all axes examined so far, in doubles. */
+/* The time interval, in doubles, during which the point is within the box on all axes that were examined so far. */
 typedef struct moments {
-    double enter, leave; /* the latest `enter` and the earliest `leave` of these axes */
+    double enter, leave; /* enter: the latest time of entering on these axes; leave: the earliest time of leaving */
     double error;        /* an error bound for `enter` and `leave` */
 } moments;
 
 /* Test an axis on which the point does not move relative to the box. Returns 1 if the point is within `size` of the
- * box's position, 0 if not, -1 if doubles do not decide. The error bound covers three roundings. */
+ * box's centre, 0 if it is not, and -1 if doubles do not decide. The error bound covers three roundings. */
 static int test_axis_at_rest(const ends *e, double size)
 {
     const double offset = fabs(e->p - e->a), error = (offset + size) * 0x1p-50;
     return offset + error < size ? 1 : offset - error > size ? 0 : -1;
 }
 
-/* Intersect the interval of contact with that of one axis. False if doubles do not decide the direction of the motion.
+/* Intersect the interval of contact with the interval of one more axis. Returns false if doubles do not decide the
+ * direction of the motion.
  *
  * Let v = 2^-53. The error of `length` is at most 4v * travel, less than an eighth of it. The error of the numerators
  * is at most 4v * (|u| + r). So the error of the quotients is at most 16v times the sum below; 32v is used. The last
@@ -65,7 +67,7 @@ static bool intersect_axis(moments *known, const ends *e, double size)
     return true;
 }
 
-/* Returns 1 for contact, 0 for no contact, -1 if doubles do not decide. */
+/* Returns 1 if box and point touch, 0 if they do not, and -1 if doubles do not decide. */
 static int test_in_doubles(const sweep *box, const double from[3], const double to[3])
 {
     moments known = {.enter = 0, .leave = 1};
@@ -85,19 +87,19 @@ static int test_in_doubles(const sweep *box, const double from[3], const double 
 
 /* ---- Exactly ------------------------------------------------------------------------------------------------ */
 
-/* The sign of u - w: 1 if the point moves down relative to the box, -1 if it moves up, 0 if it is at rest. */
+/* Returns the sign of u - w: 1 if the point moves down relative to the box, -1 if it moves up, 0 if it is at rest. */
 static int motion_sign(const ends *e)
 {
     return exact_sign_of_sum((double[]){e->p, -e->a, -e->q, e->b}, 4);
 }
 
-/* Whether side * (point - middle) <= size, compared exactly. `side` is 1 or -1. */
+/* Returns whether side * (point - middle) <= size, compared exactly. `side` is 1 or -1. */
 static bool is_within_size(double point, double middle, int side, double size)
 {
     return exact_sign_of_sum((double[]){size, -side * point, side * middle}, 3) >= 0;
 }
 
-/* Add factor * (way * u + reach) * |u - w| to the sum. u and `way` belong to one axis; |u - w|, the length of the
+/* Add factor * (way * u + reach) * |u - w| to the sum. u and `way` belong to the axis `e`. |u - w|, the length of the
  * relative motion, belongs to the axis `other`. */
 static void add_cross_product(exact_sum *sum, int factor, const ends *e, int way, double reach, const ends *other,
                               int other_way)
@@ -109,8 +111,8 @@ static void add_cross_product(exact_sum *sum, int factor, const ends *e, int way
             exact_add_product(sum, factor * other_way, terms[i], length[j]);
 }
 
-/* Whether the point enters on axis `i` before it leaves on axis `j`. The condition leave_j - enter_i >= 0 is multiplied
- * by the lengths of both motions, so that it needs no division. */
+/* Returns whether the point enters on axis `i` not later than it leaves on axis `j`. The condition leave_j - enter_i >=
+ * 0 is multiplied by the lengths of both motions, so that no division is needed. */
 static bool enters_before(const ends *i, int way_i, const ends *j, int way_j, double size)
 {
     exact_sum sum;
@@ -127,7 +129,7 @@ static bool touches_exactly(const sweep *box, const double from[3], const double
     for (int i = 0; i < 3; i++) {
         e[i] = ends_on_axis(box, from, to, i);
         way[i] = motion_sign(&e[i]);
-        /* on an axis at rest, the two tests below check the two sides of one position */
+        /* on an axis at rest, the two tests check both sides of the same relative position */
         const int side = way[i] ? way[i] : 1;
         if (!is_within_size(e[i].q, e[i].b, side, box->size) || !is_within_size(e[i].p, e[i].a, -side, box->size))
             return false;

@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: MIT */
-/* sweep.h - whether a moving box touches a moving point. */
+/* sweep.h - decides whether a moving box touches a moving point. */
 #ifndef OCTREE_SWEEP_H
 #define OCTREE_SWEEP_H
 
 #include <stdbool.h>
 
-/* A box that moves in a straight line during the time 0..1. Its centre moves from `from` to `to`; it extends by `size`
- * from the centre on each axis. All values are finite, size >= 0. */
+/* A box that moves in a straight line during the time 0..1. Its centre moves from `from` to `to`. On each axis the box
+ * extends by `size` from its centre to both sides. All values are finite, and size >= 0. */
 typedef struct sweep {
     const double *from, *to;
     double size;
 } sweep;
 
-/* Whether the box touches, at some moment of 0..1, a point that moves in a straight line from `from` to `to` (equal for
- * a point at rest). Exact for all finite values. */
+/* Returns whether the box touches, at some moment of 0..1, a point that moves in a straight line from `from` to `to`.
+ * The two positions are equal for a point at rest. The result is exact for all finite values. */
 bool sweep_touches(const sweep *box, const double from[3], const double to[3]);
 
 #endif
