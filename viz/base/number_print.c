@@ -49,7 +49,7 @@ typedef struct expansion {
     /* the number of significant digits found so far; if negative, the number of zeros after the decimal point still to
      * skip */
     int count;
-    int places;         /* the number of digits after the point */
+    int places;         /* the number of digits after the decimal point */
     uint64_t rest;      /* the remaining fraction of one unit of the last digit, in units of 1 / FRACTION_ONE */
     uint64_t half_last; /* half of the double's last bit, in the same unit as `rest` */
     bool even;          /* true: the double's last bit is 0, so that a tie reads back as this double */

@@ -24,7 +24,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Sizes, as parts of the picture's height. */
+/* Sizes of things in the picture, as parts of the picture's height. */
 #define SMALL (32.0 / 720)  /* a subject that appears at least this large in the view needs no close-up */
 #define WANTED (68.0 / 720) /* the close-up enlarges the subject to about this size */
 /* In a tree without a game nothing moves from tick to tick, so the subject may fill this part of the close-up. */
@@ -232,7 +232,7 @@ static void add_candidates(group_search *g)
     }
 }
 
-/* Find the group. Small subjects are tried first, then all subjects. */
+/* Find the group of subjects that the close-up shows. Small subjects are tried first, then all subjects. */
 static group_search find_group(const closeup_course *course, const layer_source *in)
 {
     group_search g = {in, make_view_scale(in), SMALL, course->reach, nothing};

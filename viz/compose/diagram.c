@@ -32,7 +32,7 @@
 #define RING 2      /* width of the ring around a node on the path: how many units wider the ring is than the node */
 #define EDGE 8      /* margin of a diagram without text */
 #define NARROWEST 2 /* minimum width of one share of a node's slot */
-#define BAR 2       /* width of a bar */
+#define BAR 2       /* width of a bar that represents folded nodes */
 
 /* The margins for text: left and right in characters, above and below in lines. WORDS_WIDTH and WORDS_HEIGHT are the
  * minimum width in characters and height in lines of a diagram with text. */

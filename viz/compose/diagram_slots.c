@@ -25,7 +25,7 @@
  * this level: one for each leaf and, if `empty` is 1, one for each empty octant. */
 static unsigned deepest_possible(const octree_stats *stats, unsigned empty, size_t room)
 {
-    size_t leaves = 0, inner = 0; /* number of leaves and of inner nodes, at the root level down to `depth` */
+    size_t leaves = 0, inner = 0; /* number of leaves and of inner nodes at the levels from the root down to `depth` */
     unsigned depth = 0;
     for (; depth < stats->depth; depth++) {
         leaves += stats->leaves_at_depth[depth];

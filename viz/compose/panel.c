@@ -327,7 +327,7 @@ static void write_small_counts(pen *p, const scene_tally *tally)
     }
 }
 
-/* If the view leaves out nodes or points, write how many are shown. */
+/* If the view leaves out nodes or points, write the numbers of shown nodes and points. */
 static void write_shown_counts(pen *p, const scene_tally *tally)
 {
     const view *v = &p->scene->view;

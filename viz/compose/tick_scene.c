@@ -66,7 +66,7 @@ static void add_layers(scene *s, const layer_source *in)
     add_layer(s, in, LAYER_TEXT);
 }
 
-/* Add the same layers to the scene of the close-up. */
+/* Build the close-up: a scene of its own, with the layers of the main scene except the world and the text. */
 static void add_closeup(scene *s, const layer_source *in, const double place[3], double times)
 {
     layer_source close;
@@ -78,7 +78,8 @@ static void add_closeup(scene *s, const layer_source *in, const double place[3],
     s->out_of_memory |= s->closeup->out_of_memory;
 }
 
-/* Build the scene. Under DIAGRAM_ONLY only the diagram and the panel are added. */
+/* Build the scene of a tick, or of a tree without a game. With DIAGRAM_ONLY only the diagram and the text column are
+ * added. */
 static bool build_scene(scene *s, layer_source *in, const double player[3], closeup_course course)
 {
     const view *v = in->view;

@@ -15,7 +15,7 @@ typedef struct box_edge {
 
 /* The edges of all boxes of a scene, sorted by the line on which they lie. */
 typedef struct edge_boxes {
-    const scene *scene; /* from project_scene_to_samples(); must outlive this struct */
+    const scene *scene; /* the scene, from project_scene_to_samples(); must outlive this struct */
     box_edge *items;
     size_t count;
 } edge_boxes;

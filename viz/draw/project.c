@@ -198,9 +198,11 @@ bool find_pixel_and_depth(const scene *s, const double position[3], double pixel
 
 typedef struct point_run {
     double from_eye[3][RUN];
-    double across[RUN], along[RUN], depth[RUN]; /* the three camera coordinates of camera_transform() */
-    double x[RUN], y[RUN], band[RUN];           /* the pixel (x, y), and the result of find_band_position() */
-    double seen[RUN];                           /* not 0: the point is visible in the picture */
+    /* for each point: its camera coordinates, as camera_transform() computes them */
+    double across[RUN], along[RUN], depth[RUN];
+    /* for each point: its pixel (x, y), and its position among the bands from find_band_position() */
+    double x[RUN], y[RUN], band[RUN];
+    double seen[RUN]; /* not 0: the point is visible in the picture */
 } point_run;
 
 static void measure_along_axis(const point_run *run, const double axis[3], double seen[RUN])

@@ -104,7 +104,7 @@ octreel_status points_read(points *p, points *spare, const octree *tree, const o
     if (!reserve(p, count) || !reserve(spare, count))
         return OCTREEL_NO_MEMORY;
     if (tree)
-        octree_walk(tree, add_leaf, p); /* cannot fail, because its arguments are valid */
+        octree_walk(tree, add_leaf, p); /* octree_walk() cannot fail here, because its arguments are valid */
     else
         memcpy(p->items, list, count * sizeof *list);
     p->count = count;

@@ -14,9 +14,9 @@ typedef struct queue {
     batch_list list;
     size_t most, most_bytes;
     bool borrowed; /* true: the ring owns the batches and releases them */
-    bool ended;    /* no more batches will be added */
-    bool broken;   /* recording failed: no more batches are accepted */
-    bool begun;    /* recording has begun: the recording's folder exists */
+    bool ended;    /* true: no more batches will be added */
+    bool broken;   /* true: recording has failed, and no more batches are accepted */
+    bool begun;    /* true: recording has begun, so the recording's folder exists */
 } queue;
 
 bool queue_init(queue *q, size_t most, size_t most_bytes);

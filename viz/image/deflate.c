@@ -33,7 +33,7 @@ enum {
     RUN_BITS = 6,
     ABOVE_BITS = 14,
     FAR_BITS = 16,
-    LONG_REPEAT = 64, /* if a repeat has at least this many bytes, no better repeat is searched */
+    LONG_REPEAT = 64, /* if a repeat has at least this many bytes, no better repeat is searched for */
 
     HASH_BITS = 12,
     HASHED = 6, /* the number of bytes that the hash table's key covers: two RGB pixels */
@@ -57,7 +57,8 @@ struct deflater {
     int64_t row_by_column; /* sum of (byte - byte above) * column over the same bytes as row_change */
     int64_t sums[2];       /* the two sums of Adler-32, without the initial 1 of the first sum */
     deflate_blocks blocks;
-    uint32_t heads[1 << HASH_BITS]; /* only for RGB: the last position of bytes with each hash; 0: no position */
+    /* only for RGB; index: a hash; value: the last position of bytes with this hash, or 0 */
+    uint32_t heads[1 << HASH_BITS];
     /* the window; at first it begins with a row of zeros, which stands for the row above the first row */
     uint8_t *window;
 };

@@ -142,7 +142,8 @@ bool image_write_png(const image *image, const char *path, const image_text *tex
                              .height = image->height,
                              .palette = image->channels == 1 ? &image->palette : NULL,
                              .row = get_image_row,
-                             .context = (void *)image}; /* get_image_row() only reads the image */
+                             /* the cast removes const, but get_image_row() only reads the image */
+                             .context = (void *)image};
     return write_file(&(output){.rows = &rows, .texts = texts, .text_count = text_count, .error = error}, path);
 }
 

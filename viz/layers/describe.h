@@ -41,18 +41,19 @@ typedef struct described_element {
     scene_kind kind;
     scene_style style;
     uint64_t id;
-    octree_box box; /* only for a SCENE_BOX */
-    double at[3];   /* the position; only for a SCENE_MARKER, like `shape` */
+    octree_box box; /* the element's box; valid only if `kind` is SCENE_BOX */
+    double at[3];   /* the element's position; like `shape`, valid only if `kind` is SCENE_MARKER */
     scene_shape shape;
 } described_element;
 
 /* Append formatted text. Text beyond ELEMENT_TEXT is cut off. */
 void append_text(description *d, const char *format, ...);
 
-/* Append the text `before`, and then a value. */
+/* Append the text `before`, and then the number `value`. */
 void append_number(description *d, const char *before, double value);
-void append_position(description *d, const char *before, const double position[3]); /* appends such as "(1, 2, 3)" */
-/* Appends such as "(0, 0, 0) to (5, 5, 5)". */
+/* appends `before` and a position, such as "(1, 2, 3)" */
+void append_position(description *d, const char *before, const double position[3]);
+/* Append the text `before`, and then a box, such as "(0, 0, 0) to (5, 5, 5)". */
 void append_box(description *d, const char *before, const octree_box *box);
 
 /* Append the text `before`, and then a phrase about a node or a point. Also store the node or point in the

@@ -21,12 +21,12 @@ typedef struct layer_source {
     const char *broken;         /* the tree's broken invariant as a sentence; null: no invariant is broken */
     octree_address broken_at;
 
-    const octree_game *game; /* null: the scene shows a tree without a game */
+    const octree_game *game; /* the game; null: the scene shows a tree without a game */
     const octree_session *session;
     const octree_tick *tick;
-    const heat *heat; /* null: the heat layers have no elements */
+    const heat *heat; /* visits and points of the nodes so far; null: the heat layers have no elements */
 
-    const char *title; /* the title; only for a tree without a game */
+    const char *title; /* the title of the text column; only for a tree without a game */
     /* the node that the user asked to mark (octreel inspect --node), or 0; only for a tree without a game */
     octree_address requested;
 } layer_source;

@@ -19,7 +19,7 @@
 
 /* A number below the bar, with its tick mark. */
 typedef struct scale_number {
-    double part; /* its position on the bar, from 0 (left end) to 1 */
+    double part; /* the number's position on the bar, from 0 (left end) to 1 */
     char text[NUMBER_TEXT];
 } scale_number;
 

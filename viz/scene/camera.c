@@ -79,7 +79,7 @@ static double find_half_span(const double axis[3], const double half[3])
 }
 
 static const struct {
-    double azimuth, elevation; /* angles in turns */
+    double azimuth, elevation; /* the camera's direction of view: angles in turns */
     bool perspective;
 } cameras[CAMERA_COUNT] = {
     /* This is not the true isometric view, in which a cube's nearest corner hides its farthest corner. */

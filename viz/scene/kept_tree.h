@@ -31,7 +31,7 @@
 /* The options that determine how a subtree is drawn. A change of any option empties the cache. */
 typedef struct kept_look {
     view_coloring coloring;
-    bool boxes, points; /* true: the view shows boxes of nodes; true: the view shows points */
+    bool boxes, points; /* boxes: true if the view shows boxes of nodes; points: true if the view shows points */
     size_t capacity;
     uint8_t point_width;
 } kept_look;

@@ -6,7 +6,8 @@
 #include <math.h>
 #include <string.h>
 
-#define CLOSEUP_PART 0.32 /* the size of the close-up's strip, as a part of the longer side of the space view */
+/* The close-up lies in a strip at one end of the space view. The strip takes this part of the view's longer side. */
+#define CLOSEUP_PART 0.32
 /* the ratio of the close-up's longer side to its shorter side; the longer side runs along the strip */
 #define CLOSEUP_RATIO 1.3333
 #define CLOSEUP_MARGIN 8 /* the margin around the close-up, in picture units */
@@ -88,7 +89,7 @@ camera_window layout_closeup_area(const view *v)
     const camera_window space = find_world_area(v);
     const int margin = CLOSEUP_MARGIN * view_pixels_per_unit(v), least = CLOSEUP_LEAST * view_pixels_per_unit(v);
     const bool beside = space.width >= space.height;
-    /* the size of the close-up across its strip, in pixels */
+    /* the close-up's side across the strip in which it lies, in pixels */
     const double across = find_closeup_strip_size(&space) - 2 * margin;
     const double along = fmin((beside ? space.height : space.width) - 2 * margin, floor(across * CLOSEUP_RATIO));
     camera_window w = {.width = beside ? across : along, .height = beside ? along : across};

@@ -26,9 +26,9 @@ typedef enum scene_stroke {
 /* How an element appears. Widths are in half picture units; view_pixels_per_unit() is the size of a unit. At 1280 x
  * 720, a half unit is one pixel. */
 typedef struct scene_style {
-    uint8_t layer;  /* a view_layer, as in layer.h */
-    uint8_t role;   /* a theme_role: the colour */
-    uint8_t stroke; /* a scene_stroke */
+    uint8_t layer;  /* the element's layer: a view_layer (layer.h) */
+    uint8_t role;   /* the element's colour: a theme_role */
+    uint8_t stroke; /* how lines are drawn: a scene_stroke */
     /* the width of a line; half the side of a marker; the size of a text, where 1 means 12 units per line of text */
     uint8_t width;
 } scene_style;
@@ -40,7 +40,7 @@ typedef struct scene_head {
 } scene_head;
 
 typedef struct scene_box {
-    uint64_t id; /* if the layer is LAYER_NODES, the node's address */
+    uint64_t id; /* the element's id; in LAYER_NODES, the node's address */
     scene_style style;
     uint8_t depth; /* the node's depth; an edge shared by two boxes has the colour of the shallower box */
     octree_box box;
@@ -66,10 +66,10 @@ typedef enum scene_shape {
 } scene_shape;
 
 typedef struct scene_marker {
-    uint64_t id; /* if the layer is LAYER_POINTS, the point's id */
+    uint64_t id; /* the element's id; in LAYER_POINTS, the point's id */
     scene_style style;
-    uint8_t shape;     /* a scene_shape */
-    theme_color color; /* used only if style.role is ROLE_OWN */
+    uint8_t shape;     /* the marker's shape: a scene_shape */
+    theme_color color; /* the marker's colour; used only if style.role is ROLE_OWN */
     double at[3];
 } scene_marker;
 
@@ -88,7 +88,7 @@ typedef struct scene_label {
 typedef struct scene_panel {
     uint64_t id;
     scene_style style;
-    theme_color color; /* used only if style.role is ROLE_OWN */
+    theme_color color; /* the rectangle's colour; used only if style.role is ROLE_OWN */
     int x, y, width, height;
 } scene_panel;
 

@@ -25,16 +25,16 @@
     X(ROLE_BACKGROUND, "background", 13, 17, 26)                                                                       \
     X(ROLE_PANEL, "panel", 24, 30, 43)                                                                                 \
     X(ROLE_TEXT, "text", 236, 240, 246)                                                                                \
-    X(ROLE_FAINT, "faint", 139, 150, 170) /* secondary text, axes */                                                   \
+    X(ROLE_FAINT, "faint", 139, 150, 170) /* for secondary text and for axes */                                        \
     X(ROLE_WORLD, "world", 96, 108, 130)                                                                               \
     X(ROLE_POINT, "point", 245, 247, 250)                                                                              \
     X(ROLE_PLAYER, "player", 254, 246, 84)                                                                             \
-    X(ROLE_COLLISION, "collision", 255, 64, 64) /* no other role is red */                                             \
+    X(ROLE_COLLISION, "collision", 255, 64, 64) /* for collisions; no other role is red */                             \
     X(ROLE_RANGE, "range", 240, 165, 30)                                                                               \
     X(ROLE_RADIUS, "radius", 140, 250, 185)                                                                            \
     X(ROLE_KNEAREST, "knearest", 180, 152, 255)                                                                        \
     X(ROLE_NEAREST, "nearest", 255, 172, 222)                                                                          \
-    X(ROLE_WARNING, "warning", 240, 190, 90) /* beside the words refused, full and wrong */                            \
+    X(ROLE_WARNING, "warning", 240, 190, 90) /* for the words refused, full and wrong */                               \
     X(ROLE_NODE, "node", 84, 98, 150)        /* the root; the next rows are the depths 1 to 9 */                       \
     X(ROLE_NODE_1, "node-1", 74, 110, 168)                                                                             \
     X(ROLE_NODE_2, "node-2", 62, 122, 176)                                                                             \
@@ -48,7 +48,7 @@
     X(ROLE_SHAPE, "shape", 142, 196, 252)                                                                              \
     X(ROLE_WRONG, "wrong", 228, 40, 255) /* wrong answers of a foreign index, and the points in these answers */       \
     X(ROLE_MISSED, "missed", 0, 216, 174)                                                                              \
-    X(ROLE_HIT, "hit", 102, 122, 254)       /* leaves in which queries found points */                                 \
+    X(ROLE_HIT, "hit", 102, 122, 254)       /* for leaves in which queries found points */                             \
     X(ROLE_CHANGE, "change", 210, 250, 130) /* splits (solid lines) and merges (dashed lines) */                       \
     X(ROLE_KIND, "kind", 112, 208, 136)     /* the first kind of foreign nodes; the next rows are the other kinds */   \
     X(ROLE_KIND_1, "kind-1", 248, 136, 224)                                                                            \

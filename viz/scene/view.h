@@ -17,7 +17,7 @@
     X(CAMERA_FOLLOW, "follow", "from behind and above the player, in perspective")                                     \
     X(CAMERA_ORBIT, "orbit", "circling the world by a fixed angle each tick, in perspective")
 
-/* What a node's colour shows. Columns as in VIEW_CAMERA_MAP. */
+/* What a node's colour shows. Columns: value, name on the command line, description in --help. */
 #define VIEW_COLORING_MAP(X)                                                                                           \
     X(COLORING_DEPTH, "depth", "its depth in the tree")                                                                \
     X(COLORING_OCCUPANCY, "occupancy",                                                                                 \
@@ -95,10 +95,10 @@ typedef struct view {
         /* The direction from the center to the eye, in degrees: azimuth from -y towards +x, elevation from -90 to
          * 90. */
         double azimuth, elevation;
-    } look; /* if given, replaces the direction of `camera` */
+    } look; /* the direction of the camera; if given, it replaces the direction of the camera kind */
     struct {
         bool given;
-        double place[3]; /* the position in world coordinates */
+        double place[3]; /* the world position that the camera looks at */
     } center;        /* if given, the camera looks at `place`, not at the middle of the framed box or at the player */
     double zoom;     /* the magnification of the picture */
     unsigned layers; /* the layers that are shown, as bits 1 << view_layer (layer.h) */

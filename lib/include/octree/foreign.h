@@ -49,7 +49,7 @@ typedef struct octree_foreign_node {
     /* a closed box with finite corners. It may be flat, overlap other boxes, and reach outside the world */
     octree_box box;
     bool has_depth; /* false: the depth is the parent's depth plus 1, or 0 for a root */
-    int depth;      /* >= 0; read only if has_depth is true */
+    int depth;      /* the node's depth, >= 0; read only if has_depth is true */
     /* true: `points` lists the points that the node itself holds, without the points of its descendants; the list may
      * be empty */
     bool has_points;

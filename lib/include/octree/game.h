@@ -85,7 +85,7 @@ const char *octree_shape_name(octree_shape_kind kind);
 /* A shape that is drawn at a tick, such as a wall or a goal. A shape is not in the tree, and queries do not find it. It
  * may lie outside the world. */
 typedef struct octree_shape {
-    uint64_t tick; /* a tick number, or OCTREE_EVERY_TICK */
+    uint64_t tick; /* the number of the tick at which the shape is drawn, or OCTREE_EVERY_TICK */
     octree_shape_kind kind;
     double at[3];                 /* position of a point or label, start of a segment, lowest corner of a box */
     double to[3];                 /* end of a segment, highest corner of a box; not read for other kinds */

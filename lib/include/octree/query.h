@@ -20,7 +20,7 @@ extern "C" {
  * written, printed and rounded to floats. */
 typedef enum octree_member_type {
     OCTREE_MEMBER_BOX,      /* octree_box: six numbers, NaN is refused, infinities are allowed */
-    OCTREE_MEMBER_POSITION, /* double[3]: finite */
+    OCTREE_MEMBER_POSITION, /* double[3]: three finite numbers */
     OCTREE_MEMBER_COUNT,    /* size_t: any number */
     OCTREE_MEMBER_LENGTH,   /* double: finite, >= 0 */
 } octree_member_type;
@@ -109,7 +109,7 @@ const char *octree_query_name(octree_query_kind kind);
  * game's player; other queries find the player like any other point. In a tick without a player, queries with at_player
  * are not asked. */
 typedef struct octree_query {
-    uint64_t tick; /* a tick number, or OCTREE_EVERY_TICK */
+    uint64_t tick; /* the number of the tick at which the query is asked, or OCTREE_EVERY_TICK */
     octree_query_kind kind;
     bool at_player; /* true: the player's position is the target, and `box` is relative to this position */
     octree_box box; /* the closed box of a range query */
@@ -120,7 +120,7 @@ typedef struct octree_query {
     /* the points that no answer may contain. NONE skips only the game's player, and only in queries for neighbours.
      * COINCIDENT skips points at the target, and is an error in a query without a target */
     octree_skip skip;
-    uint64_t skip_id; /* read only with OCTREE_SKIP_ID */
+    uint64_t skip_id; /* the id of the skipped points; read only with OCTREE_SKIP_ID */
     double epsilon; /* the permitted error of the answer, finite and >= 0: a ratio for neighbours, a length for regions;
                        see octree_search.epsilon */
     /* true: the session has the answer of a foreign index to this query. The game compares it with the exact answer,

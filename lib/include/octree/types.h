@@ -200,7 +200,7 @@ typedef void (*octree_tracer)(octree_address node, octree_trace_kind kind, void 
 /* Options of a search. A zeroed struct, or a null pointer to the options, means an exact search that skips no point. */
 typedef struct octree_search {
     octree_skip skip; /* the points to skip; read only by searches for neighbours */
-    uint64_t skip_id; /* read only with OCTREE_SKIP_ID */
+    uint64_t skip_id; /* the id of the skipped points; read only with OCTREE_SKIP_ID */
     octree_mode mode; /* how distances are compared; boxes are compared exactly in both modes */
     /* the permitted error, finite and >= 0: a ratio for neighbours, a length for ranges; each search function explains
      * its meaning */

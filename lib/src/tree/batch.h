@@ -88,7 +88,7 @@ static inline octree_point point_of_item(const batch *b, const morton_item *item
  * depth. */
 size_t count_in_first_octant(const morton_item *items, size_t count, unsigned depth);
 
-/* A cell with at most this many items becomes a leaf. The items of a leaf need no order. */
+/* Returns the number of items up to which a cell becomes a leaf. The items of a leaf need no order. */
 static inline size_t unsorted_limit(const octree *tree)
 {
     return tree->def.leaf_capacity < MORTON_UNSORTED ? tree->def.leaf_capacity : MORTON_UNSORTED;

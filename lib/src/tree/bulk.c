@@ -86,7 +86,7 @@ static void move_found_point(batch *b, node *leaf, unsigned depth, morton_item *
  * the point after the point that was found last. */
 static uint32_t find_in_leaf_after(const node *leaf, uint32_t last, const octree_point *point)
 {
-    const uint32_t next = last + 1; /* LEAF_NONE + 1 is 0 */
+    const uint32_t next = last + 1; /* if no point was found yet, `last` is LEAF_NONE, and `next` becomes 0 */
     if (!leaf)
         return LEAF_NONE;
     if (next < leaf->count && leaf_points(leaf)[next].id == point->id &&

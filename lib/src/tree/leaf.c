@@ -12,7 +12,8 @@
 
 typedef struct hashed_header {
     uint32_t room;
-    uint32_t mask; /* the number of slots minus 1; the number of slots is a power of two, and at least twice the room */
+    /* the number of slots minus 1; the number of slots is a power of two, at least twice the leaf's room */
+    uint32_t mask;
     uint64_t size; /* the size in bytes of the whole block of memory */
 } hashed_header;
 

@@ -155,7 +155,7 @@ bool is_inseparable(const octree *tree, cell c, const morton_item *items, size_t
     return true;
 }
 
-/* Build an inner node from items only. */
+/* Build the inner node of a cell that holds only these items. */
 static bool build_children(batch *b, cell c, span items, node *made);
 
 /* Returns whether the items of a cell become a leaf. Under OCTREE_REFUSE, inseparable items stay in one leaf, which

@@ -88,7 +88,7 @@ octree_status rebuild_tree(octree *tree, const octree_def *def);
  * in the code's octant. */
 typedef struct path {
     node *nodes[OCTREE_MAX_DEPTH + 1];
-    unsigned depth; /* the depth of the last node */
+    unsigned depth; /* the depth of the path's last node */
 } path;
 
 path find_path(const octree *tree, uint64_t code);

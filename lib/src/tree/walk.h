@@ -13,7 +13,7 @@ static inline void prefetch_below(const node *n)
         prefetch_memory(children_of(n)[i].below);
 }
 
-/* Add one node to the statistics. */
+/* Add one node to the statistics of a tree. */
 void count_node(octree_stats *stats, const node *n, unsigned depth);
 
 /* Returns the digest of one node. The digest of a leaf includes its points. The digest of a tree is computed from the
