@@ -8,8 +8,8 @@ sanitizer=$("$cc" -print-file-name=libasan.so)
 sources='lib/src/*/*.[ch]'
 prefix=lib/src
 
-rules="-std=c17 -O1 $types -ffp-contract=off -D_POSIX_C_SOURCE=200809L -Ilib/include -Ilib/src/exact -Ilib/src/tree
-       -Ilib/src/query -Ilib/src/audit -Ilib/src/game -I$root/tests/support -I$root/tests/support/oracle"
+rules="-std=c17 -O1 $types -ffp-contract=off -D_POSIX_C_SOURCE=200809L -Ilib/include -Ilib/src/tree
+       -I$root/tests/support -I$root/tests/support/oracle"
 
 flags_of()
 {
@@ -34,7 +34,7 @@ link_library()
 
 dependents_of()
 {
-    grep -l "$2" "$1.whole"/*.d | sed "s|.*/\([a-z]*\)-\(.*\)\.d|lib/src/\1/\2.c|"
+    grep -l "${2#lib/src/}" "$1.whole"/*.d | sed "s|.*/\([a-z]*\)-\(.*\)\.d|lib/src/\1/\2.c|"
 }
 
 prepare()

@@ -56,9 +56,6 @@ configure_file(${JANSSON_HEADER}/jansson.h ${wasm_folder}/include/jansson.h COPY
 configure_file(${JANSSON_CONFIG_HEADER}/jansson_config.h ${wasm_folder}/include/jansson_config.h COPYONLY)
 
 set(wasm_includes -I${PROJECT_SOURCE_DIR}/lib/include -I${CMAKE_CURRENT_SOURCE_DIR}/include)
-foreach(room exact tree query audit game)
-  list(APPEND wasm_includes -I${PROJECT_SOURCE_DIR}/lib/src/${room})
-endforeach()
 foreach(room base image scene layers compose draw clouds formats record replay)
   list(APPEND wasm_includes -I${CMAKE_CURRENT_SOURCE_DIR}/${room})
 endforeach()

@@ -3,9 +3,9 @@
  * point counts.
  */
 #include "foreign.h"
-#include "float_mode.h"
+#include "../exact/float_mode.h"
 #include "octree/digest.h"
-#include "search.h"
+#include "../query/search.h"
 
 #include <limits.h>
 #include <string.h>

@@ -16,9 +16,9 @@
  * rounded positions decide. The cost is that of sorting both lists; for floats also that of one or more searches.
  */
 #include "judge.h"
-#include "exact.h"
-#include "kind.h"
-#include "search.h"
+#include "../exact/exact.h"
+#include "../query/kind.h"
+#include "../query/search.h"
 
 const char *octree_wrong_name(octree_wrong_kind wrong)
 {

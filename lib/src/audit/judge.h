@@ -3,9 +3,9 @@
 #ifndef OCTREE_JUDGE_H
 #define OCTREE_JUDGE_H
 
-#include "metric.h"
+#include "../exact/metric.h"
 #include "octree/query.h"
-#include "pool.h"
+#include "../tree/pool.h"
 
 /* Copy the point that has an id to *point. False if no point has the id. */
 typedef bool point_lookup(const void *context, uint64_t id, octree_point *point);

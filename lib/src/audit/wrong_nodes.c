@@ -14,7 +14,7 @@
  */
 #include "foreign.h"
 #include "octree/octree.h"
-#include "point.h"
+#include "../exact/point.h"
 
 #include <stdlib.h>
 

@@ -7,7 +7,7 @@
  * faster than single moves from a few hundred points on.
  */
 #include "bodies.h"
-#include "float_rules.h"
+#include "../exact/float_rules.h"
 #include "game_state.h"
 #include "octree/digest.h"
 

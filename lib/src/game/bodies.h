@@ -3,7 +3,7 @@
 #ifndef OCTREE_BODIES_H
 #define OCTREE_BODIES_H
 
-#include "pool.h"
+#include "../tree/pool.h"
 #include "octree/game.h"
 
 /* A body and its motion. The position is computed from the origin and the ticks since then, not from the previous

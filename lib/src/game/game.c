@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* game.c - the game loop: plays one tick after another, in the order that game.h states. */
-#include "float_mode.h"
+#include "../exact/float_mode.h"
 #include "game_state.h"
 #include "queries.h"
 #include "session.h"
-#include "sweep.h"
+#include "../exact/sweep.h"
 
 #include <math.h>
 #include <string.h>

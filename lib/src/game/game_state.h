@@ -4,7 +4,7 @@
 #define OCTREE_GAME_STATE_H
 
 #include "bodies.h"
-#include "foreign.h"
+#include "../audit/foreign.h"
 #include "tree_summary.h"
 
 /* The lists that octree_tick points to. Each row has the member, the member for its count, and the type of the

@@ -2,7 +2,7 @@
 /* queries.c - asks the queries of a tick, judges foreign answers, and lists the nodes that the searches visited. */
 #include "queries.h"
 #include "game_state.h"
-#include "search.h"
+#include "../query/search.h"
 
 #include <string.h>
 

@@ -3,7 +3,7 @@
 #ifndef OCTREE_QUERIES_H
 #define OCTREE_QUERIES_H
 
-#include "kind.h"
+#include "../query/kind.h"
 #include "octree/game.h"
 
 /* Options for a search whose cost is added to *cost and whose visited nodes are recorded in the tick. `cost` may be

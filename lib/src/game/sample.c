@@ -2,8 +2,8 @@
 /* sample.c - generates points of each distribution. It calls no function of libm except sqrt(), so the points are the
  * same on every machine. */
 #include "octree/sample.h"
-#include "float_mode.h"
-#include "point.h"
+#include "../exact/float_mode.h"
+#include "../exact/point.h"
 #include "octree/digest.h"
 
 #include <math.h>

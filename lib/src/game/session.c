@@ -2,9 +2,9 @@
 /* session.c - checks a session, finds the input of a tick in it, and loads its bodies. Also defines the paper's
  * session. */
 #include "session.h"
-#include "float_mode.h"
+#include "../exact/float_mode.h"
 #include "game_state.h"
-#include "search.h"
+#include "../query/search.h"
 
 #include <math.h>
 #include <string.h>

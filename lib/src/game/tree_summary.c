@@ -2,7 +2,7 @@
 /* tree_summary.c - updates the digest, the statistics and the list of inner nodes by walking only the changed subtrees.
  */
 #include "tree_summary.h"
-#include "walk.h"
+#include "../tree/walk.h"
 
 #define SUBTREE_POINTS 512
 

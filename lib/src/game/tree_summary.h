@@ -9,8 +9,8 @@
 #ifndef OCTREE_TREE_SUMMARY_H
 #define OCTREE_TREE_SUMMARY_H
 
-#include "pool.h"
-#include "tree.h"
+#include "../tree/pool.h"
+#include "../tree/tree.h"
 
 typedef struct tree_summary {
     bool known; /* true: the lists describe the tree with this version and capacity */

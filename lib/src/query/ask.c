@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* ask.c - the tables of octree/query.h. Checks and asks a query of any kind, by the table row of its kind. */
-#include "float_mode.h"
+#include "../exact/float_mode.h"
 #include "kind.h"
 #include "search.h"
 

@@ -5,7 +5,7 @@
 #define OCTREE_KIND_H
 
 #include "octree/query.h"
-#include "pool.h"
+#include "../tree/pool.h"
 
 /* Sort the points of a list from index `first` on, by id and then by position. */
 void sort_points(list *points, size_t first);

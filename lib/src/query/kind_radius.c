@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* kind_radius.c - the kind "radius": the points in a closed ball. */
-#include "exact.h"
+#include "../exact/exact.h"
 #include "kind.h"
 #include "search.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* kind_range.c - the kind "range": the points in a closed box. */
-#include "exact.h"
+#include "../exact/exact.h"
 #include "kind.h"
 #include "search.h"
 

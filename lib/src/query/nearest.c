@@ -17,12 +17,12 @@
  * Cost: O(D + M) on average for points of bounded density, O(n) at worst. Source: the paper, Algorithms
  * 6 and 7; Samet (2006) on best-first and depth-first search. neighbor_heap.c keeps the results and decides near ties.
  */
-#include "float_mode.h"
-#include "leaf.h"
-#include "morton_sort.h"
+#include "../exact/float_mode.h"
+#include "../tree/leaf.h"
+#include "../tree/morton_sort.h"
 #include "neighbor_heap.h"
 #include "search.h"
-#include "tasks.h"
+#include "../tree/tasks.h"
 
 /* An inner node on the current path, whose children are being searched. */
 typedef struct frame {

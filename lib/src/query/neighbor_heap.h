@@ -7,7 +7,7 @@
 #ifndef OCTREE_NEIGHBOR_HEAP_H
 #define OCTREE_NEIGHBOR_HEAP_H
 
-#include "metric.h"
+#include "../exact/metric.h"
 
 #include <stddef.h>
 

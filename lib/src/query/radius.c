@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* radius.c - range search in a closed ball: octree_radius(). */
-#include "float_mode.h"
+#include "../exact/float_mode.h"
 #include "region.h"
 
 /* Squared distances from the ball's centre to the parts of a cell, along each axis. Index 0 stands for the lower half,

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* range.c - range search in a closed box (Algorithm 4), and collision as a range search (Algorithm 5). */
-#include "float_mode.h"
-#include "exact.h"
+#include "../exact/float_mode.h"
+#include "../exact/exact.h"
 #include "region.h"
 
 #include <stdlib.h>

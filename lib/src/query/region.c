@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* region.c - the traversal that visits the points of a region, and the shape of a closed box. */
 #include "region.h"
-#include "leaf.h"
+#include "../tree/leaf.h"
 
 /* An inner node on the path of the current descent. */
 typedef struct frame {

@@ -3,9 +3,9 @@
 #ifndef OCTREE_SEARCH_H
 #define OCTREE_SEARCH_H
 
-#include "bits.h"
-#include "metric.h"
-#include "tree.h"
+#include "../exact/bits.h"
+#include "../exact/metric.h"
+#include "../tree/tree.h"
 
 #include <math.h>
 

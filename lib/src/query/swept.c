@@ -25,9 +25,9 @@
  * plus 2^-1000 for underflow, on either side of R covers all of this: beyond it a point is certainly outside, within it
  * certainly inside.
  */
-#include "float_mode.h"
+#include "../exact/float_mode.h"
 #include "region.h"
-#include "sweep.h"
+#include "../exact/sweep.h"
 
 /* Two parallel faces of the hull. Their normal lies in the plane of the axes i and j. */
 typedef struct hull_faces {

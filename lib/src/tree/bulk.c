@@ -2,7 +2,7 @@
 /* bulk.c - octree_insert_many(), octree_remove_many() and octree_move_many(). This file sets the statuses, and lists
  * the points that leave their positions and the points that arrive at new positions. */
 #include "batch.h"
-#include "float_mode.h"
+#include "../exact/float_mode.h"
 #include "few.h"
 
 #include <string.h>

@@ -6,7 +6,7 @@
  * move within a leaf overwrites the point; any other move is an insertion and a removal. Memory is allocated before
  * anything changes, so that a failure leaves the tree as it was.
  */
-#include "float_mode.h"
+#include "../exact/float_mode.h"
 #include "tree.h"
 
 #include <string.h>

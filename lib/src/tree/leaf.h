@@ -7,8 +7,8 @@
 #ifndef OCTREE_LEAF_H
 #define OCTREE_LEAF_H
 
-#include "bits.h"
-#include "point.h"
+#include "../exact/bits.h"
+#include "../exact/point.h"
 #include "pool.h"
 
 typedef struct node {

@@ -15,7 +15,7 @@
  * and two coordinates are processed at once with SSE2.
  */
 #include "octree/octree.h"
-#include "float_mode.h"
+#include "../exact/float_mode.h"
 #include "plane.h"
 
 /* Set sum[0] + sum[1] = a + b exactly (Knuth's TwoSum). */

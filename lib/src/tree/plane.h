@@ -10,8 +10,8 @@
 #ifndef OCTREE_PLANE_H
 #define OCTREE_PLANE_H
 
-#include "bits.h"
-#include "float_rules.h"
+#include "../exact/bits.h"
+#include "../exact/float_rules.h"
 #include "octree/octree.h"
 #include "octree/types.h"
 

@@ -16,8 +16,8 @@
  * under a lock.
  */
 #include "pool.h"
-#include "bits.h"
-#include "float_mode.h"
+#include "../exact/bits.h"
+#include "../exact/float_mode.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* tasks.c - divides work into tasks, and trees into subtrees. See tasks.h. */
 #include "tasks.h"
-#include "float_mode.h"
+#include "../exact/float_mode.h"
 
 #include <stdatomic.h>
 #include <string.h>

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* tree.c - creates, rebuilds and destroys trees, finds points, and returns the names and sentences of statuses. */
 #include "tree.h"
-#include "float_mode.h"
-#include "metric.h"
+#include "../exact/float_mode.h"
+#include "../exact/metric.h"
 
 #include <math.h>
 #include <stdlib.h>

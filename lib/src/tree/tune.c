@@ -10,7 +10,7 @@
  * sample would thin the points out and change their density. Cost: seven bulk builds of at most 40,000 points, 128
  * operations of each kind per capacity, and one rebuild.
  */
-#include "float_mode.h"
+#include "../exact/float_mode.h"
 #include "tree.h"
 
 #include <math.h>

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* walk.c - traversals of all nodes: octree_walk(), octree_check(), octree_statistics() and octree_digest(). */
 #include "walk.h"
-#include "exact.h"
-#include "float_mode.h"
+#include "../exact/exact.h"
+#include "../exact/float_mode.h"
 #include "tasks.h"
 
 static octree_node describe_node(const node *n, octree_address address, unsigned depth, const octree_box *bounds)
