@@ -47,7 +47,8 @@ const char *octree_status_name(octree_status status);
 octree_def octree_def_default(void);
 
 /* Create an empty tree in *tree. The definition is copied.
- * Errors: NULL_ARGUMENT, BAD_WORLD, BAD_CAPACITY, BAD_OPTION, NO_MEMORY; *tree is then null. Cost: O(1). */
+ * Errors: NULL_ARGUMENT, BAD_WORLD, BAD_CAPACITY, BAD_OPTION, NO_MEMORY, BAD_BUILD (the library was compiled so that
+ * its answers would be wrong); *tree is then null. Cost: O(1). */
 octree_status octree_create(const octree_def *def, octree **tree);
 
 /* Free the tree and all of its memory. The tree may be null. Does nothing inside a visitor, tracer or task of the tree.

@@ -32,7 +32,7 @@ const char *octree_sample_name(octree_sample_kind kind);
 bool octree_sample_parse(const char *name, octree_sample_kind *kind);
 
 /* Write `count` positions within `box` to `positions`. Each position is a row of three doubles. Errors: NULL_ARGUMENT,
- * BAD_WORLD (as for octree_create), BAD_OPTION. Cost: O(count). */
+ * BAD_WORLD and BAD_BUILD (as for octree_create), BAD_OPTION. Cost: O(count). */
 octree_status octree_sample(octree_sample_kind kind, uint64_t seed, const octree_box *box, size_t count,
                             double (*positions)[3]);
 

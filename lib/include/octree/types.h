@@ -30,7 +30,10 @@
     X(BAD_PARENT, "bad_parent", "a foreign node is its own ancestor")                                                  \
     X(NO_MEMORY, "no_memory", "the allocator returned null")                                                           \
     X(TOO_MANY, "too_many", "the tree would exceed its limit of 4294967295 points")                                    \
-    X(BUSY, "busy", "the tree cannot be changed inside its own visitor, tracer or task")
+    X(BUSY, "busy", "the tree cannot be changed inside its own visitor, tracer or task")                               \
+    X(BAD_BUILD, "bad_build",                                                                                          \
+      "the library was compiled with options that change arithmetic, such as -ffp-contract=fast or "                   \
+      "-funsafe-math-optimizations; compile it without them")
 
 typedef enum octree_status {
 #define OCTREE_STATUS_ENUM(name, word, text) OCTREE_##name,

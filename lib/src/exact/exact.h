@@ -39,6 +39,11 @@ int exact_sign_of_sum(const double terms[], int count);
 double exact_add_down(double a, double b);
 double exact_add_up(double a, double b);
 
+/* Returns whether the compiler left sums and products as they are written. Some options change them without a macro
+ * that float_rules.h could test: clang's -ffp-contract=fast, which ignores the pragma, and -funsafe-math-optimizations.
+ */
+bool keeps_arithmetic(void);
+
 /* Returns the next double below a finite value. */
 static inline double exact_step_down(double value)
 {

@@ -2,6 +2,7 @@
 /* sample.c - generates points of each distribution. It calls no function of libm except sqrt(), so the points are the
  * same on every machine. */
 #include "octree/sample.h"
+#include "../exact/exact.h"
 #include "../exact/float_mode.h"
 #include "../exact/point.h"
 #include "octree/digest.h"
@@ -147,6 +148,8 @@ octree_status octree_sample(octree_sample_kind kind, uint64_t seed, const octree
         return OCTREE_NULL_ARGUMENT;
     if ((unsigned)kind >= OCTREE_SAMPLE_KINDS)
         return OCTREE_BAD_OPTION;
+    if (!keeps_arithmetic())
+        return OCTREE_BAD_BUILD;
     if (!is_world(box))
         return OCTREE_BAD_WORLD;
     kinds[kind].fill(seed, count, positions);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* tree.c - creates, rebuilds and destroys trees, finds points, and returns the names and sentences of statuses. */
 #include "tree.h"
+#include "../exact/exact.h"
 #include "../exact/float_mode.h"
 #include "../exact/metric.h"
 
@@ -24,6 +25,8 @@ octree_def octree_def_default(void)
 
 static octree_status check_definition(const octree_def *def)
 {
+    if (!keeps_arithmetic())
+        return OCTREE_BAD_BUILD;
     if (!is_world(&def->world))
         return OCTREE_BAD_WORLD;
     if (def->leaf_capacity == 0)
