@@ -315,11 +315,12 @@ const command command_inspect = {
     .about = "Build an octree from a point cloud (" CLOUD_NAMES ") and print its statistics. With -o, "
              "draw the tree as well. CLOUD may be -, standard input. The format is recognized by the content, not by "
              "the name.\n",
-    .more =
-        "Text may begin with column names or, as .pts files do, with the number of points. Points are numbered from "
-        "0 in file order. Points without finite coordinates and withheld LAS points are skipped, but keep their "
-        "numbers. LAZ and COPC need an octreel that was built with liblaszip (Debian 13 has it). Other builds need "
-        "this conversion first: pdal translate in.laz out.las\n",
+    .more = "Text may begin with column names or, as .pts files do, with the number of points. Without column names, "
+            ".xyzrgb files have colours after the coordinates, .xyzn files normals, and .pts files that begin with the "
+            "number of points an intensity, a colour or both. Points are numbered from 0 in file order. Points without "
+            "finite coordinates and withheld LAS points are skipped, but keep their "
+            "numbers. LAZ and COPC need an octreel that was built with liblaszip (Debian 13 has it). Other builds need "
+            "this conversion first: pdal translate in.laz out.las\n",
     .statuses = {"done", NULL, "error"},
     .examples = "# draw the tree of a scan whose leaves hold at most 32 points\n"
                 "octreel inspect scan.pcd -o tree.png --capacity 32\n"

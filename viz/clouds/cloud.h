@@ -4,9 +4,11 @@
  * Text: one point on each line, with its coordinates in the first three columns. Columns are separated by blanks and
  * tabs, by commas, or by semicolons; a line uses one kind of separator only. Blank lines and comments (# and //) are
  * skipped. A first line of column names, which may be a comment, names the values in further columns. Without names,
- * the columns x y z r g b and x y z intensity r g b are recognised by their numbers. Either the colour channels in all
- * lines are integers from 0 to 255, with the largest above 127. Or they are fractions from 0 to 1, with the largest at
- * least 0.5, and not every colour is a vector of length 1, as a normal would be.
+ * the ending of the file's name may declare them: .xyzrgb r g b, .xyzn a normal, and .pts, if its first line is the
+ * number of points, intensity, r g b or intensity r g b. In other files the columns x y z r g b and x y z intensity r g
+ * b are recognised by their numbers. Either the colour channels in all lines are integers from 0 to 255, with the
+ * largest above 127. Or they are fractions from 0 to 1, with the largest at least 0.5, and not every colour is a vector
+ * of length 1, as a normal would be.
  *
  * PLY: ascii, binary_little_endian and binary_big_endian; x, y and z of the element "vertex", of any scalar type.
  *
@@ -22,8 +24,9 @@
  * 1, 255 or 65535, because files with 16-bit channels often hold 8-bit colours. Alpha is ignored.
  *
  * A value is treated as missing if an intensity is not a finite float, a class is not an integer from 0 to 65535, or a
- * colour is outside 0 to 65535. Every LAS record has room for all values. A LAS value that is zero in all points is
- * therefore treated as missing.
+ * colour is outside 0 to 65535. LAS records have room for an intensity, and often for a colour, that the writer did not
+ * have and set to zero: an intensity or a colour that is zero in all points is treated as missing, with a note. Class 0
+ * is a class: never classified. A note names other values that are ignored, such as normals.
  *
  * The contents of a file decide its format. Only if the contents do not decide, the ending of its name does. A
  * truncated file is an error: no point is lost silently. If data that the header does not announce follows the last
@@ -54,9 +57,11 @@
 #define CLOUD_NAMES_ROW(id, names, endings) ", " names
 #define CLOUD_NAMES "x y z text" CLOUD_FORMAT_MAP(CLOUD_NAMES_ROW)
 
-/* All endings of file names as a string literal: ".xyz.txt.csv.pts.las.laz.pcd.ply". */
+/* All endings of file names as a string literal: ".xyz.xyzrgb.xyzn.txt.csv.pts.las.laz.pcd.ply". */
 #define CLOUD_ENDINGS_ROW(id, names, endings) endings
-#define CLOUD_ENDINGS ".xyz.txt.csv.pts" CLOUD_FORMAT_MAP(CLOUD_ENDINGS_ROW)
+#define CLOUD_ENDINGS ".xyz.xyzrgb.xyzn.txt.csv.pts" CLOUD_FORMAT_MAP(CLOUD_ENDINGS_ROW)
+
+#define CLOUD_COLUMN_NOTE 256 /* the size of the text, in bytes */
 
 typedef struct cloud {
     double (*positions)[3]; /* `count` rows of x, y and z, in the file's order and units; all finite; owned */
@@ -66,9 +71,9 @@ typedef struct cloud {
      * point was skipped. Static storage. */
     const char *why_skipped;
     size_t *rows; /* the row of each point in the file, counting skipped rows; null if no row was skipped; owned */
-    point_values values;     /* colours, intensities and classes, found by cloud_row_number(); owned */
-    unsigned color_full;     /* the full scale of colour channels in the file: 1, 255 or 65535; 0: no colours */
-    const char *column_note; /* a sentence about columns without names; null: no such columns; static storage */
+    point_values values; /* colours, intensities and classes, found by cloud_row_number(); owned */
+    unsigned color_full; /* the full scale of colour channels in the file: 1, 255 or 65535; 0: no colours */
+    char column_note[CLOUD_COLUMN_NOTE]; /* a sentence about ignored values, or about columns without names; "": none */
     size_t out_of_range[POINT_VALUE_KINDS]; /* for each kind of value, how many were out of range and dropped */
     char note[512];                         /* a sentence about unexpected data after the last point; "": none */
 } cloud;

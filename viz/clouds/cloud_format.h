@@ -25,6 +25,9 @@ typedef enum cloud_channel {
     CLOUD_CHANNELS
 } cloud_channel;
 
+/* The bits of the channels of a colour. */
+#define CLOUD_COLOR (1U << CLOUD_RED | 1U << CLOUD_GREEN | 1U << CLOUD_BLUE)
+
 /* The characters of a file from `begin` up to `limit`, which is exclusive. */
 typedef struct cloud_span {
     const char *begin, *limit;
@@ -47,8 +50,7 @@ typedef struct cloud_file {
     octreel_error *error;
     const cloud_watch *watch; /* the callbacks for progress; may be null */
     size_t room, row_room;    /* capacities of out->positions and out->rows */
-    unsigned channels;        /* bits 1 << cloud_channel of the values that points have in addition to x, y and z */
-    bool zero_is_missing;     /* a value that is zero in every point is treated as missing */
+    unsigned channels;        /* bits 1 << cloud_channel of the values that the file has */
 } cloud_file;
 
 typedef struct cloud_format {
@@ -66,13 +68,20 @@ bool cloud_text_is_recognised(cloud_file *file);
 
 /* ---- Result and errors -------------------------------------------------------------------------------------- */
 
-/* Sets which values each point has. Call this before the first point. `channels` holds bits 1 << cloud_channel.
- * `full` (1 or 255) is the assumed full scale of colour channels. If a channel in the file is larger, the full scale
- * is raised and colours that were read before are rescaled. */
-void cloud_set_channels(cloud_file *file, unsigned channels, unsigned full);
+/* Adds the channel of a value with this name to file->channels. Returns false with a note that the value is ignored if
+ * `channel` is -1 or was added before. */
+bool cloud_add_channel(cloud_file *file, int channel, cloud_span name);
+
+/* Completes file->channels. Call this before the first point. `full` (1 or 255) is the assumed full scale of colour
+ * channels. If a channel in the file is larger, the full scale is raised and colours that were read before are
+ * rescaled. */
+void cloud_complete_channels(cloud_file *file, unsigned full);
 
 /* Converts numbers[CLOUD_CHANNELS] to the values of one point. */
 point_value cloud_convert_values(cloud_file *file, const double *numbers);
+
+/* Discards colours and intensities that are zero in every point, with a note. Call this after the last point. */
+void cloud_discard_zeros(cloud_file *file);
 
 /* Discards the values that were read so far. Points that follow have no values. */
 void cloud_discard_values(cloud_file *file);

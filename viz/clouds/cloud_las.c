@@ -275,16 +275,17 @@ static bool read_uncompressed(las_reader *reader)
 
 static bool parse_las(cloud_file *file)
 {
-    const unsigned color = 1U << CLOUD_RED | 1U << CLOUD_GREEN | 1U << CLOUD_BLUE;
     las_reader reader = {.file = file};
     if (!is_las(file))
         return cloud_fail_byte(file, 0, "is not a LAS file: its first bytes are not LASF");
     if (!read_version(&reader) || !read_format(&reader) || !read_count(&reader) || !read_scales_and_offsets(&reader))
         return false;
-    cloud_set_channels(file, 1U << CLOUD_INTENSITY | 1U << CLOUD_CLASS | (las_colors_at[reader.format] ? color : 0),
-                       255);
-    file->zero_is_missing = true; /* every record has room for all values, even if the file has none */
-    return (reader.compressed ? read_compressed : read_uncompressed)(&reader);
+    file->channels = 1U << CLOUD_INTENSITY | 1U << CLOUD_CLASS | (las_colors_at[reader.format] ? CLOUD_COLOR : 0);
+    cloud_complete_channels(file, 255);
+    if (!(reader.compressed ? read_compressed : read_uncompressed)(&reader))
+        return false;
+    cloud_discard_zeros(file);
+    return true;
 }
 
 const cloud_format cloud_las = {is_las, parse_las};

@@ -22,8 +22,9 @@ typedef enum pcd_encoding { PCD_ASCII, PCD_BINARY, PCD_COMPRESSED } pcd_encoding
 
 typedef struct pcd_field {
     cloud_scalar type;
-    uint64_t count;          /* the number of values of the field in each point */
-    int channel;             /* the cloud_channel of the field; -1: the field is ignored */
+    uint64_t count; /* the number of values of the field in each point */
+    cloud_span name;
+    int channel;             /* the cloud_channel of the name; -1: the field is ignored */
     uint64_t column, offset; /* the numbers of values and of bytes before the field in a point */
 } pcd_field;
 
@@ -53,20 +54,19 @@ static bool read_version(pcd_reader *reader, cloud_span rest)
 static bool read_fields(pcd_reader *reader, cloud_span rest)
 {
     cloud_span word;
-    unsigned channels = 0;
+    unsigned axes = 0;
     while (cloud_read_word(&rest, &word)) {
         int channel = cloud_find_channel(word);
         if (reader->field_count == MAX_FIELDS)
             return cloud_fail_line(reader->file, "more than %d fields", MAX_FIELDS);
-        const bool is_repeated = channel >= 0 && channels >> channel & 1;
-        if (is_repeated && channel <= CLOUD_Z)
+        const unsigned axis_bit = channel >= CLOUD_X && channel <= CLOUD_Z ? 1U << channel : 0;
+        if (axes & axis_bit)
             return cloud_fail_at_word(reader->file, word, "is a second field with this name");
-        if (channel >= 0)
-            channels |= 1U << channel;
-        reader->fields[reader->field_count++] = (pcd_field){.channel = is_repeated ? -1 : channel, .count = 1};
+        axes |= axis_bit;
+        reader->fields[reader->field_count++] = (pcd_field){.name = word, .channel = channel, .count = 1};
     }
     for (int axis = 0; axis < 3; axis++)
-        if (!(channels >> axis & 1))
+        if (!(axes >> axis & 1))
             return cloud_fail_line(reader->file, "FIELDS has no field \"%c\"", "xyz"[axis]);
     return true;
 }
@@ -231,7 +231,7 @@ static bool find_point_count(pcd_reader *reader)
 static bool set_field_offsets(pcd_reader *reader)
 {
     size_t kept = 0;
-    unsigned channels = 0, full = 255;
+    unsigned full = 255;
     for (size_t i = 0; i < reader->field_count; i++) {
         pcd_field field = reader->fields[i];
         const bool is_float = field.type.kind == CLOUD_FLOAT;
@@ -245,17 +245,18 @@ static bool set_field_offsets(pcd_reader *reader)
         field.offset = reader->stride;
         reader->columns += field.count;
         reader->stride += field.count * field.type.size;
-        if (field.channel < 0 || field.count != 1 || (field.channel == CLOUD_PACKED && field.type.size != 4))
+        if (field.count != 1 || (field.channel == CLOUD_PACKED && field.type.size != 4))
+            field.channel = -1;
+        if (!cloud_add_channel(reader->file, field.channel, field.name))
             continue;
         if (field.channel == CLOUD_PACKED)
             field.type.kind = CLOUD_UNSIGNED;
         if (field.channel == CLOUD_RED && is_float)
             full = 1;
-        channels |= 1U << field.channel;
         reader->fields[kept++] = field;
     }
     reader->field_count = kept;
-    cloud_set_channels(reader->file, channels, full);
+    cloud_complete_channels(reader->file, full);
     return true;
 }
 

@@ -32,7 +32,6 @@ typedef struct ply_reader {
     ply_property properties[MAX_PROPERTIES];
     size_t property_count;
     const ply_element *vertex; /* the element that holds the points; null: not declared yet */
-    unsigned channels;         /* bits 1 << cloud_channel of the vertex's properties */
     unsigned full_color;       /* the full scale of colours: 1 for floats, 255 for integers */
     bool has_all_points;       /* all points were read, so an error in the data after them is only a note */
     bool is_truncated;         /* the file ends too early */
@@ -109,23 +108,20 @@ static bool read_type(ply_reader *reader, cloud_span *rest, ply_property *proper
     return find_type(word, &property->type) || cloud_fail_at_word(reader->file, word, "is not a PLY type");
 }
 
-/* Assign a channel to a property. A coordinate must be a single number and must occur once. If another property is a
- * list or is repeated, it is ignored. */
+/* Assign a channel to a property of the vertices. A coordinate must be a single number and must occur once. If another
+ * property is a list or is repeated, it is ignored. */
 static bool set_channel(ply_reader *reader, ply_property *property, cloud_span name)
 {
-    const unsigned bit = 1U << property->channel;
-    const bool again = reader->channels & bit, list = property->length.size > 0;
-    if (property->channel <= CLOUD_Z && again)
-        return cloud_fail_at_word(reader->file, name, "is a second property with this name");
-    if (property->channel <= CLOUD_Z && list)
-        return cloud_fail_at_word(reader->file, name, "is a list; a coordinate must be a single number");
-    if (again || list) {
-        property->channel = -1;
-        return true;
-    }
+    const bool list = property->length.size > 0;
+    const int channel = cloud_find_channel(name);
+    if (cloud_add_channel(reader->file, list ? -1 : channel, name))
+        property->channel = channel;
+    else if (channel >= CLOUD_X && channel <= CLOUD_Z)
+        return cloud_fail_at_word(reader->file, name,
+                                  list ? "is a list; a coordinate must be a single number"
+                                       : "is a second property with this name");
     if (property->channel == CLOUD_RED && property->type.kind == CLOUD_FLOAT)
         reader->full_color = 1;
-    reader->channels |= bit;
     return true;
 }
 
@@ -142,9 +138,7 @@ static bool read_property(ply_reader *reader, cloud_span rest)
         return false;
     if (!cloud_read_word(&rest, &name))
         return cloud_fail_line(reader->file, "a property has no name");
-    if (element == reader->vertex)
-        property.channel = cloud_find_channel(name);
-    if (property.channel >= 0 && !set_channel(reader, &property, name))
+    if (element == reader->vertex && !set_channel(reader, &property, name))
         return false;
     reader->properties[reader->property_count++] = property;
     element->property_count++;
@@ -176,9 +170,9 @@ static bool check_header(const ply_reader *reader)
     if (!reader->vertex)
         return cloud_fail_line(reader->file, "the header has no element \"vertex\"");
     for (int axis = 0; axis < 3; axis++)
-        if (!(reader->channels >> axis & 1))
+        if (!(reader->file->channels >> axis & 1))
             return cloud_fail_line(reader->file, "element \"vertex\" has no property \"%c\"", "xyz"[axis]);
-    cloud_set_channels(reader->file, reader->channels, reader->full_color);
+    cloud_complete_channels(reader->file, reader->full_color);
     return true;
 }
 

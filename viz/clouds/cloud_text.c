@@ -5,14 +5,17 @@
  * names that do not begin with x, y, z; decimal commas; mixed separators; and a first line that announces more points
  * than follow.
  *
- * The columns from the fourth on have the meaning of their names. Without names, three or four further columns are
- * guessed to be colours, in the case of four after an intensity. Every line must confirm the guess (decide_guess()
- * gives the rules); otherwise the columns are ignored. In both cases cloud.column_note says what was done.
+ * The columns from the fourth on have the meaning of their names. Without names, the file's ending and the count of its
+ * points may declare them (find_columns()). Otherwise three or four further columns are guessed to be colours, in
+ * the case of four after an intensity. Every line must confirm the guess (decide_guess() gives the rules); otherwise
+ * the columns are ignored. In both cases cloud.column_note says what was done.
  */
 #include "cloud_format.h"
+#include "file.h"
 #include "number.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* The columns of a file from the fourth on, and the state of a guess of their meaning. */
@@ -22,6 +25,7 @@ typedef struct text_columns {
         cloud_channel channel;
     } places[CLOUD_CHANNELS]; /* the columns that have a channel, in ascending order */
     size_t place_count;
+    bool counted;     /* a line with the number of points was read */
     bool unnamed;     /* the file has more than three columns and no column names */
     bool guessed;     /* the channels are guessed; the members below describe the lines that were read so far */
     bool ranges[2];   /* for BYTES and FRACTIONS: all colour channels were within this range */
@@ -103,11 +107,14 @@ static void add_column(text_columns *columns, size_t column, cloud_channel chann
 }
 
 /* Reads the column names. Names such as "id,x,y,z" are refused, because the first three columns must be the
- * coordinates. A unit, as in "x [m], y [m]", belongs to the name before it. */
-static bool read_column_names(cloud_file *file, cloud_span line, text_columns *columns)
+ * coordinates. A unit, as in "x [m], y [m]", belongs to the name before it. `full` is that of
+ * cloud_complete_channels(). */
+static bool read_column_names(cloud_file *file, cloud_span line, unsigned full, text_columns *columns)
 {
     cloud_span column;
-    unsigned channels = 0;
+    *columns = (text_columns){0};
+    file->channels = 0;
+    *file->out->column_note = 0;
     for (int index = 0; read_next_column(&line, &column);) {
         if (*column.begin == '[' || *column.begin == '(')
             continue;
@@ -115,14 +122,11 @@ static bool read_column_names(cloud_file *file, cloud_span line, text_columns *c
         if (channel >= CLOUD_X && channel <= CLOUD_Z && channel != index)
             return cloud_fail_line(file, "names column %d %c; the first three columns must be x y z", index + 1,
                                    "xyz"[channel]);
-        if (channel >= 0 && !(channels >> channel & 1)) {
-            channels |= 1U << channel;
-            if (index >= 3)
-                add_column(columns, (size_t)index - 3, (cloud_channel)channel);
-        }
+        if (index >= 3 && cloud_add_channel(file, channel, strip_quotes(column)))
+            add_column(columns, (size_t)index - 3, (cloud_channel)channel);
         index++;
     }
-    cloud_set_channels(file, channels, 1);
+    cloud_complete_channels(file, full);
     return true;
 }
 
@@ -225,31 +229,40 @@ static size_t parse_values(cloud_span line, char separator, const text_columns *
 
 /* ---- Columns without names ---------------------------------------------------------------------------------- */
 
-/* Guesses the meaning of further columns from the first line of numbers: three columns may be r g b, four columns
- * may be intensity r g b. */
-static void guess_columns(cloud_file *file, cloud_span rest, char separator, text_columns *columns)
+/* The two possible ranges of colour channels: integers from 0 to 255, and fractions from 0 to 1. */
+enum { BYTES, FRACTIONS };
+
+/* Finds the meaning of further columns from the first line of numbers, and whether it is declared or guessed. */
+static void find_columns(cloud_file *file, cloud_span rest, char separator, text_columns *columns)
 {
-    static const cloud_channel channels[] = {CLOUD_INTENSITY, CLOUD_RED, CLOUD_GREEN, CLOUD_BLUE};
-    const unsigned color = 1U << CLOUD_RED | 1U << CLOUD_GREEN | 1U << CLOUD_BLUE;
+    static const struct {
+        const char *ending; /* null: any; the meaning is guessed */
+        bool counted;       /* it is declared only after the number of points; colours are integers from 0 to 255 */
+        size_t count;
+        const char *names;
+    } rows[] = {
+        {".xyzrgb", false, 3, "x y z r g b"},       {".xyzn", false, 3, "x y z nx ny nz"},
+        {".pts", true, 1, "x y z intensity"},       {".pts", true, 3, "x y z r g b"},
+        {".pts", true, 4, "x y z intensity r g b"}, {NULL, false, 3, "x y z r g b"},
+        {NULL, false, 4, "x y z intensity r g b"},
+    };
+    const bool counted = columns->counted;
     cloud_span field;
     size_t count = 0;
     while (read_next_field(&rest, separator, &field))
         count++;
     columns->unnamed = count > 0;
-    if (count != 3 && count != 4)
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        const char *ending = rows[i].ending, *names = rows[i].names;
+        if (rows[i].count != count || (rows[i].counted && !counted) || (ending && !file_has_ending(file->name, ending)))
+            continue;
+        read_column_names(file, (cloud_span){names, names + strlen(names)}, rows[i].counted ? 255 : 1, columns);
+        columns->unnamed = columns->guessed = !ending;
+        columns->ranges[BYTES] = columns->ranges[FRACTIONS] = true;
+        columns->shifted[BYTES] = columns->shifted[FRACTIONS] = count == 4;
         return;
-    for (size_t i = 0; i < count; i++)
-        add_column(columns, i, channels[4 - count + i]);
-    columns->guessed = true;
-    for (int range = 0; range < 2; range++) {
-        columns->ranges[range] = true;
-        columns->shifted[range] = count == 4;
     }
-    cloud_set_channels(file, color | (count == 4 ? 1U << CLOUD_INTENSITY : 0), 1);
 }
-
-/* The two possible ranges of colour channels: integers from 0 to 255, and fractions from 0 to 1. */
-enum { BYTES, FRACTIONS };
 
 static bool is_in_range(double number, int range)
 {
@@ -292,19 +305,19 @@ static void decide_guess(cloud_file *file, text_columns *columns)
     const int range = columns->ranges[BYTES] ? BYTES : FRACTIONS;
     const bool bright = range == BYTES ? columns->brightest >= 128 : columns->brightest >= 0.5 && columns->no_normals;
     const bool four = columns->place_count == 4, read = columns->guessed && bright && !columns->shifted[range];
-    if (read && range == BYTES)
-        file->out->column_note = four ? "columns 4 to 7 have no names and are read as intensity r g b"
-                                      : "columns 4 to 6 have no names and are read as r g b";
-    else if (read)
-        file->out->column_note = four ? "columns 4 to 7 have no names and are read as intensity r g b, from 0 to 1"
-                                      : "columns 4 to 6 have no names and are read as r g b, from 0 to 1";
+    char *note = file->out->column_note;
+    const size_t size = sizeof file->out->column_note;
+    if (read)
+        snprintf(note, size, "columns 4 to %d have no names and are read as %sr g b%s", four ? 7 : 6,
+                 four ? "intensity " : "", range == BYTES ? "" : ", from 0 to 1");
     else if (columns->guessed && bright)
-        file->out->column_note =
-            "columns 4 to 7 have no names and are ignored: they may be r g b and another value, or "
-            "intensity r g b; add a first line with names, such as x y z intensity r g b";
+        snprintf(note, size,
+                 "columns 4 to 7 have no names and are ignored: they may be r g b and another value, or intensity "
+                 "r g b; add a first line with names, such as x y z intensity r g b");
     else
-        file->out->column_note = "the columns from the fourth on have no names and are ignored; add a first line with "
-                                 "the names of all columns, such as x y z r g b";
+        snprintf(note, size,
+                 "the columns from the fourth on have no names and are ignored; add a first line with the names of all "
+                 "columns, such as x y z r g b");
     if (!read)
         discard_guess(file, columns);
 }
@@ -359,7 +372,7 @@ static bool parse_point(cloud_file *file, cloud_span line, bool named, text_colu
     if (cloud_skip_nonfinite(file, numbers))
         return true;
     if (file->out->count == 0 && !named)
-        guess_columns(file, line, separator, columns);
+        find_columns(file, line, separator, columns);
     if (columns->place_count > 0) {
         const size_t count = parse_values(line, separator, columns, numbers);
         if (columns->guessed)
@@ -402,11 +415,11 @@ static bool parse_lines(cloud_file *file, text_columns *columns)
         if (first && !has_header && (comment || is_column_header(line))) {
             named = true;
             has_header = !comment;
-            *columns = (text_columns){0};
-            if (!read_column_names(file, line, columns))
+            if (!read_column_names(file, line, 1, columns))
                 return false;
         } else if (first && !has_header && !count_line && is_point_count(line, &count)) {
             count_line = file->lines.number;
+            columns->counted = true;
         } else {
             if (!parse_point(file, line, named, columns))
                 return false;

@@ -63,15 +63,40 @@ bool cloud_parse_channel(const cloud_file *file, cloud_span word, int channel, d
 
 enum { UNIT = 1, BYTE = 255, WORD = 65535 };
 
-#define THREE (1U << CLOUD_RED | 1U << CLOUD_GREEN | 1U << CLOUD_BLUE)
-
-/* A colour needs all three channels; otherwise its channels are ignored. */
-void cloud_set_channels(cloud_file *file, unsigned channels, unsigned full)
+/* Adds a word to the note on ignored values. The padding of PCD files, which is named _, is no value. */
+static void note_ignored(const cloud_file *file, cloud_span word)
 {
-    if ((channels & THREE) != THREE)
-        channels &= ~THREE;
-    file->channels = channels & ~(1U << CLOUD_X | 1U << CLOUD_Y | 1U << CLOUD_Z);
-    file->out->color_full = channels & THREE ? full : BYTE;
+    char quote[CLOUD_QUOTE], *note = file->out->column_note;
+    const size_t length = strlen(note), left = sizeof file->out->column_note - length;
+    if (cloud_word_equals(word, "_"))
+        return;
+    if (left > CLOUD_QUOTE + sizeof ", , ...")
+        snprintf(note + length, left, "%s%s",
+                 length ? ", " : "these values are ignored: ", cloud_quote_word(word, quote));
+    else if (note[length - 1] != '.')
+        snprintf(note + length, left, ", ...");
+}
+
+bool cloud_add_channel(cloud_file *file, int channel, cloud_span name)
+{
+    const unsigned bit = channel < 0 ? 0 : 1U << channel;
+    const bool added = bit & ~file->channels;
+    file->channels |= bit;
+    if (!added)
+        note_ignored(file, name);
+    return added;
+}
+
+/* A colour needs all three channels; otherwise its channels are ignored. A packed colour beside them is ignored. */
+void cloud_complete_channels(cloud_file *file, unsigned full)
+{
+    const unsigned three = file->channels & CLOUD_COLOR;
+    unsigned ignored = three == CLOUD_COLOR ? file->channels & 1U << CLOUD_PACKED : three;
+    file->channels &= ~(ignored | 1U << CLOUD_X | 1U << CLOUD_Y | 1U << CLOUD_Z);
+    file->out->color_full = three == CLOUD_COLOR ? full : BYTE;
+    for (size_t i = 0; ignored; ignored &= ~(1U << names[i++].channel))
+        if (ignored >> names[i].channel & 1)
+            note_ignored(file, (cloud_span){names[i].name, names[i].name + strlen(names[i].name)});
 }
 
 void cloud_discard_values(cloud_file *file)
@@ -188,30 +213,30 @@ point_value cloud_convert_values(cloud_file *file, const double *numbers)
     return value;
 }
 
-/* Removes each kind of value that is zero in every row. */
-static void discard_zero_kinds(point_values *v)
+void cloud_discard_zeros(cloud_file *file)
 {
-    bool keeps[POINT_VALUE_KINDS] = {false};
+    static const char *const words[] = {"", "colours", "intensities", "colours and intensities"};
+    point_values *v = &file->out->values;
+    unsigned zero = v->kinds & (1U << POINT_COLOR | 1U << POINT_INTENSITY);
     for (size_t i = 0; i < v->count; i++) {
         const point_value *row = &v->rows[i];
-        keeps[POINT_COLOR] = keeps[POINT_COLOR] || row->color[0] || row->color[1] || row->color[2];
-        keeps[POINT_INTENSITY] = keeps[POINT_INTENSITY] || row->intensity != 0;
-        keeps[POINT_CLASS] = keeps[POINT_CLASS] || row->class != 0;
+        if (row->color[0] || row->color[1] || row->color[2])
+            zero &= ~(1U << POINT_COLOR);
+        if (row->intensity != 0)
+            zero &= ~(1U << POINT_INTENSITY);
     }
-    for (int kind = 0; kind < POINT_VALUE_KINDS; kind++) {
-        if (keeps[kind])
-            continue;
-        v->kinds &= ~(1U << kind);
-        for (size_t i = 0; i < v->count; i++)
-            v->rows[i].has[kind] = false;
-    }
+    v->kinds &= ~zero;
+    for (size_t i = 0; zero && i < v->count; i++)
+        for (int kind = 0; kind < POINT_VALUE_KINDS; kind++)
+            v->rows[i].has[kind] &= !(zero >> kind & 1);
+    if (zero)
+        snprintf(file->out->column_note, sizeof file->out->column_note,
+                 "%s are zero in every point and are treated as missing", words[zero]);
 }
 
 void cloud_finish_values(cloud_file *file)
 {
     point_values *v = &file->out->values;
-    if (file->zero_is_missing)
-        discard_zero_kinds(v);
     if (v->kinds == 0)
         cloud_discard_values(file);
     if (!(v->kinds >> POINT_COLOR & 1))

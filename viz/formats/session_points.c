@@ -144,7 +144,7 @@ static char *join_file_path(const char *folder, const char *file)
 static void write_values_note(session_loader *s, const char *name)
 {
     char beyond[CLOUD_OUT_OF_RANGE_TEXT];
-    const char *columns = s->points.column_note ? s->points.column_note : "";
+    const char *columns = s->points.column_note;
     cloud_describe_out_of_range(s->points.out_of_range, beyond);
     if (*columns || *beyond)
         snprintf(s->note, sizeof s->note, "%.200s: %s%s%s", name, columns, *columns && *beyond ? "; " : "", beyond);

@@ -20,7 +20,7 @@ typedef struct inspection {
     point_values values;     /* colours, intensities and classes, indexed by point id */
     size_t *classes;         /* classes[c]: number of points with class c; null if no point has a class */
     unsigned color_full;     /* the full scale of a colour channel: 1, 255 or 65535; 0 without colours */
-    const char *column_note;
+    char column_note[CLOUD_COLUMN_NOTE];
     size_t out_of_range[POINT_VALUE_KINDS];
 } inspection;
 

@@ -153,7 +153,7 @@ static void move_values(cloud *c, inspection *result)
     result->values = c->values;
     c->values = (point_values){0};
     result->color_full = c->color_full;
-    result->column_note = c->column_note;
+    memcpy(result->column_note, c->column_note, sizeof c->column_note);
     memcpy(result->out_of_range, c->out_of_range, sizeof c->out_of_range);
 }
 

@@ -88,7 +88,7 @@ void inspect_print_values(const inspection *i, FILE *out)
     }
     if (point_values_kinds(&i->values))
         fputc('\n', out);
-    if (i->column_note)
+    if (*i->column_note)
         fprintf(out, "  columns   %s\n", i->column_note);
     if (*cloud_describe_out_of_range(i->out_of_range, beyond))
         fprintf(out, "  but       %s\n", beyond);
@@ -113,7 +113,7 @@ void inspect_write_values(const inspection *i, json_writer *w)
 {
     const value_summary s = summarize_values(&i->values);
     char beyond[CLOUD_OUT_OF_RANGE_TEXT];
-    if (point_values_kinds(&i->values) == 0 && !i->column_note &&
+    if (point_values_kinds(&i->values) == 0 && !*i->column_note &&
         !*cloud_describe_out_of_range(i->out_of_range, beyond))
         return;
     json_begin_object_member(w, "values");
@@ -136,7 +136,7 @@ void inspect_write_values(const inspection *i, json_writer *w)
         write_classes(i->classes, w);
         json_write_end_object(w);
     }
-    if (i->column_note)
+    if (*i->column_note)
         json_write_text_member(w, "columns", i->column_note);
     if (*cloud_describe_out_of_range(i->out_of_range, beyond))
         json_write_text_member(w, "left_out", beyond);

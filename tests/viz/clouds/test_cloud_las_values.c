@@ -96,7 +96,8 @@ static void las_colour_scale_follows_from_the_largest_channel(void **state)
     }
 }
 
-static void las_values_that_are_zero_in_every_point_are_missing(void **state)
+/* Class 0 means "never classified", but a colour or an intensity of zero may mean that the writer had none. */
+static void las_colours_and_intensities_that_are_zero_in_every_point_are_missing(void **state)
 {
     bytes file = make_counting(2, 2);
     (void)state;
@@ -105,12 +106,16 @@ static void las_values_that_are_zero_in_every_point_are_missing(void **state)
     assert_false(point_values_kinds(&c.values) >> POINT_COLOR & 1);
     assert_int_equal(c.color_full, 0);
     assert_true(point_values_get(&c.values, 1).has[POINT_CLASS]);
+    assert_string_equal(c.column_note, "colours are zero in every point and are treated as missing");
     cloud_release(&c);
     for (size_t i = 12; i < 26; i++)
         for (size_t record = 1; record < 3; record++)
             file.data[file.size - 26 * record + i] = 0;
     c = read_cloud(&file);
-    assert_int_equal(c.values.count, 0);
+    assert_int_equal(point_values_kinds(&c.values), 1U << POINT_CLASS);
+    assert_true(point_values_get(&c.values, 1).has[POINT_CLASS]);
+    assert_false(point_values_get(&c.values, 1).has[POINT_INTENSITY]);
+    assert_string_equal(c.column_note, "colours and intensities are zero in every point and are treated as missing");
     cloud_release(&c);
 }
 
@@ -120,7 +125,7 @@ int main(void)
         cmocka_unit_test(las_has_values_where_the_point_format_has_them),
         cmocka_unit_test(las_classes_have_five_bits_or_eight),
         cmocka_unit_test(las_colour_scale_follows_from_the_largest_channel),
-        cmocka_unit_test(las_values_that_are_zero_in_every_point_are_missing),
+        cmocka_unit_test(las_colours_and_intensities_that_are_zero_in_every_point_are_missing),
     };
     return cmocka_run_group_tests_name("cloud_las values", tests, NULL, NULL);
 }
