@@ -201,6 +201,7 @@ static bool open_writer(file_writer *file, const char *path, const char *ending,
     const int reason = errno;
     error_set(error, "%s: cannot be written: %s", path, strerror(reason));
     free(file->temp);
+    *file = (file_writer){.path = path};
     errno = reason;
     return false;
 }

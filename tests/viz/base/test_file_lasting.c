@@ -77,6 +77,16 @@ static void other_files_are_not_waited_for(void **state)
     assert_true(written && holds(sync_seen.path, "new"));
 }
 
+static void writer_that_could_not_be_opened_can_be_discarded(void **state)
+{
+    file_writer file;
+    octreel_error error;
+    const char *path = temp_file(*state, "missing/a");
+    assert_false(file_writer_open(&file, path, &error));
+    assert_null(file.temp);
+    assert_false(file_writer_discard(&file));
+}
+
 static void a_disk_that_fails_leaves_the_old_file(void **state)
 {
     bool written;
@@ -125,6 +135,7 @@ int main(void)
         IN_A_FOLDER(a_disk_that_fails_leaves_the_old_file),
         IN_A_FOLDER(a_file_system_that_cannot_sync_is_written_all_the_same),
         IN_A_FOLDER(copies_that_last_are_synced_too),
+        IN_A_FOLDER(writer_that_could_not_be_opened_can_be_discarded),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
