@@ -41,15 +41,19 @@ static bool pipe_write(int pipe, const void *bytes, size_t size)
     return true;
 }
 
-/* Read exactly `size` bytes. False when the other end is closed. */
+/* Read exactly `size` bytes. False on an error, and with an errno of 0 if the other end is closed. */
 static bool pipe_read(int pipe, void *bytes, size_t size)
 {
     for (char *at = bytes; size > 0;) {
         const ssize_t got = read(pipe, at, size);
-        if (got == 0 || (got < 0 && errno != EINTR))
+        if (got < 0 && errno == EINTR)
+            continue;
+        if (got == 0 || (got < 0 && errno == ECONNRESET)) /* reset: closed with bytes that nobody has read */
+            errno = 0;
+        if (got <= 0)
             return false;
-        at += got > 0 ? got : 0;
-        size -= got > 0 ? (size_t)got : 0;
+        at += got;
+        size -= (size_t)got;
     }
     return true;
 }
@@ -66,6 +70,7 @@ typedef enum message_kind {
     MESSAGE_STEP,   /* a tick was filmed; the bytes are its line of ticks.jsonl */
     MESSAGE_FAILED, /* the job failed; the bytes are an octreel_error */
     MESSAGE_ENDED,  /* job 0 filmed its last tick or was stopped; the bytes are its frame_checks */
+    MESSAGE_NONE,   /* the job ended without a further message */
 } message_kind;
 
 typedef struct message {
@@ -94,7 +99,7 @@ typedef struct job {
 static void wait_for_session(job *self)
 {
     if (!self->has_session && !pipe_read(self->pipe, &self->session, sizeof self->session))
-        _exit(EXIT_SUCCESS);
+        _exit(errno == 0 ? EXIT_SUCCESS : EXIT_FAILURE);
     self->has_session = true;
 }
 
@@ -207,8 +212,8 @@ static void stop_jobs(job_pool *pool)
     pool->stopped = true;
 }
 
-/* Read the next message of a job. If the caller's watcher stops the recording during the wait, stop all jobs. */
-static bool read_message(job_pool *pool, const job *j, message *m)
+/* Wait until a job sends something or ends. If the caller's watcher stops the recording meanwhile, stop all jobs. */
+static void wait_for_job(job_pool *pool, const job *j)
 {
     enum { PATIENCE = 50 }; /* milliseconds between two calls of the watcher */
     while (!pool->stopped) {
@@ -217,27 +222,73 @@ static bool read_message(job_pool *pool, const job *j, message *m)
         else if (pipe_poll(j->pipe, PATIENCE))
             break;
     }
+}
+
+/* Read the next message of a job: MESSAGE_NONE if the job has ended. */
+static bool read_message(job_pool *pool, const job *j, message *m, octreel_error *error)
+{
+    wait_for_job(pool, j);
     free(pool->bytes);
     pool->bytes = NULL;
-    return pipe_read(j->pipe, m, sizeof *m) && (pool->bytes = malloc(m->size + 1)) &&
-           pipe_read(j->pipe, pool->bytes, m->size);
+    if (pipe_read(j->pipe, m, sizeof *m)) {
+        pool->bytes = malloc(m->size + 1);
+        if (!pool->bytes)
+            return error_no_memory(error);
+        if (pipe_read(j->pipe, pool->bytes, m->size))
+            return true;
+    }
+    m->kind = MESSAGE_NONE;
+    return errno == 0 || error_set(error, "cannot read the ticks of a job: %s", strerror(errno));
+}
+
+/* Wait for the end of a job. Its socket is closed first, which ends a job that waits for the starter. Returns false if
+ * its status is unknown. */
+static bool wait_for_end(job *j, int *status)
+{
+    pid_t ended;
+    close(j->pipe);
+    while ((ended = waitpid(j->pid, status, 0)) < 0 && errno == EINTR)
+        continue;
+    j->pid = 0;
+    j->pipe = -1;
+    return ended > 0;
 }
 
 /* Called if a job ended before its last tick. Returns true if the job was stopped, false with an error if it failed. */
 static bool explain_end(job_pool *pool, unsigned i, octreel_error *error)
 {
     int status = 0;
-    pid_t ended;
-    while ((ended = waitpid(pool->jobs[i].pid, &status, 0)) < 0 && errno == EINTR)
-        continue;
-    pool->jobs[i].pid = 0;
-    if (ended > 0 && WIFEXITED(status) && WEXITSTATUS(status) == EXIT_SUCCESS)
+    const bool known = wait_for_end(&pool->jobs[i], &status);
+    if (known && WIFEXITED(status) && WEXITSTATUS(status) == EXIT_SUCCESS)
         return true;
-    if (ended > 0 && WIFSIGNALED(status))
+    if (known && WIFSIGNALED(status))
         return error_set(error, "job %u of %u was killed by signal %d (%s); --resume records the missing ticks", i + 1,
                          pool->count, WTERMSIG(status), strsignal(WTERMSIG(status)));
     return error_set(error, "job %u of %u ended early, with status %d; --resume records the missing ticks", i + 1,
                      pool->count, WEXITSTATUS(status));
+}
+
+/* Receive the next message of a job. If the kind is not MESSAGE_STEP, the job was stopped or has filmed its last tick.
+ * Returns false with an error if the job failed. */
+static bool receive_message(job_pool *pool, unsigned i, message *m, octreel_error *error)
+{
+    frame_checks *checks = &pool->recording->summary->checks;
+    if (!read_message(pool, &pool->jobs[i], m, error))
+        return false;
+    m->step.line = pool->bytes;
+    switch (m->kind) {
+    case MESSAGE_NONE:
+        return explain_end(pool, i, error);
+    case MESSAGE_FAILED:
+        memcpy(error, pool->bytes, sizeof *error);
+        return false;
+    case MESSAGE_ENDED:
+        memcpy(checks, pool->bytes, sizeof *checks);
+        return true;
+    case MESSAGE_STEP:
+        return true;
+    }
+    return false;
 }
 
 /* Read each tick from the job that films it, until all ticks are read or the recording is stopped. */
@@ -245,43 +296,33 @@ static bool collect_ticks(job_pool *pool, octreel_error *error)
 {
     recording *r = pool->recording;
     film_share share = r->share;
-    message last;
+    message m;
     share.count = pool->count;
     for (uint64_t tick = r->share.first; tick < r->share.last; tick++) {
-        message m;
         const unsigned i = (unsigned)share_find_job(&share, tick / r->options->every, r->options->every);
-        if (!read_message(pool, &pool->jobs[i], &m))
-            return explain_end(pool, i, error);
-        if (m.kind == MESSAGE_FAILED) {
-            memcpy(error, pool->bytes, sizeof *error);
+        if (!receive_message(pool, i, &m, error))
             return false;
-        }
-        if (m.kind == MESSAGE_ENDED) { /* the job was stopped before this tick */
-            memcpy(&r->summary->checks, pool->bytes, sizeof r->summary->checks);
+        if (m.kind != MESSAGE_STEP) /* the job was stopped before this tick */
             return true;
-        }
-        m.step.line = pool->bytes;
         if (!recording_add_tick(r, &m.step, error))
             return false;
     }
-    if (!read_message(pool, &pool->jobs[0], &last))
-        return explain_end(pool, 0, error);
-    memcpy(&r->summary->checks, pool->bytes, sizeof r->summary->checks);
-    return true;
+    return receive_message(pool, 0, &m, error);
 }
 
-/* Stop the jobs and wait until they have ended. Their messages are read and dropped, because a job with a full socket
- * would wait forever. */
+/* Stop the jobs and wait until they have ended. Their messages are read and dropped, so that each job finishes its
+ * frame and does not wait for room in its socket. */
 static void end_jobs(job_pool *pool)
 {
-    char ignored;
+    char ignored[1 << 12];
+    int status;
     stop_jobs(pool);
-    for (unsigned i = 0; i < pool->count; i++) {
-        while (pipe_read(pool->jobs[i].pipe, &ignored, 1))
+    for (job *j = pool->jobs; j < pool->jobs + pool->count; j++) {
+        if (j->pid == 0)
             continue;
-        close(pool->jobs[i].pipe);
-        while (pool->jobs[i].pid > 0 && waitpid(pool->jobs[i].pid, NULL, 0) < 0 && errno == EINTR)
+        while (pipe_read(j->pipe, ignored, sizeof ignored))
             continue;
+        wait_for_end(j, &status);
     }
     free(pool->bytes);
     free(pool->jobs);
