@@ -13,7 +13,7 @@ static int join(const char *folder, bool json)
     film_options film = {.folder = folder, .watch = {progress_show, has_no_stop_signal, &p}};
     film_summary summary;
     octreel_error error;
-    block_stop_signals();
+    defer_stop_signals();
     const bool ok = join_chunks(&film, &summary, &error), whole = ok && summary.ticks == summary.total;
     progress_end(&p);
     if (!ok)
@@ -22,7 +22,7 @@ static int join(const char *folder, bool json)
         print_error("stopped; %s is unchanged", folder);
     else if (json || !is_quiet())
         film_report_joined(stdout, &summary, &film, json);
-    unblock_stop_signals();
+    deliver_stop_signal();
     return whole ? EXIT_DONE : EXIT_TROUBLE;
 }
 

@@ -119,7 +119,7 @@ static int make_page(arguments *a, const octree_session *session)
     film_summary summary;
     octreel_error error;
     a->film.watch.context = &p;
-    block_stop_signals();
+    defer_stop_signals();
     const bool ok = write_file(a, session, &summary, &error);
     progress_end(&p);
     if (ok && !is_quiet())
@@ -128,7 +128,7 @@ static int make_page(arguments *a, const octree_session *session)
         print_error("%s", error.text);
     else if (!file_is_standard_stream(a->page) && !is_quiet())
         print_page_address(a->page, summary.ticks);
-    unblock_stop_signals();
+    deliver_stop_signal();
     return ok ? EXIT_DONE : EXIT_TROUBLE;
 }
 

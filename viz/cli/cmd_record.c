@@ -87,7 +87,7 @@ static int film_to_folder(arguments *a, const octree_session *session)
     if (a->film.jobs == 0)
         a->film.jobs = film_default_jobs(session, &a->film);
     a->film.watch.context = &p;
-    block_stop_signals();
+    defer_stop_signals();
     const bool ok = film_session(session, &a->film, &summary, &error), whole = ok && summary.ticks == summary.total;
     progress_end(&p);
     if (ok && !is_quiet())
@@ -98,7 +98,7 @@ static int film_to_folder(arguments *a, const octree_session *session)
         film_report_stopped(stderr, &summary, &a->film);
     else
         print_summary(a, &summary, &p);
-    unblock_stop_signals();
+    deliver_stop_signal();
     return whole ? EXIT_DONE : EXIT_TROUBLE;
 }
 
@@ -142,7 +142,7 @@ static int film_standard_input(arguments *a)
     film_summary summary;
     octreel_error error;
     a->film.watch.context = &p;
-    block_stop_signals();
+    defer_stop_signals();
     session_stream *stream = session_stream_open(STDIN_FILENO, FILE_STANDARD_INPUT, has_no_stop_signal, NULL);
     if (!stream)
         return print_error("out of memory while reading standard input");
@@ -155,7 +155,7 @@ static int film_standard_input(arguments *a)
         film_report_notes(stderr, &summary, &a->film, session_stream_first_session(stream));
     const int status = report_stream_end(a, how, &summary, &p, &error);
     session_stream_close(stream);
-    unblock_stop_signals();
+    deliver_stop_signal();
     return status;
 }
 
@@ -277,10 +277,11 @@ const command command_record = {
         "example of the paper \"3D Spatial Partitioning and Collision Detection using Octrees\" is filmed. SESSION may "
         "be -: the session is read from standard input and filmed while another program writes it.\n",
     .more =
-        "Ctrl-C finishes the current frame and prints how to continue. When a session from standard input breaks off, "
-        "is malformed or is stopped, the ticks before that point are a complete recording. After a kill every file is "
-        "whole, and --resume completes the recording. After a power cut a file may be damaged, because files are not "
-        "synced to the disk (that would cost about 3 ms a frame); octreel verify finds such files.\n"
+        "Ctrl-C finishes the current frame and prints how to continue; after five seconds it ends the program in any "
+        "case. When a session from standard input breaks off, is malformed or is stopped, the ticks before that point "
+        "are a complete recording. After a kill every file is whole, and --resume completes the recording. After a "
+        "power cut a file may be damaged, because files are not synced to the disk (that would cost about 3 ms a "
+        "frame); octreel verify finds such files.\n"
         "\n"
         "Members of the summary that --json prints:\n"
         "\n"

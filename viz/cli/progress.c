@@ -122,35 +122,55 @@ void progress_end(progress *p)
 
 /* ---- Signals ------------------------------------------------------------------------------------------------ */
 
+enum { GRACE = 5 /* seconds */ };
+
 static const int stop_signals[] = {SIGHUP, SIGINT, SIGTERM};
 
 #define STOP_SIGNALS (sizeof stop_signals / sizeof stop_signals[0])
 
-static sigset_t blocked, mask_before; /* `blocked`: the signals that block_stop_signals() blocked */
+static struct sigaction actions_before[STOP_SIGNALS];
+static volatile sig_atomic_t stop_signal; /* the first signal that arrived; 0: none */
 
-void block_stop_signals(void)
+static void end_at_once(int alarm_signal)
 {
-    struct sigaction action;
-    sigemptyset(&blocked);
-    for (size_t i = 0; i < STOP_SIGNALS; i++)
-        if (sigaction(stop_signals[i], NULL, &action) != 0 || action.sa_handler != SIG_IGN) /* nohup ignores SIGHUP */
-            sigaddset(&blocked, stop_signals[i]);
-    sigprocmask(SIG_BLOCK, &blocked, &mask_before);
+    (void)alarm_signal;
+    signal(stop_signal, SIG_DFL);
+    raise(stop_signal);
+}
+
+static void note_stop_signal(int sent)
+{
+    if (stop_signal)
+        return;
+    stop_signal = sent;
+    signal(SIGALRM, end_at_once);
+    alarm(GRACE);
+}
+
+void defer_stop_signals(void)
+{
+    struct sigaction noting = {.sa_handler = note_stop_signal, .sa_flags = SA_RESTART};
+    sigset_t stops;
+    sigemptyset(&noting.sa_mask);
+    sigemptyset(&stops);
+    for (size_t i = 0; i < STOP_SIGNALS; i++) {
+        sigaddset(&stops, stop_signals[i]);
+        if (sigaction(stop_signals[i], NULL, &actions_before[i]) == 0 && actions_before[i].sa_handler != SIG_IGN)
+            sigaction(stop_signals[i], &noting, NULL); /* nohup ignores SIGHUP */
+    }
+    sigprocmask(SIG_UNBLOCK, &stops, NULL); /* the parent process may have blocked them */
 }
 
 bool has_no_stop_signal(void *context)
 {
-    sigset_t pending;
     (void)context;
-    if (sigpending(&pending) != 0)
-        return true;
-    for (size_t i = 0; i < STOP_SIGNALS; i++)
-        if (sigismember(&blocked, stop_signals[i]) == 1 && sigismember(&pending, stop_signals[i]) == 1)
-            return false;
-    return true;
+    return stop_signal == 0;
 }
 
-void unblock_stop_signals(void)
+void deliver_stop_signal(void)
 {
-    sigprocmask(SIG_SETMASK, &mask_before, NULL);
+    for (size_t i = 0; i < STOP_SIGNALS; i++)
+        sigaction(stop_signals[i], &actions_before[i], NULL);
+    if (stop_signal)
+        raise(stop_signal);
 }

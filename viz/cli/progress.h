@@ -36,12 +36,13 @@ void progress_end(progress *p);
 /* Returns the seconds since progress_start(). */
 double progress_seconds(const progress *p);
 
-/* Signals that stop a task between two of its steps. block_stop_signals() blocks SIGHUP, SIGINT and SIGTERM, except
- * signals that are ignored. Between steps, the task calls has_no_stop_signal(), which returns false if a blocked
- * signal is pending; as a callback it has a context, which it does not use. There is no signal handler.
- * unblock_stop_signals() delivers the pending signal, which ends the program as the sender expects. */
-void block_stop_signals(void);
+/* Signals that stop a task between two of its steps. After defer_stop_signals(), SIGHUP, SIGINT and SIGTERM are only
+ * noted, unless they are ignored. Between steps the task calls has_no_stop_signal(), which returns false if one was
+ * noted; as a callback it has a context, which it does not use. deliver_stop_signal() then ends the program as the
+ * sender expects. A task that does not stop within five seconds, for example because nobody reads its output, is ended
+ * by the signal. No system call is interrupted. Children made by fork() note signals of their own. */
+void defer_stop_signals(void);
 bool has_no_stop_signal(void *context);
-void unblock_stop_signals(void);
+void deliver_stop_signal(void);
 
 #endif

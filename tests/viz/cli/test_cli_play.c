@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /* test_cli_play.c - octreel play writes a page that plays a session without frames, and overwrites only such pages. */
 #include <ctype.h>
+#include <fcntl.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "background.h"
 #include "commands.h"
 #include "fixture.h"
 #include "page.h"
@@ -182,6 +185,24 @@ static void every_and_no_frames_contradict_each_other(void **state)
     assert_int_equal(temp_folder_count(*state), 0);
 }
 
+/* The pipe is opened, but not read: the page fills it, and the program waits for room. */
+static void signal_ends_a_page_that_nobody_reads(void **state)
+{
+    const place pipe = place_in(*state, "pipe");
+    need_pages_that_play();
+    assert_int_equal(mkfifo(pipe.path, 0600), 0);
+    background b = start_octreel("play -o %s", pipe.path);
+    alarm(60);
+    const int reader = open(pipe.path, O_RDONLY);
+    assert_true(reader >= 0);
+    kill(b.pid, SIGTERM);
+    command_result result = wait_for_end(&b);
+    alarm(0);
+    close(reader);
+    assert_int_equal(result.status, 128 + SIGTERM);
+    command_release(&result);
+}
+
 #define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
 
 int main(void)
@@ -195,6 +216,7 @@ int main(void)
         IN_FOLDER(points_that_full_leaves_refuse_are_reported),
         IN_FOLDER(only_pages_of_play_are_overwritten),
         IN_FOLDER(every_and_no_frames_contradict_each_other),
+        IN_FOLDER(signal_ends_a_page_that_nobody_reads),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
