@@ -3,7 +3,7 @@
  *
  * A number is written as the shortest text that reads back to the same double, in any locale. All text is on one line,
  * except where json_start_new_line() is called. Write errors are stored in the stream: the caller checks ferror() or
- * fclose() at the end. To write into memory, use open_memstream().
+ * fclose() at the end. To write into memory, use a text_stream.
  */
 #ifndef BASE_JSON_WRITE_H
 #define BASE_JSON_WRITE_H

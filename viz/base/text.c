@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* text.c - prints into memory, escapes text, checks UTF-8 and encodes base64. */
+#define _GNU_SOURCE /* for fopencookie(), if the system has it */
 #include "text.h"
+#include "array.h"
 
 #include <ctype.h>
 #include <inttypes.h>
@@ -9,17 +11,42 @@
 
 /* ---- Printing into memory ------------------------------------------------------------------------------------ */
 
+#ifdef __GLIBC__
+static ssize_t append_bytes(void *stream, const char *bytes, size_t size)
+{
+    text_stream *s = stream;
+    if (!array_grow(&s->text, s->size + size + 1, &s->room, 1))
+        return 0;
+    memcpy(s->text + s->size, bytes, size);
+    s->size += size;
+    s->text[s->size] = 0;
+    return (ssize_t)size;
+}
+
+/* If memory runs out, open_memstream() of glibc 2.36 leaves out a part of the text and reports no error. */
+static FILE *open_stream(text_stream *s)
+{
+    append_bytes(s, "", 0); /* the text of a stream to which nothing is printed */
+    return s->text ? fopencookie(s, "w", (cookie_io_functions_t){.write = append_bytes}) : NULL;
+}
+#else
+static FILE *open_stream(text_stream *s)
+{
+    return open_memstream(&s->text, &s->size);
+}
+#endif
+
 bool text_stream_begin(text_stream *s)
 {
     *s = (text_stream){0};
-    s->stream = open_memstream(&s->text, &s->size);
+    s->stream = open_stream(s);
     return s->stream != NULL;
 }
 
 /* fclose() may fail to allocate the final text. Then *text is null, although the stream reports no error. */
 bool text_stream_end(text_stream *s, char **text)
 {
-    const bool whole = s->stream && !ferror(s->stream);
+    const bool whole = s->stream && fflush(s->stream) == 0 && !ferror(s->stream);
     const bool ok = s->stream && fclose(s->stream) == 0 && whole && s->text;
     *text = ok && s->size ? s->text : NULL;
     if (!*text)

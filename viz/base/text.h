@@ -9,11 +9,11 @@
 #include <stdint.h>
 #include <stdio.h>
 
-/* A stream that prints into memory. */
+/* A stream that prints into memory. It must not move in memory before text_stream_end(). */
 typedef struct text_stream {
     FILE *stream; /* null: memory ran out */
     char *text;
-    size_t size;
+    size_t size, room; /* `size` is set by text_stream_end() */
 } text_stream;
 
 bool text_stream_begin(text_stream *s);
