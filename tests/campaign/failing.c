@@ -1,12 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 /* failing.c - preloaded into a program: makes the n-th allocation or system call of the program fail, or every thread
- * from the n-th on.
+ * from the n-th on, or sends SIGTERM before the n-th system call.
  *
- * FAIL_MEMORY, FAIL_CALL or FAIL_THREAD is n, and FAIL_ERROR the errno of a call. A failure creates the file FAILED
- * with its call stack. The file FAIL_SITES gets a line, with the number of the call, for each call stack that is new.
- * An allocation or call is the program's own if the innermost stack frame outside of HELPERS is in the program.
- * Allocations of the C library, libpng and jansson on behalf of the program count. Those of Mesa and of the dynamic
- * loader do not, because these end the program on failure. A program that hangs is ended.
+ * FAIL_MEMORY, FAIL_CALL, FAIL_THREAD or FAIL_SIGNAL is n, and FAIL_ERROR the errno of a call. A failure creates the
+ * file FAILED with its call stack. The file FAIL_SITES gets a line, with the number of the call, for each call stack
+ * that is new. An allocation or call is the program's own if the innermost stack frame outside of HELPERS is in the
+ * program. Allocations of the C library, libpng and jansson on behalf of the program count. Those of Mesa and of the
+ * dynamic loader do not, because these end the program on failure. A program that hangs is killed.
+ *
+ * With FAIL_SLOW the disk of a program that started jobs is slow: once it has sent something to its jobs, its next
+ * write waits until a job waits for room in a socket, or until all jobs have ended. Only calls after that write are
+ * counted.
  *
  * A stream whose transfer fails gets another file below it, which stores and returns nothing. Earlier writes are in the
  * first file, the stream's buffer is lost, and closing the stream reports the error, as on a full disk. */
@@ -19,6 +23,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <pthread.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stdatomic.h>
 #include <stdbool.h>
@@ -29,6 +34,7 @@
 #include <sys/file.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 enum { CALLS = 64, PAGES = 4096, SITES = 65536, SITE_CALLS = 8, PATIENCE = 60 /* seconds */ };
@@ -47,8 +53,11 @@ typedef struct nth {
 
 static nth memory, call, thread = {.all_later = true};
 static int call_error = EIO;
+static bool sends_signal; /* instead of failing a call */
 static const char *failed, *sites;
 static bool ready;
+static int full[2] = {-1, -1}; /* with FAIL_SLOW a pipe into which a job writes when its socket is full */
+static bool has_jobs, is_slow;
 static _Thread_local bool inside;
 
 void *__libc_malloc(size_t size);
@@ -144,6 +153,8 @@ static bool fails(nth *what, const void *caller)
     else if (number > 0 && sites)
         note_site(number);
     inside = false;
+    if (now && what == &call && sends_signal)
+        return kill(getpid(), SIGTERM) != 0;
     if (now)
         errno = what == &call ? call_error : ENOMEM;
     return now;
@@ -155,6 +166,23 @@ static unsigned long read_number(const char *name)
     return text ? strtoul(text, NULL, 10) : 0;
 }
 
+/* A timer of its own: the program may use alarm() and handle SIGALRM. */
+static void kill_after_patience(void)
+{
+    timer_t timer;
+    struct sigevent end = {.sigev_notify = SIGEV_SIGNAL, .sigev_signo = SIGKILL};
+    if (timer_create(CLOCK_MONOTONIC, &end, &timer) != 0 ||
+        timer_settime(timer, 0, &(struct itimerspec){.it_value.tv_sec = PATIENCE}, NULL) != 0)
+        abort();
+}
+
+/* The program's own alarm would end it as if it had not hung. */
+unsigned alarm(unsigned seconds)
+{
+    (void)seconds;
+    return 0;
+}
+
 __attribute__((constructor)) static void prepare(void)
 {
     void *calls[1];
@@ -163,11 +191,14 @@ __attribute__((constructor)) static void prepare(void)
     sites = getenv("FAIL_SITES");
     memory.at = read_number("FAIL_MEMORY");
     thread.at = read_number("FAIL_THREAD");
-    call.at = read_number("FAIL_CALL");
+    sends_signal = getenv("FAIL_SIGNAL");
+    call.at = read_number(sends_signal ? "FAIL_SIGNAL" : "FAIL_CALL");
     if (getenv("FAIL_ERROR"))
         call_error = (int)read_number("FAIL_ERROR");
-    alarm(PATIENCE);
-    ready = true;
+    if (getenv("FAIL_SLOW") && pipe(full) != 0)
+        abort();
+    kill_after_patience();
+    ready = full[0] < 0;
 }
 
 /* Later calls are not the program's: tests/support/program/coverage_end.c calls this. */
@@ -244,9 +275,7 @@ int pthread_create(pthread_t *made, const pthread_attr_t *how, void *(*run)(void
     X(DIR *, opendir, NULL, (const char *path), (path))                                                                \
     X(struct dirent *, readdir, NULL, (DIR * folder), (folder))                                                        \
     X(int, socketpair, -1, (int domain, int type, int protocol, int two[2]), (domain, type, protocol, two))            \
-    X(ssize_t, send, -1, (int socket, const void *bytes, size_t size, int how), (socket, bytes, size, how))            \
-    X(int, poll, -1, (struct pollfd * files, nfds_t count, int wait), (files, count, wait))                            \
-    X(pid_t, fork, -1, (void), ())
+    X(int, poll, -1, (struct pollfd * files, nfds_t count, int wait), (files, count, wait))
 
 #define PLAIN_CALL(type, name, failure, parameters, arguments)                                                         \
     type name parameters                                                                                               \
@@ -256,6 +285,30 @@ int pthread_create(pthread_t *made, const pthread_attr_t *how, void *(*run)(void
         return fails(&call, CALLER) ? failure : next arguments;                                                        \
     }
 PLAIN_CALLS(PLAIN_CALL)
+
+pid_t fork(void)
+{
+    pid_t (*next)(void);
+    find_next("fork", &next);
+    const pid_t child = fails(&call, CALLER) ? -1 : next();
+    has_jobs = child > 0; /* not in the child */
+    return child;
+}
+
+ssize_t send(int socket, const void *bytes, size_t size, int how)
+{
+    ssize_t (*next)(int, const void *, size_t, int);
+    find_next("send", &next);
+    if (fails(&call, CALLER))
+        return -1;
+    is_slow = has_jobs && full[0] >= 0;
+    if (!has_jobs && full[1] >= 0) {
+        const ssize_t sent = next(socket, bytes, size, how | MSG_DONTWAIT);
+        if (sent >= 0 || errno != EAGAIN || write(full[1], "", 1) != 1)
+            return sent;
+    }
+    return next(socket, bytes, size, how);
+}
 
 /* Reads and writes may also transfer less than requested: with EINTR they do. */
 ssize_t read(int file, void *bytes, size_t size)
@@ -345,10 +398,27 @@ size_t fread(void *restrict bytes, size_t size, size_t count, FILE *restrict str
     return next(bytes, size, count, stream);
 }
 
+static void wait_as_slow_disk(void)
+{
+    char byte;
+    if (!is_slow)
+        return;
+    is_slow = false;
+    inside = true;
+    close(full[1]); /* only jobs have the other copies */
+    while (read(full[0], &byte, 1) < 0 && errno == EINTR)
+        continue;
+    close(full[0]);
+    full[0] = full[1] = -1;
+    inside = false;
+    ready = true;
+}
+
 size_t fwrite(const void *restrict bytes, size_t size, size_t count, FILE *restrict stream)
 {
     size_t (*next)(const void *, size_t, size_t, FILE *);
     find_next("fwrite", &next);
+    wait_as_slow_disk();
     if (fails(&call, CALLER))
         spoil_writing(stream);
     return next(bytes, size, count, stream);

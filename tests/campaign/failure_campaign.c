@@ -1,16 +1,20 @@
 /* SPDX-License-Identifier: MIT */
-/* failure_campaign.c - runs octreel's commands and makes one memory allocation or one system call fail in each run.
+/* failure_campaign.c - runs octreel's commands and makes one memory allocation or one system call fail in each run, or
+ * stops the command by SIGTERM before a system call.
  *
  * Mesa's own allocations and calls are left alone. A call fails with each error in turn: I/O error, full disk, too many
- * open files, interrupted call; reads and writes may also be short.
+ * open files, interrupted call; reads and writes may also be short. In one recording by several jobs the disk is slow
+ * until the jobs wait for room in their sockets.
  *
  * A command must end with status 2 and one sentence; or, if it can work without the failed part, as in a run without a
- * failure. diff must keep its verdict, but may explain it in less detail. No command may be ended by a signal or hang.
- * A file with a final name must be the file from before the run or the one that a run without a failure writes. */
+ * failure. diff must keep its verdict, but may explain it in less detail. No command may hang, or be ended by a signal
+ * other than that SIGTERM. A file with a final name must be the file from before the run or the one that a run without
+ * a failure writes. */
 #include <errno.h>
 #include <getopt.h>
 #include <inttypes.h>
 #include <limits.h>
+#include <signal.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -66,14 +70,21 @@ static const char PREPARE[] =
     "cp -r nodes changed && cp nodes/frame_000000.png changed/frame_000002.png && "
     "sed -i '2s/\"points\": *[0-9]*/\"points\":7/' changed/ticks.jsonl && rm changed/frame_000000.png && "
     "mkdir frames frames_other && cp film/*.png frames && cp other/*.png frames_other && "
-    "printf 'frame_000001.png\\n' >list";
+    "printf 'frame_000001.png\\n' >list && "
+    "printf '{\"octreel\": \"session\", \"version\": 2, \"ticks\": 3, \"points\": [%s[0, 0, 0]], "
+    "\"queries\": [%s{\"radius\": 9, \"at\": [0, 0, 0]}]}\\n' "
+    "\"$(printf '[%d, 0, 0, 9007199254740%d], ' $(seq 100 899))\" "
+    "\"$(printf '{\"radius\": %d, \"at\": [0, 0, 0]}, ' $(seq 1001 1040))\" >long.json";
 
-/* The commands; each runs in a copy of the folder. */
+/* The commands; each runs in a copy of the folder. With "-slow" the disk is slow, and only calls after that count. A
+ * tick of long.json has a longer line than a socket has room for. */
 static const struct {
     const char *name, *line;
 } commands[] = {
     {"record", "record session.json " SMALL " --jobs 1 -o new >times"},
     {"record-jobs", "record session.json " SMALL " --jobs 2 -o new >times"},
+    {"record-jobs-long", "record long.json " SMALL " --fill integers --jobs 2 -o new >times"},
+    {"record-jobs-slow", "record long.json " SMALL " --fill integers --jobs 2 -o new >times"},
     {"record-aa", "record session.json " SMALL " --aa 2 --jobs 1 -o new >times"},
     {"record-replace", "record session.json --keys s " SMALL " --replace --jobs 1 -o film >times"},
     {"record-resume", "record --resume --jobs 1 -o half >times"},
@@ -126,30 +137,38 @@ static const struct family {
 } families[] = {
     {"memory", "FAIL_MEMORY", {ENOMEM}, 1},
     {"calls", "FAIL_CALL", {EIO, ENOSPC, EMFILE, EINTR}, 4},
+    {"signals", "FAIL_SIGNAL", {0}, 1},
 };
 
 enum { FAMILIES = sizeof families / sizeof families[0] };
 
-/* The options: of all allocations and calls of a command, number `first` and each `every`-th after it fails. With
+/* The options: of all allocations and calls of a command, number `first` and each `every`-th up to `last` fails. With
  * `sites` it is the first allocation or call of each call site, by one error; with `quick` a single one for each
  * command. */
 static struct {
-    uint64_t first, every;
+    uint64_t first, last, every;
     const char *only, *of; /* command and family; null: all */
     bool sites, quick;
-} asked = {1, 1, NULL, NULL, false, false};
+} asked = {1, MOST, 1, NULL, NULL, false, false};
 
 static void read_options(int argc, char **argv)
 {
-    static const struct option known[] = {
-        {"first", required_argument, NULL, 'f'},   {"every", required_argument, NULL, 'e'},
-        {"command", required_argument, NULL, 'c'}, {"of", required_argument, NULL, 'o'},
-        {"sites", no_argument, NULL, 's'},         {"quick", no_argument, NULL, 'q'},
-        {"help", no_argument, NULL, 'h'},          {0}};
+    static const struct option known[] = {{"first", required_argument, NULL, 'f'},
+                                          {"last", required_argument, NULL, 'l'},
+                                          {"every", required_argument, NULL, 'e'},
+                                          {"command", required_argument, NULL, 'c'},
+                                          {"of", required_argument, NULL, 'o'},
+                                          {"sites", no_argument, NULL, 's'},
+                                          {"quick", no_argument, NULL, 'q'},
+                                          {"help", no_argument, NULL, 'h'},
+                                          {0}};
     for (int option; (option = getopt_long(argc, argv, "", known, NULL)) >= 0;)
         switch (option) {
         case 'f':
             asked.first = (uint64_t)parse_whole_number("--first", optarg, 1, MOST);
+            break;
+        case 'l':
+            asked.last = (uint64_t)parse_whole_number("--last", optarg, 1, MOST);
             break;
         case 'e':
             asked.every = (uint64_t)parse_whole_number("--every", optarg, 1, MOST);
@@ -167,13 +186,15 @@ static void read_options(int argc, char **argv)
             asked.quick = true;
             break;
         case 'h':
-            puts("usage: octreel-failure-campaign [--of memory|calls] [--first N] [--every N | --sites | --quick]\n"
-                 "                                [--command NAME]\n"
-                 "Runs octreel's commands and makes one memory allocation or system call fail in each run: a command "
-                 "must\n"
-                 "report the failure or work without, and must leave no damaged file.\n"
-                 "  --of FAMILY     fail only allocations (memory) or only system calls (calls)\n"
+            puts("usage: octreel-failure-campaign [--of memory|calls|signals] [--command NAME]\n"
+                 "                                [--first N] [--last N] [--every N | --sites | --quick]\n"
+                 "Runs octreel's commands and makes one memory allocation or system call fail in each run, or stops "
+                 "the\n"
+                 "command: it must report the failure or work without, and must leave no damaged file.\n"
+                 "  --of FAMILY     fail only allocations (memory) or system calls (calls), or only send SIGTERM "
+                 "(signals)\n"
                  "  --first N       begin with the N-th allocation or call; default 1\n"
+                 "  --last N        end with the N-th; default all\n"
                  "  --every N       then fail each N-th; default 1\n"
                  "  --sites         fail each call site once\n"
                  "  --quick         fail one allocation or one call of each command\n"
@@ -191,20 +212,27 @@ static void read_options(int argc, char **argv)
 
 /* ---- One run --------------------------------------------------------------------------------------------------- */
 
-/* Run a command in "<folder>/run", a new copy of "<folder>/given". The n-th call of the kind fails; 0: none fails;
- * ULONG_MAX: none fails, and "<folder>/sites" lists the first call of each site. */
-static command_result run_one(const char *folder, const char *line, const char *variable, uint64_t n, int error)
+/* Run a line of octreel in "<folder>/run", a new copy of "<folder>/given". The n-th call of the kind fails; 0: none
+ * fails; ULONG_MAX: none fails, and "<folder>/sites" lists the first call of each site. */
+static command_result run_one(const char *folder, const char *environment, const char *line, const char *variable,
+                              uint64_t n, int error)
 {
     return run_script(
         "unset CI; cd %s && rm -rf run failed && cp -r given run && cd run && FAILED=../failed %s %s=%" PRIu64
-        " FAIL_ERROR=%d LD_PRELOAD=../failing.so %s %s",
-        folder, n == ULONG_MAX ? "FAIL_SITES=../sites" : "", variable, n, error, octreel_program(), line);
+        " FAIL_ERROR=%d %s LD_PRELOAD=../failing.so %s %s",
+        folder, n == ULONG_MAX ? "FAIL_SITES=../sites" : "", variable, n, error, environment, octreel_program(), line);
 }
 
 static bool ends_with(const char *text, const char *end)
 {
     const size_t length = strlen(text), part = strlen(end);
     return length >= part && strcmp(text + length - part, end) == 0;
+}
+
+static command_result run_command(const char *folder, size_t command, const char *variable, uint64_t n, int error)
+{
+    const char *environment = ends_with(commands[command].name, "-slow") ? "FAIL_SLOW=1" : "";
+    return run_one(folder, environment, commands[command].line, variable, n, error);
 }
 
 /* Whether a file may have any contents: an unfinished file, a file that the next command removes, and files with the
@@ -297,12 +325,15 @@ static bool is_same_output(const command_result *run, const command_result *with
 }
 
 /* Returns why a run is wrong; null: it is right. `without` is the run without a failure. */
-static const char *judge(const command_result *run, const command_result *without, const char *torn)
+static const char *judge(const command_result *run, const command_result *without, const char *torn,
+                         bool may_be_stopped)
 {
-    if (run->status >= 128)
+    if (run->status >= 128 && !(may_be_stopped && run->status == 128 + SIGTERM))
         return "was ended by a signal";
     if (*torn)
         return "left a file that is neither the old one nor a whole new one";
+    if (run->status >= 128)
+        return NULL;
     if (run->status == EXIT_FINDING && without->status == EXIT_FINDING)
         return strncmp(run->out, without->out, VERDICT) == 0 ? NULL : "gave another verdict";
     if (run->status == without->status)
@@ -330,11 +361,12 @@ static bool fail_one(const char *folder, size_t command, const struct family *fa
                      const command_result *without, size_t *findings)
 {
     char failed[600];
-    command_result run = run_one(folder, commands[command].line, family->variable, n, error);
+    command_result run = run_command(folder, command, family->variable, n, error);
     snprintf(failed, sizeof failed, "%s/failed", folder);
     const bool there = file_exists(failed);
     const place torn = there ? find_torn(folder, "") : (place){""};
-    const char *why = there ? judge(&run, without, torn.path) : NULL;
+    const bool may_be_stopped = strcmp(family->name, "signals") == 0;
+    const char *why = there ? judge(&run, without, torn.path, may_be_stopped) : NULL;
     if (why && (*findings)++ < MOST_FINDINGS)
         tell(folder, *torn.path ? torn.path : commands[command].name, family->variable, n, error, &run, why);
     command_release(&run);
@@ -354,7 +386,7 @@ static size_t fail_sites(const char *folder, size_t command, const struct family
     char path[600];
     snprintf(path, sizeof path, "%s/sites", folder);
     remove(path);
-    command_result counted = run_one(folder, commands[command].line, family->variable, ULONG_MAX, 0);
+    command_result counted = run_command(folder, command, family->variable, ULONG_MAX, 0);
     command_release(&counted);
     char *sites = file_read(path, NULL), *end = sites;
     for (uint64_t n; (n = strtoull(end, &end, 10)) > 0; runs++)
@@ -367,7 +399,7 @@ static size_t fail_sites(const char *folder, size_t command, const struct family
 static size_t fail_each(const char *folder, size_t command, const struct family *family)
 {
     size_t findings = 0, runs = 0;
-    command_result without = run_one(folder, commands[command].line, family->variable, 0, 0);
+    command_result without = run_command(folder, command, family->variable, 0, 0);
     const command_result kept = run_script("cd %s && rm -rf whole && mv run whole", folder);
     assert_int_equal(kept.status, 0);
     assert_true(without.status <= 1);
@@ -377,7 +409,7 @@ static size_t fail_each(const char *folder, size_t command, const struct family 
     if (asked.quick)
         runs = fail_one(folder, command, family, asked.first + command % 8, error_by_turns(family, command / FAMILIES),
                         &without, &findings);
-    for (uint64_t n = asked.first; n <= MOST && there; n += asked.every)
+    for (uint64_t n = asked.first; n <= asked.last && there; n += asked.every)
         for (int i = 0; i < family->error_count && there; i++, runs += there)
             there = fail_one(folder, command, family, n, family->errors[i], &without, &findings);
     printf("%-18s %5zu failures of %-6s %zu findings\n", commands[command].name, runs, family->name, findings);
@@ -428,9 +460,9 @@ static void work_is_done_if_threads_cannot_be_started(void **state)
     const temp_folder *own = *state;
     prepare(own);
     for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++) {
-        command_result with = run_one(own->name, lines[i], "FAIL_THREAD", 0, 0);
+        command_result with = run_one(own->name, "", lines[i], "FAIL_THREAD", 0, 0);
         for (uint64_t n = 1; n <= 2; n++) {
-            command_result without = run_one(own->name, lines[i], "FAIL_THREAD", n, 0);
+            command_result without = run_one(own->name, "", lines[i], "FAIL_THREAD", n, 0);
             assert_true(file_exists(place_in(own, "failed").path) || n > 1 || i == 2);
             assert_int_equal(without.status, 0);
             assert_string_equal(without.out, with.out);
