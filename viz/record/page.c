@@ -2,13 +2,15 @@
 /* page.c - writes the page of a recording or session. */
 #include "page.h"
 #include "file.h"
+#include "frame_file.h"
 #include "json_read.h"
 #include "page_html.h"
 #include "text.h"
+#include "ticks_write.h"
 
 #include <errno.h>
+#include <inttypes.h>
 #include <jansson.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/types.h>
@@ -124,6 +126,77 @@ static bool write_json_text(const char *text, size_t size, FILE *page, const cha
     return ok || error_set(error, "%s:%ju: not a JSON object; index.html cannot be written", path, line);
 }
 
+/* ---- Ticks in which nothing happens -------------------------------------------------------------------------- */
+
+/* Most ticks of a long session are like the tick before them. Such a tick is written as its scene digest, or, if it has
+ * no frame, only counted. The page restores the members that differ: the number, the frame and the scene. */
+
+/* A tick's line of ticks.jsonl without "tick", "frame" and "scene". */
+typedef struct tick_rest {
+    const char *text;
+    size_t size;
+    bool has_frame;
+    uint64_t scene; /* the scene digest if there is a frame */
+} tick_rest;
+
+/* Find the rest of a line as tick_write() writes it. Returns false for other lines, which are never repetitions. */
+static bool find_rest(const char *line, size_t size, uint64_t tick, tick_rest *rest)
+{
+    char begin[40], name[FRAME_NAME];
+    const size_t begins = (size_t)snprintf(begin, sizeof begin, "{\"tick\": %" PRIu64 ", ", tick);
+    rest->has_frame = tick_read_scene_digest(line, size, tick, &rest->scene);
+    const size_t ends = rest->has_frame ? strlen(", \"frame\": \"\", \"scene\": \"0123456789abcdef\"}\n") +
+                                              strlen(frame_print_name(tick, name))
+                                        : strlen("}\n");
+    if (size < begins + ends || memcmp(line, begin, begins) != 0 || memcmp(line + size - 2, "}\n", 2) != 0)
+        return false;
+    rest->text = line + begins;
+    rest->size = size - begins - ends;
+    return true;
+}
+
+static void write_repeated(page_writer *w)
+{
+    if (w->repeated > 0)
+        fprintf(w->out, "%" PRIu64 "\n", w->repeated);
+    w->repeated = 0;
+}
+
+/* Returns true if a tick was written as a repetition of the last one. */
+static bool write_repetition(page_writer *w, const char *line, size_t size)
+{
+    tick_rest last, rest;
+    char digest[DIGEST_TEXT];
+    if (!w->last || !find_rest(w->last, w->last_size, w->last_tick, &last) || !find_rest(line, size, w->ticks, &rest) ||
+        rest.size != last.size || memcmp(rest.text, last.text, rest.size) != 0)
+        return false;
+    w->repeated += !rest.has_frame;
+    if (!rest.has_frame)
+        return true;
+    write_repeated(w);
+    fprintf(w->out, "\"%s\"\n", digest_print(rest.scene, digest));
+    return true;
+}
+
+static bool keep_last(page_writer *w, const char *line, size_t size)
+{
+    char *copy = realloc(w->last, size + 1);
+    if (!copy)
+        return false;
+    w->last = memcpy(copy, line, size);
+    w->last[size] = 0;
+    w->last_size = size;
+    w->last_tick = w->ticks;
+    return true;
+}
+
+static bool write_tick(page_writer *w, const char *path, const char *line, size_t size, octreel_error *error)
+{
+    write_repeated(w);
+    return write_json_text(line, size, w->out, path, w->ticks + 1, error) &&
+           (keep_last(w, line, size) || error_no_memory(error));
+}
+
 /* ---- A page ------------------------------------------------------------------------------------------------- */
 
 bool page_plays(void)
@@ -131,51 +204,61 @@ bool page_plays(void)
     return page_html_plays;
 }
 
-bool page_begin(FILE *page, const char *path, const char *recording, size_t size, octreel_error *error)
+bool page_begin(page_writer *w, FILE *page, const char *path, const char *recording, size_t size, octreel_error *error)
 {
+    *w = (page_writer){.out = page};
     fwrite(page_html_head, 1, page_html_head_size, page);
     return write_json_text(recording, size, page, path, 1, error);
 }
 
-bool page_add_tick(FILE *page, const char *path, uintmax_t number, const char *line, size_t size, octreel_error *error)
+bool page_add_tick(page_writer *w, const char *path, const char *line, size_t size, octreel_error *error)
 {
-    return write_json_text(line, size, page, path, number, error);
+    const bool ok = write_repetition(w, line, size) || write_tick(w, path, line, size, error);
+    w->ticks++;
+    return ok;
 }
 
-static void begin_session(FILE *page)
+static void begin_session(page_writer *w)
 {
-    fputs("</script>\n<script type=\"application/json\" id=\"session\">", page);
+    write_repeated(w);
+    fputs("</script>\n<script type=\"application/json\" id=\"session\">", w->out);
 }
 
-static void end_session(FILE *page)
+static void end_session(page_writer *w)
 {
-    fwrite(page_html_tail, 1, page_html_tail_size, page);
+    fwrite(page_html_tail, 1, page_html_tail_size, w->out);
 }
 
-void page_end(FILE *page, const char *session, size_t size)
+void page_end(page_writer *w, const char *session, size_t size)
 {
-    begin_session(page);
+    begin_session(w);
     if (size <= PAGE_MOST_SESSION)
-        write_escaped_json(page, session, size);
-    end_session(page);
+        write_escaped_json(w->out, session, size);
+    end_session(w);
+}
+
+void page_release(page_writer *w)
+{
+    free(w->last);
+    *w = (page_writer){0};
 }
 
 /* ---- The page of a folder ----------------------------------------------------------------------------------- */
 
-static bool begin_folder_page(FILE *page, const char *path, octreel_error *error)
+static bool begin_folder_page(page_writer *w, FILE *page, const char *path, octreel_error *error)
 {
     char *text;
     size_t size;
     if (!file_read_whole(path, &text, &size, error))
         return false;
-    const bool ok = page_begin(page, path, text, size, error);
+    const bool ok = page_begin(w, page, path, text, size, error);
     free(text);
     return ok;
 }
 
 /* Add each line of ticks.jsonl to the page. A last line without a newline is ignored, because its writer was
  * interrupted. */
-static bool add_ticks(FILE *page, const char *path, octreel_error *error)
+static bool add_ticks(page_writer *w, const char *path, octreel_error *error)
 {
     char *line = NULL;
     size_t room = 0;
@@ -185,8 +268,8 @@ static bool add_ticks(FILE *page, const char *path, octreel_error *error)
     if (!ticks)
         return error_set(error, "%s: %s", path, reason);
     bool ok = true;
-    for (uintmax_t number = 1; ok && (size = getline(&line, &room, ticks)) > 0 && line[size - 1] == '\n';)
-        ok = page_add_tick(page, path, number++, line, (size_t)size, error);
+    while (ok && (size = getline(&line, &room, ticks)) > 0 && line[size - 1] == '\n')
+        ok = page_add_tick(w, path, line, (size_t)size, error);
     if (ferror(ticks))
         ok = error_set(error, "%s: cannot be read: %s", path, strerror(errno));
     fclose(ticks);
@@ -209,13 +292,13 @@ static bool copy_session(FILE *page, const char *path, octreel_error *error)
     return ok;
 }
 
-static bool end_folder_page(FILE *page, const char *path, octreel_error *error)
+static bool end_folder_page(page_writer *w, const char *path, octreel_error *error)
 {
     struct stat status;
-    begin_session(page);
+    begin_session(w);
     const bool has = stat(path, &status) == 0 && (uintmax_t)status.st_size <= PAGE_MOST_SESSION;
-    const bool ok = !has || copy_session(page, path, error);
-    end_session(page);
+    const bool ok = !has || copy_session(w->out, path, error);
+    end_session(w);
     return ok;
 }
 
@@ -223,10 +306,12 @@ static bool write_page(const char *folder, FILE *page, octreel_error *error)
 {
     char *recording = path_join(folder, "recording.json"), *ticks = path_join(folder, "ticks.jsonl"),
          *session = path_join(folder, "session.json");
+    page_writer w = {0};
     const bool ok = recording && ticks && session
-                        ? begin_folder_page(page, recording, error) && add_ticks(page, ticks, error) &&
-                              end_folder_page(page, session, error)
+                        ? begin_folder_page(&w, page, recording, error) && add_ticks(&w, ticks, error) &&
+                              end_folder_page(&w, session, error)
                         : error_no_memory(error);
+    page_release(&w);
     free(recording);
     free(ticks);
     free(session);

@@ -22,13 +22,24 @@
 /* Returns true if pages contain the program as WebAssembly. If not, pages only show frames. */
 bool page_plays(void);
 
+typedef struct page_writer {
+    FILE *out;
+    uint64_t ticks; /* number of ticks so far */
+    /* The last tick that was written as a whole line: its line of ticks.jsonl, its number, and the number of ticks
+     * without a frame that repeat it and are not yet written. */
+    char *last;
+    size_t last_size;
+    uint64_t last_tick, repeated;
+} page_writer;
+
 /* Write a page. Call page_begin() with the text of recording.json, then page_add_tick() for each line of ticks.jsonl,
- * then page_end() with the text of session.json. In error messages `path` and the line number `number` are the source
- * of the text. Returns false with an error if the text is not JSON. Write errors are left to the caller, who checks the
- * stream. */
-bool page_begin(FILE *page, const char *path, const char *recording, size_t size, octreel_error *error);
-bool page_add_tick(FILE *page, const char *path, uintmax_t number, const char *line, size_t size, octreel_error *error);
-void page_end(FILE *page, const char *session, size_t size);
+ * then page_end() with the text of session.json, and page_release() after a failure too. In error messages `path` is
+ * the source of the text. Returns false with an error if the text is not JSON. Write errors are left to the caller, who
+ * checks the stream. A tick that repeats the tick before it takes 20 bytes, or none if it has no frame. */
+bool page_begin(page_writer *w, FILE *page, const char *path, const char *recording, size_t size, octreel_error *error);
+bool page_add_tick(page_writer *w, const char *path, const char *line, size_t size, octreel_error *error);
+void page_end(page_writer *w, const char *session, size_t size);
+void page_release(page_writer *w);
 
 /* Write index.html into a recording, from the other files in its folder. An incomplete last line of ticks.jsonl is
  * ignored. An existing index.html is replaced, but stays as it is if this fails. */

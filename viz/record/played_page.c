@@ -15,13 +15,14 @@
 typedef struct playing {
     const film_options *options;
     film_summary *summary;
-    FILE *page;
+    FILE *out;
+    page_writer page;
 } playing;
 
 static bool add_tick(void *context, const film_step *step, octreel_error *error)
 {
-    const playing *p = context;
-    if (!page_add_tick(p->page, "the session's ticks", step->tick + 1, step->line, step->size, error))
+    playing *p = context;
+    if (!page_add_tick(&p->page, "the session's ticks", step->line, step->size, error))
         return false;
     p->summary->ticks++;
     watcher_report(&p->options->watch, p->summary->ticks, p->summary->total);
@@ -29,7 +30,7 @@ static bool add_tick(void *context, const film_step *step, octreel_error *error)
 }
 
 /* Begin the page with the text of recording.json for a recording without frames. */
-static bool begin_page(FILE *page, const view *v, octreel_error *error)
+static bool begin_page(playing *p, const view *v, octreel_error *error)
 {
     text_stream s;
     char *text;
@@ -37,7 +38,7 @@ static bool begin_page(FILE *page, const view *v, octreel_error *error)
         recording_write(s.stream, v, 0);
     if (!text_stream_end(&s, &text))
         return error_no_memory(error);
-    const bool ok = page_begin(page, "recording.json", text, s.size, error);
+    const bool ok = page_begin(&p->page, p->out, "recording.json", text, s.size, error);
     free(text);
     return ok;
 }
@@ -49,8 +50,8 @@ static bool play_and_write_ticks(playing *p, const octree_session *session, octr
     bool ok = playback_open(&played, session, p->options->values, &p->options->view, error);
     if (ok)
         p->summary->start = film_count_start(session, octree_game_tick(played.game));
-    ok = ok && begin_page(p->page, &played.view, error) &&
-         playback_run(&played, &all, add_tick, p, &p->options->watch, error);
+    ok =
+        ok && begin_page(p, &played.view, error) && playback_run(&played, &all, add_tick, p, &p->options->watch, error);
     playback_close(&played);
     return ok;
 }
@@ -83,10 +84,11 @@ bool write_played_page(const octree_session *session, const film_options *option
                          "or build it with clang, lld and wasi-libc");
     if (!check_size(find_least_size(session), error) || !make_session_bytes(session, options->values, &written, error))
         return false;
-    const bool ok =
-        check_size(written.size, error) && play_and_write_ticks(&(playing){options, summary, page}, session, error);
+    playing p = {.options = options, .summary = summary, .out = page};
+    const bool ok = check_size(written.size, error) && play_and_write_ticks(&p, session, error);
     if (ok)
-        page_end(page, written.bytes, written.size);
+        page_end(&p.page, written.bytes, written.size);
+    page_release(&p.page);
     free(written.bytes);
     return ok;
 }

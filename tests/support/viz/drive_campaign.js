@@ -168,8 +168,9 @@ async function check()
         fresh.step();
     if (fresh.facts() !== engine.facts())
         find(`wrong facts: ${engine.facts().slice(0, 200)} and not ${fresh.facts().slice(0, 200)}`);
-    if (withoutFrame(octreel.recording.lines[tick]) !== withoutFrame(engine.facts()))
-        find(`the page tells other facts: ${octreel.recording.lines[tick].slice(0, 200)} and not ${engine.facts().slice(0, 200)}`);
+    const told = JSON.stringify(octreel.recording.tick(tick));
+    if (withoutFrame(told) !== withoutFrame(engine.facts()))
+        find(`the page tells other facts: ${told.slice(0, 200)} and not ${engine.facts().slice(0, 200)}`);
     const shown = digestOf(engine.draw().data), scene = engine.digest();
     if (shown !== digestOf(fresh.draw().data) || scene !== fresh.digest())
         find(`wrong picture (${scene === fresh.digest() ? "of the same scene" : "of another scene"}): ${JSON.stringify(view)}`);

@@ -175,7 +175,7 @@ async function drive()
     await sayDropped("text.json", '{"octreel": "session", "version": 2, "shapes": [{"label": "<\/script><b>", "at": [0, 0, 0]}]}');
     await sayDropped("good.json", '{"octreel": "session", "version": 2, "points": [[1, 2, 3]], "keys": "ww"}');
     await until(() => octreel.recording.length === 3, "the ticks of the session that was dropped");
-    say("dropped", `${octreel.last} ${JSON.parse(octreel.recording.lines[2]).player}`);
+    say("dropped", `${octreel.last} ${octreel.recording.tick(2).player}`);
 }
 
 run(drive);

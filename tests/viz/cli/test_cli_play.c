@@ -70,7 +70,7 @@ static void default_session_becomes_a_page(void **state)
     const place page = place_in(*state, "octreel.html");
     assert_done(&result);
     assert_names_address(result.out, page.path);
-    free(read_page_containing(page.path, "{\"tick\":252,"));
+    free(read_page_containing(page.path, "{\"tick\":251,")); /* tick 252 is like it */
     assert_int_equal(temp_folder_count(*state), 1);
     command_release(&result);
 }

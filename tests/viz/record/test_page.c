@@ -10,6 +10,7 @@
 #include "commands.h"
 #include "files.h"
 #include "fixture.h"
+#include "frame_file.h"
 #include "recordings.h"
 #include "tick_lines.h"
 #include "page.h"
@@ -77,9 +78,57 @@ static char *next_line(char **at)
     return line;
 }
 
+/* The ticks of a page's facts, read as the page reads them. */
+typedef struct facts_reader {
+    char *at;
+    json_t *last; /* the last tick that has a line */
+    uint64_t tick, repeated;
+} facts_reader;
+
+/* A tick without a line of its own: the last one with another number, and another frame or none. */
+static json_t *repeat_tick(facts_reader *f)
+{
+    json_t *tick = json_copy(f->last);
+    json_object_del(tick, "frame");
+    json_object_del(tick, "scene");
+    json_object_set_new(tick, "tick", json_real((double)f->tick));
+    if (f->repeated == 0 && *f->at == '"') {
+        char name[FRAME_NAME];
+        json_object_set_new(tick, "frame", json_string(frame_print_name(f->tick, name)));
+        json_object_set_new(tick, "scene", json_stringn(next_line(&f->at) + 1, 16));
+        return tick;
+    }
+    if (f->repeated == 0)
+        f->repeated = strtoull(next_line(&f->at), NULL, 10);
+    assert_true(f->repeated-- > 0);
+    return tick;
+}
+
+/* The next tick, which the caller releases. */
+static json_t *next_tick(facts_reader *f)
+{
+    json_t *tick;
+    if (f->repeated == 0 && *f->at == '{') {
+        json_decref(f->last);
+        f->last = json_read(next_line(&f->at));
+        tick = json_incref(f->last);
+    } else {
+        tick = repeat_tick(f);
+    }
+    f->tick++;
+    return tick;
+}
+
+static void assert_all_read(facts_reader *f)
+{
+    assert_string_equal(f->at, "");
+    assert_int_equal(f->repeated, 0);
+    json_decref(f->last);
+}
+
 static void assert_embedded(const char *line, size_t number, void *context)
 {
-    json_t *written = json_read(line), *embedded = json_read(next_line(context));
+    json_t *written = json_read(line), *embedded = next_tick(context);
     if (!json_equal(written, embedded))
         fail_msg("tick %zu: the page has other facts than %s", number, line);
     json_decref(written);
@@ -98,7 +147,73 @@ static void page_has_the_facts_of_every_tick(void **state)
     assert_whole_number(json_array_get(json_member(about, "size"), 0), SMALL_WIDTH);
     assert_whole_number(json_member(about, "every"), 50);
     json_decref(about);
-    assert_int_equal(for_each_line(folder.path, assert_embedded, &at), 253);
+    facts_reader f = {.at = at};
+    assert_int_equal(for_each_line(folder.path, assert_embedded, &f), 253);
+    assert_all_read(&f);
+    free(facts);
+}
+
+/* Record a session in which nothing happens, and check the facts of its page. Returns the size of the page. */
+static size_t record_idle_ticks(void **state, const char *name, uint64_t ticks, uint64_t every)
+{
+    const place folder = place_in(*state, name);
+    octree_session session = octree_session_default();
+    film_options options = small_film(folder.path);
+    session.keys = NULL;
+    session.ticks = ticks;
+    options.every = every;
+    assert_filmed(&session, &options);
+    char *facts = facts_of(folder.path);
+    facts_reader f = {.at = facts};
+    next_line(&f.at); /* recording.json */
+    assert_int_equal(for_each_line(folder.path, assert_embedded, &f), ticks + 1);
+    assert_all_read(&f);
+    free(facts);
+    size_t size;
+    free(file_read(place_below(folder.path, "index.html").path, &size));
+    return size;
+}
+
+static void tick_in_which_nothing_happens_takes_no_room(void **state)
+{
+    const size_t one = record_idle_ticks(state, "1000", 1000, 0), nine = record_idle_ticks(state, "9000", 9000, 0);
+    assert_true(nine <= one + strlen("9"));
+    const size_t few = record_idle_ticks(state, "20", 20, 2), more = record_idle_ticks(state, "60", 60, 2);
+    assert_int_equal(more - few, 20 * strlen("\"0123456789abcdef\"\n1\n"));
+}
+
+/* Lines that only look like a repetition are embedded as they are. */
+static void other_ticks_are_embedded_as_they_are(void **state)
+{
+    static const char *const rows[] = {
+        "{\"tick\": 0, \"a\": 1}",
+        "{\"tick\": 2, \"a\": 1}",
+        "{\"a\": 1, \"tick\": 2}",
+        "{\"tick\": 3, \"a\": 1, \"frame\": \"frame_000004.png\", \"scene\": \"0123456789abcdef\"}",
+        "{\"tick\": 4, \"a\": 1, \"frame\": \"frame_000004.png\", \"scene\": \"0123456789abcde\"}",
+        "{\"tick\": 5, \"a\": 1, \"scene\": \"0123456789abcdef\", \"frame\": \"frame_000005.png\"}",
+        "{\"tick\": 6, \"a\": 1, \"b\": {\"frame\": \"frame_000006.png\", \"scene\": \"0123456789abcdef\"}}",
+        "{\"tick\": 7}",
+        "{\"tick\": 8}",
+        "{\"tick\": 9, \"a\": -0.0}",
+        "{\"tick\": 10, \"a\": 0.0}",
+        "{\"tick\": 11, \"a\": 0}",
+    };
+    enum { ROWS = sizeof rows / sizeof rows[0] };
+    char ticks[2048] = "";
+    for (int i = 0; i < ROWS; i++)
+        strcat(strcat(ticks, rows[i]), "\n");
+    const place folder = recording_of(state, ticks);
+    assert_page_written(folder.path);
+    char *facts = facts_of(folder.path), *at = facts;
+    next_line(&at);
+    for (int i = 0; i < ROWS; i++) {
+        json_t *row = json_loads(rows[i], 0, NULL);
+        char *expected = json_dumps(row, JSON_COMPACT);
+        assert_string_equal(next_line(&at), expected);
+        free(expected);
+        json_decref(row);
+    }
     assert_string_equal(at, "");
     free(facts);
 }
@@ -309,6 +424,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         IN_FOLDER(page_has_the_facts_of_every_tick),
+        IN_FOLDER(tick_in_which_nothing_happens_takes_no_room),
+        IN_FOLDER(other_ticks_are_embedded_as_they_are),
         IN_FOLDER(page_can_be_rewritten_later),
         IN_FOLDER(page_loads_no_other_file),
         IN_FOLDER(page_runs_only_scripts_whose_hashes_it_lists),

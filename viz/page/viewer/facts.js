@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* facts.js - the recording: the lines of ticks.jsonl, each parsed only when it is shown. */
+/* facts.js - the recording: the lines of ticks.jsonl, each parsed only when it is shown. A tick like the one before it
+ * has no line of its own. */
 "use strict";
 
 /* The curves: the path of the fact in a tick, and the curve's name. "own" facts are those of Octreel's tree, and are
@@ -64,12 +65,15 @@ function eventBits(names)
     return EVENTS.reduce((bits, [name], i) => names.includes(name) ? bits | 1 << i : bits, 0);
 }
 
+const frameName = tick => `frame_${String(tick).padStart(6, "0")}.png`;
+
 /* Keeps each tick as its line of text, with a few lists of numbers; parsed ticks are not kept. */
 class Recording {
     constructor(about, lines)
     {
         this.about = about;
-        this.lines = [];
+        this.lines = [];  /* for each tick the last line up to it */
+        this.scenes = []; /* of ticks without a line of their own: the scene digest, "" without a frame */
         this.events = [];
         this.filmed = []; /* for each tick the last tick up to it with a frame; -1: none */
         this.curves = CURVES.map(([path, name, of]) => ({path, name, of, values: []}));
@@ -95,17 +99,40 @@ class Recording {
         return this.lines.length;
     }
 
+    /* Add a tick's line; or the scene digest of a tick like the one before it; or the count of such ticks without a
+     * frame. */
     append(line)
     {
-        this.lines.push(line);
-        this.index(this.length - 1, this.tick(this.length - 1));
+        const value = JSON.parse(line);
+        if (typeof value === "object") {
+            this.lines.push(line);
+            this.index(this.length - 1, value);
+        } else if (typeof value === "string") {
+            this.repeat(value);
+        } else {
+            for (let i = 0; i < value; i++)
+                this.repeat("");
+        }
+    }
+
+    repeat(scene)
+    {
+        const i = this.length;
+        if (i === 0)
+            throw new SyntaxError("no tick comes before the first one");
+        this.lines.push(this.lines[i - 1]);
+        this.scenes[i] = scene;
+        this.events[i] = this.events[i - 1];
+        this.filmed[i] = scene ? i : this.filmed[i - 1];
+        for (const {values} of this.curves)
+            values[i] = values[i - 1];
     }
 
     /* The first `length` ticks. */
     cut(length)
     {
         const part = new Recording(this.about, []);
-        for (const list of ["lines", "events", "filmed"])
+        for (const list of ["lines", "scenes", "events", "filmed"])
             part[list] = this[list].slice(0, length);
         part.hasForeignNodes = this.hasForeignNodes;
         part.curves = this.curves.map(curve => ({...curve, values: curve.values.slice(0, length)}));
@@ -114,7 +141,12 @@ class Recording {
 
     tick(i)
     {
-        return JSON.parse(this.lines[i]);
+        const tick = JSON.parse(this.lines[i]), scene = this.scenes[i];
+        if (scene === undefined)
+            return tick;
+        delete tick.frame;
+        delete tick.scene;
+        return {...tick, tick: i, ...(scene && {frame: frameName(i), scene})};
     }
 
     index(i, tick)
