@@ -19,6 +19,7 @@ typedef struct arguments {
     audit_limits limits;
     output_file outputs[OUTPUTS];
     const char *folder; /* the folder of --html DIR, or null */
+    uint64_t max_ticks;
     bool json;
 } arguments;
 
@@ -58,6 +59,7 @@ static const command_option options[] = {
      .read = read_page, OPTION_VALUE(arguments, outputs[HTML].path)},
     {"junit", "FILE", "write JUnit XML with one test case for each kind of query", .read = read_file,
      OPTION_VALUE(arguments, outputs[JUNIT].path)},
+    MAX_TICKS_OPTION(arguments, max_ticks),
     JSON_OPTION(arguments, json,
                 "print JSON; a ratio of null is infinite: the true neighbour is at the target, or none was named"),
     {0},
@@ -119,7 +121,7 @@ static bool write_audit(const arguments *a, const char *path, audit_report *repo
 {
     progress p = progress_start("ticks");
     const bool done = check_files(path, a->outputs, error) &&
-                      audit_read(path, &a->limits, &(watcher){progress_show, NULL, &p}, report, error);
+                      audit_read(path, &a->limits, a->max_ticks, &(watcher){progress_show, NULL, &p}, report, error);
     progress_end(&p);
     const audit_verdict verdict = {file_display_name(path), file_kind_of(path) == KIND_RECORDING, report};
     if (!done || (a->folder && !folder_create(a->folder, error)) ||

@@ -29,6 +29,7 @@ static const command_option options[] = {
      .read = read_file, OPTION_VALUE(arguments, page)},
     {"keys", "KEYS", "play these keys instead of the session's: " KEYS_HELP, .read = read_text,
      OPTION_VALUE(arguments, keys)},
+    MAX_TICKS_OPTION(arguments, film.max_ticks),
     {.help = "How the page looks when it opens:"},
     SHARED_OPTIONS(view_option_row, arguments, view),
     {0},

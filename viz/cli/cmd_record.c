@@ -52,6 +52,7 @@ static const command_option options[] = {
      "film one chunk, the ticks from A to B - 1 (A: and :B are open ended, and B may lie beyond the last tick). "
      "Several processes or machines can film chunks into one folder; octreel join then completes the recording",
      .read = read_ticks, OPTION_VALUE(arguments, film)},
+    MAX_TICKS_OPTION(arguments, film.max_ticks),
     {"jobs", "N",
      "number of processes that film at the same time; the frames are the same for any number (default: one per core, "
      "fewer for a short session)",

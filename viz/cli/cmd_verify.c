@@ -8,11 +8,13 @@
 
 typedef struct arguments {
     renderer_choice renderer;
+    uint64_t max_ticks;
     bool json;
 } arguments;
 
 static const command_option options[] = {
     SHARED_OPTIONS(renderer_option_row, arguments, renderer),
+    MAX_TICKS_OPTION(arguments, max_ticks),
     JSON_OPTION(arguments, json, "print JSON"),
     {0},
 };
@@ -20,7 +22,8 @@ static const command_option options[] = {
 static int verify(const char *folder, const arguments *a)
 {
     progress p = progress_start("ticks");
-    const verify_options options = {.renderer = a->renderer, .watch = {progress_show, NULL, &p}};
+    const verify_options options = {
+        .renderer = a->renderer, .max_ticks = a->max_ticks, .watch = {progress_show, NULL, &p}};
     verify_report report;
     octreel_error error;
     const bool ok = verify_recording(folder, &options, &report, &error);

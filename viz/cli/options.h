@@ -7,6 +7,7 @@
 #include "json_table.h"
 #include "renderer.h"
 #include "image_compare.h"
+#include "session_file.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -93,6 +94,16 @@ command_option_reader read_quiet;  /* makes is_quiet() return true */
     {                                                                                                                  \
         "fill", "WITH", "the rasterizer; the pixels are the same (--any-renderer implies gl): one of",                 \
             .read = read_choice, OPTION_VALUE(type, member), .names = draw_fill_name, .words = draw_fill_words_at      \
+    }
+
+/* A macro's number as text. */
+#define NUMBER_AS_TEXT(number) LITERAL_AS_TEXT(number)
+#define LITERAL_AS_TEXT(number) #number
+
+#define MAX_TICKS_OPTION(type, member)                                                                                 \
+    {                                                                                                                  \
+        "max-ticks", "N", "play sessions of up to N ticks (default " NUMBER_AS_TEXT(SESSION_MOST_PLAYED) ")",          \
+            .read = read_whole, OPTION_VALUE(type, member), .min = 1, .max = SESSION_LAST_TICK                         \
     }
 
 /* Returns whether -o would accept this path. `reader` is the function that reads its value. If a surplus argument is

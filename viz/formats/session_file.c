@@ -5,6 +5,7 @@
 #include "file.h"
 #include "session_members.h"
 
+#include <inttypes.h>
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
@@ -150,6 +151,15 @@ bool session_set_keys(session_file *file, const char *keys, octreel_error *error
     free((char *)file->session.keys);
     file->session.keys = copy;
     return true;
+}
+
+bool session_check_length(const octree_session *session, uint64_t most, octreel_error *error)
+{
+    const uint64_t length = octree_session_length(session), limit = most ? most : SESSION_MOST_PLAYED;
+    return length <= limit || error_set(error,
+                                        "the session has %" PRIu64 " ticks, more than the limit of %" PRIu64
+                                        "; --max-ticks %" PRIu64 " plays it anyway",
+                                        length, limit, length);
 }
 
 void session_release(session_file *file)

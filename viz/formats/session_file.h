@@ -19,6 +19,10 @@
 /* The largest number of a tick in a file. */
 #define SESSION_LAST_TICK 1000000000
 
+/* The largest number of ticks that are played unless the caller allows more. A session of 50 bytes could otherwise keep
+ * a machine busy for hours. */
+#define SESSION_MOST_PLAYED 10000000
+
 /* The largest number of points that "sample" can generate. */
 #define SESSION_MOST_SAMPLES 100000000
 
@@ -48,6 +52,10 @@ bool session_copy(const octree_session *from, session_file *out, octreel_error *
 /* Replaces the session's keys by a copy of `keys`. If memory runs out or a key is unknown, changes nothing and
  * returns false. */
 bool session_set_keys(session_file *file, const char *keys, octreel_error *error);
+
+/* Checks that a session has at most `most` ticks after tick 0, or SESSION_MOST_PLAYED if `most` is 0. Otherwise returns
+ * false with an error that names --max-ticks. */
+bool session_check_length(const octree_session *session, uint64_t most, octreel_error *error);
 
 /* Frees the arrays of a session and zeroes the structure. The structure may be zeroed already. */
 void session_release(session_file *file);

@@ -107,7 +107,7 @@ bool film_session(const octree_session *session, const film_options *options, fi
     playback p;
     recording r = {.options = options, .summary = summary, .session = session};
     *summary = (film_summary){0};
-    if (!find_share(session, options, &r.share, error))
+    if (!session_check_length(session, options->max_ticks, error) || !find_share(session, options, &r.share, error))
         return false;
     summary->total = r.share.last - r.share.first;
     const uint64_t frames = count_frames(&r.share, options->every);

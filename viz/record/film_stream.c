@@ -34,8 +34,15 @@ static film_stream_end film_ticks_up_to(streaming *s, uint64_t tick)
     return how;
 }
 
+static bool check_length(const streaming *s, uint64_t ticks)
+{
+    return session_check_length(&(octree_session){.ticks = ticks}, s->options->max_ticks, s->error);
+}
+
 static film_stream_end film_stream_tick(streaming *s, const session_stream_tick *tick)
 {
+    if (tick->number <= s->end && !check_length(s, tick->number))
+        return FILM_STREAM_BROKEN;
     const film_stream_end how = film_ticks_up_to(s, tick->number - 1);
     if (how != FILM_STREAM_WHOLE)
         return how;
@@ -51,6 +58,8 @@ static film_stream_end film_remaining_ticks(streaming *s)
     octree_session session = *session_stream_first_session(s->from);
     session.ticks = session_stream_tick_count(s->from);
     s->end = octree_session_length(&session);
+    if (!check_length(s, s->end))
+        return FILM_STREAM_BROKEN;
     return film_ticks_up_to(s, s->end);
 }
 
@@ -85,6 +94,8 @@ film_stream_end film_stream(session_stream *from, const char *keys, const film_o
         return header == SESSION_STREAM_STOPPED ? FILM_STREAM_STOPPED : FILM_STREAM_BROKEN;
     const octree_session *start = session_stream_first_session(from);
     s.end = octree_session_length(start);
+    if (start->ticks != SESSION_ENDLESS && !check_length(&s, s.end))
+        return FILM_STREAM_BROKEN;
     film_options with_values = *options;
     with_values.values = session_stream_point_values(from);
     s.live = live_open(start, &with_values, error);

@@ -82,7 +82,8 @@ bool write_played_page(const octree_session *session, const film_options *option
         return error_set(error,
                          "this octreel was built without WebAssembly, so its pages cannot play; use octreel record, "
                          "or build it with clang, lld and wasi-libc");
-    if (!check_size(find_least_size(session), error) || !make_session_bytes(session, options->values, &written, error))
+    if (!check_size(find_least_size(session), error) || !session_check_length(session, options->max_ticks, error) ||
+        !make_session_bytes(session, options->values, &written, error))
         return false;
     playing p = {.options = options, .summary = summary, .out = page};
     const bool ok = check_size(written.size, error) && play_and_write_ticks(&p, session, error);

@@ -235,14 +235,15 @@ static bool play_session(const char *path, const octree_session *session, const 
     return done;
 }
 
-bool audit_read(const char *path, const audit_limits *limits, const watcher *watch, audit_report *report,
-                octreel_error *error)
+bool audit_read(const char *path, const audit_limits *limits, uint64_t max_ticks, const watcher *watch,
+                audit_report *report, octreel_error *error)
 {
     session_file file = {0};
     uint64_t digest;
     *report = (audit_report){.limits = *limits};
     const bool done = (file_kind_of(path) == KIND_RECORDING ? read_session_file(path, &file, &digest, error)
                                                             : session_read(path, &file, error)) &&
+                      session_check_length(&file.session, max_ticks, error) &&
                       play_session(path, &file.session, watch, report, error);
     session_release(&file);
     return done;

@@ -79,11 +79,11 @@ typedef struct audit_report {
 } audit_report;
 
 /* Replay the recording or session at a path and compare its foreign answers with the exact ones. Returns false with an
- * error on failure, and also if the session has neither answers nor foreign nodes. Release the report after a failure
- * too. `watch` may be null; its keep_going() is not called. Cost: the time to play the session. Memory: 8 bytes per
- * answer, and 48 bytes per tick and kind of query. */
-bool audit_read(const char *path, const audit_limits *limits, const watcher *watch, audit_report *report,
-                octreel_error *error);
+ * error on failure, and also if the session has neither answers nor foreign nodes, or more than `max_ticks` ticks (0:
+ * SESSION_MOST_PLAYED). Release the report after a failure too. `watch` may be null; its keep_going() is not called.
+ * Cost: the time to play the session. Memory: 8 bytes per answer, and 48 bytes per tick and kind of query. */
+bool audit_read(const char *path, const audit_limits *limits, uint64_t max_ticks, const watcher *watch,
+                audit_report *report, octreel_error *error);
 void audit_release(audit_report *report);
 
 /* Returns a percentile: the smallest ratio that `share` of all answers, such as 0.99, do not exceed. Returns 1 if there

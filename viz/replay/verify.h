@@ -62,6 +62,7 @@ typedef struct verify_report {
 
 typedef struct verify_options {
     renderer_choice renderer; /* the renderer to open; the member `fill` is ignored */
+    uint64_t max_ticks;       /* a longer session is refused; 0: SESSION_MOST_PLAYED */
     watcher watch;            /* reports the progress by ticks; its keep_going() is not called */
 } verify_options;
 
