@@ -154,11 +154,6 @@ bool cloud_read_nonblank_line(cloud_file *file, cloud_span *line)
     return false;
 }
 
-bool cloud_is_blank(char c)
-{
-    return c == ' ' || c == '\t';
-}
-
 bool cloud_read_word(cloud_span *line, cloud_span *word)
 {
     while (line->begin < line->limit && cloud_is_blank(*line->begin))

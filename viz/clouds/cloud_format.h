@@ -132,7 +132,10 @@ bool cloud_read_next_line(cloud_file *file, cloud_span *line);
 /* Read the next line that is not blank. */
 bool cloud_read_nonblank_line(cloud_file *file, cloud_span *line);
 
-bool cloud_is_blank(char c);
+static inline bool cloud_is_blank(char c)
+{
+    return c == ' ' || c == '\t';
+}
 
 /* Removes the first word from a line. Words are separated by blanks and tabs. Returns false if the line has no word. */
 bool cloud_read_word(cloud_span *line, cloud_span *word);

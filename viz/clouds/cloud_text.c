@@ -14,6 +14,7 @@
 #include "file.h"
 #include "number.h"
 
+#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -130,78 +131,61 @@ static bool read_column_names(cloud_file *file, cloud_span line, unsigned full, 
     return true;
 }
 
-/* Reports why a line does not begin with a coordinate. */
-static bool fail_coordinate(const cloud_file *file, cloud_span line, int axis)
+static cloud_span strip_comment(cloud_span line)
 {
-    const char *end;
-    double ignored;
-    cloud_span column = line;
-    if (has_only_comment(line))
-        return cloud_fail_line(file, "has %d of the three coordinates x y z", axis);
-    if (is_separator(*line.begin))
-        return cloud_fail_line(file, "column %d is empty", axis + 1);
-    read_next_column(&line, &column);
-    if (!number_parse(column.begin, column.limit, &end, &ignored) && end == column.limit)
-        return cloud_fail_at_word(file, column, "is beyond the largest double");
-    return cloud_fail_at_word(file, column, "is not a number");
+    cloud_span rest = line;
+    while (!has_only_comment(rest))
+        rest.begin++;
+    return (cloud_span){line.begin, rest.begin};
 }
 
-/* Parses the number at the start of a line. "nan" and "inf" give NaN. Sets *end to the first character after the
- * number. */
-static bool parse_coordinate(cloud_span line, const char **end, double *coordinate)
-{
-    if (number_parse(line.begin, line.limit, end, coordinate))
-        return true;
-    *coordinate = NAN;
-    return *end == line.begin && number_parse_nonfinite(line.begin, line.limit, end);
-}
-
-/* Parses the coordinates of a point and removes them from the line. All separators of a line must be the same.
- * Otherwise decimal commas, as in "1,5;2,5;3,5" or "1,5 2,5 3,5", would be read as other points. */
-static bool parse_position(const cloud_file *file, cloud_span *rest, char *separator, double position[3])
-{
-    char first = 0;
-    cloud_span line = *rest;
-    for (int axis = 0; axis < 3; axis++) {
-        cloud_span column = line;
-        const char *end;
-        if (!parse_coordinate(line, &end, &position[axis]))
-            return fail_coordinate(file, line, axis);
-        line.begin = end;
-        line.begin = skip_blanks(line);
-        if (has_only_comment(line)) {
-            *rest = line;
-            return axis == 2 || fail_coordinate(file, line, axis + 1);
-        }
-        *separator = is_separator(*line.begin) ? *line.begin : ' ';
-        if (*separator == ' ' && line.begin == end)
-            return fail_coordinate(file, column, axis);
-        if (first && *separator != first)
-            return cloud_fail_line(file, "mixes blanks, commas and semicolons between its columns");
-        first = *separator;
-        line.begin += *separator != ' ';
-        line.begin = skip_blanks(line);
-    }
-    *rest = line;
-    return true;
-}
-
-/* Removes the first column from a line. A column ends at `separator`; a separator of ' ' stands for any blank.
- * Returns false if no column is left. */
+/* Removes the first column from a line without a comment. A column ends at `separator`; a separator of ' ' stands for
+ * any blank. Returns false if no column is left. */
 static bool read_next_field(cloud_span *line, char separator, cloud_span *field)
 {
-    line->begin = skip_blanks(*line);
-    if (has_only_comment(*line))
-        return false;
-    field->begin = line->begin;
-    while (!has_only_comment(*line) && (separator == ' ' ? !cloud_is_blank(*line->begin) : *line->begin != separator))
+    field->begin = line->begin = skip_blanks(*line);
+    while (line->begin < line->limit && (separator == ' ' ? !cloud_is_blank(*line->begin) : *line->begin != separator))
         line->begin++;
     field->limit = line->begin;
-    if (!has_only_comment(*line))
-        line->begin++;
+    const bool found = field->begin < line->limit;
+    line->begin += line->begin < line->limit;
     while (field->limit > field->begin && cloud_is_blank(field->limit[-1]))
         field->limit--;
-    return true;
+    return found;
+}
+
+/* Returns the separator of a line: a comma or semicolon if one follows its first column, otherwise ' ' for blanks. */
+static char find_separator(cloud_span line)
+{
+    while (line.begin < line.limit && !cloud_is_blank(*line.begin) && !is_separator(*line.begin))
+        line.begin++;
+    line.begin = skip_blanks(line);
+    return line.begin < line.limit && is_separator(*line.begin) ? *line.begin : ' ';
+}
+
+/* Parses the coordinates of a point and removes them and the comment from the line. All separators must be the same.
+ * Otherwise decimal commas, as in "1,5;2,5;3,5" or "1,5 2,5 3,5", would be read as other points. */
+static bool parse_position(const cloud_file *file, cloud_span *line, char *separator, double position[3])
+{
+    static const char mixed[] = "mixes blanks, commas and semicolons between its columns";
+    cloud_span field;
+    *line = strip_comment(*line);
+    *separator = find_separator(*line);
+    for (int axis = 0; axis < 3; axis++) {
+        if (!read_next_field(line, *separator, &field))
+            return cloud_fail_line(file, "has %d of the three coordinates x y z", axis);
+        if (field.begin == field.limit)
+            return cloud_fail_line(file, "column %d is empty", axis + 1);
+        if (cloud_parse_coordinate(file, field, &position[axis]))
+            continue;
+        for (const char *at = field.begin; at < field.limit; at++)
+            if (cloud_is_blank(*at) || is_separator(*at))
+                return cloud_fail_line(file, "%s", mixed);
+        return false;
+    }
+    line->begin = skip_blanks(*line);
+    return *separator != ' ' || line->begin == line->limit || !is_separator(*line->begin) ||
+           cloud_fail_line(file, "%s", mixed);
 }
 
 /* Returns the number in a field, or NaN if the field is not a number. */
@@ -334,22 +318,23 @@ static void begin_reading_lines(cloud_file *file)
 }
 
 /* Returns whether a line is a single integer. A .pts file begins with such a line: the number of its points. */
-static bool is_point_count(cloud_span line, double *count)
+static bool is_point_count(cloud_span line, uint64_t *count)
 {
-    const char *end;
-    cloud_span rest = line;
-    while (rest.begin < rest.limit && '0' <= *rest.begin && *rest.begin <= '9')
-        rest.begin++;
-    const char *limit = rest.begin;
-    rest.begin = skip_blanks(rest);
-    return limit > line.begin && has_only_comment(rest) && number_parse(line.begin, limit, &end, count);
+    cloud_span field;
+    uint64_t number;
+    line = strip_comment(line);
+    if (!read_next_field(&line, ' ', &field) || !cloud_parse_count(field, &number) || skip_blanks(line) < line.limit)
+        return false;
+    *count = number;
+    return true;
 }
 
 bool cloud_text_is_recognised(cloud_file *file)
 {
     cloud_span line;
-    double position[3], count;
-    char separator = ' ';
+    uint64_t count;
+    double position[3];
+    char separator;
     begin_reading_lines(file);
     for (bool first = true; cloud_read_next_line(file, &line);) {
         line.begin = skip_blanks(line);
@@ -366,7 +351,7 @@ bool cloud_text_is_recognised(cloud_file *file)
 static bool parse_point(cloud_file *file, cloud_span line, bool named, text_columns *columns)
 {
     double numbers[CLOUD_CHANNELS];
-    char separator = ' ';
+    char separator;
     if (!parse_position(file, &line, &separator, numbers))
         return false;
     if (cloud_skip_nonfinite(file, numbers))
@@ -401,15 +386,15 @@ static bool is_comment_with_column_names(cloud_span *line)
 static bool parse_lines(cloud_file *file, text_columns *columns)
 {
     cloud_span line;
-    bool first = true, named = false, has_header = false;
-    double count = 0, points = 0;
+    bool named = false, has_header = false;
+    uint64_t count = 0, points = 0;
     size_t count_line = 0; /* the number of the line that announces the count of points; 0: no such line */
     begin_reading_lines(file);
     while (cloud_read_next_line(file, &line)) {
         cloud_report_progress(file, file->lines.number, (uint64_t)(file->lines.at - (const char *)file->bytes),
                               file->size);
         line.begin = skip_blanks(line);
-        const bool comment = has_only_comment(line);
+        const bool comment = has_only_comment(line), first = points == 0;
         if (comment && !(first && !named && is_comment_with_column_names(&line)))
             continue;
         if (first && !has_header && (comment || is_column_header(line))) {
@@ -423,13 +408,13 @@ static bool parse_lines(cloud_file *file, text_columns *columns)
         } else {
             if (!parse_point(file, line, named, columns))
                 return false;
-            first = false;
             points++;
         }
     }
     file->lines.number = count_line;
     return points >= count ||
-           cloud_fail_line(file, "announces %.0f points, but %.0f follow: the file is truncated", count, points);
+           cloud_fail_line(file, "announces %" PRIu64 " points, but %" PRIu64 " follow: the file is truncated", count,
+                           points);
 }
 
 static bool parse_text(cloud_file *file)
