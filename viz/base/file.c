@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* file.c - writes files so that a file is either complete or unchanged; locks, copies and compares files. */
 #include "file.h"
+#include "number.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -158,10 +159,35 @@ const char *file_output_display_name(const char *path)
 
 #define PART ".part"
 
+/* Returns the open file that a name such as /dev/stdout or /dev/fd/63 stands for, or -1. Such a name must not be
+ * replaced, and opening it would give the file a second position. */
+static int find_named_descriptor(const char *path)
+{
+    const char *at = strncmp(path, "/dev/fd/", 8) == 0 ? path + 8 : "";
+    uint64_t number = 0;
+    if (strcmp(path, "/dev/stdout") == 0)
+        return STDOUT_FILENO;
+    if (strcmp(path, "/dev/stderr") == 0)
+        return STDERR_FILENO;
+    return whole_number_parse(&at, INT_MAX, &number) && *at == 0 ? (int)number : -1;
+}
+
 static bool is_special_file(const char *path)
 {
     struct stat status;
-    return stat(path, &status) == 0 && !S_ISREG(status.st_mode);
+    return find_named_descriptor(path) >= 0 || (stat(path, &status) == 0 && !S_ISREG(status.st_mode));
+}
+
+/* Opens a pipe, a device or an open file for writing. Opening a pipe that no process reads would wait for a reader;
+ * instead it fails with ENXIO. */
+static FILE *open_special_file(const char *path)
+{
+    const int named = find_named_descriptor(path);
+    const int file = named >= 0 ? dup(named) : open(path, O_WRONLY | O_NONBLOCK | O_CLOEXEC);
+    FILE *stream = file >= 0 && (named >= 0 || fcntl(file, F_SETFL, 0) == 0) ? fdopen(file, "wb") : NULL;
+    if (!stream && file >= 0)
+        close(file);
+    return stream;
 }
 
 /* How a file_writer opens its file. */
@@ -175,7 +201,7 @@ typedef enum write_mode {
 static FILE *open_stream(const char *name, bool is_part, write_mode how)
 {
     if (!is_part)
-        return fopen(name, "wb");
+        return open_special_file(name);
     if (how != WRITE_UNIQUE && unlink(name) != 0 && errno != ENOENT)
         return NULL;
     return fopen(name, "wbx");
@@ -199,7 +225,9 @@ static bool open_writer(file_writer *file, const char *path, const char *ending,
     if (file->stream)
         return true;
     const int reason = errno;
-    error_set(error, "%s: cannot be written: %s", path, strerror(reason));
+    error_set(error, "%s: cannot be written: %s", path,
+              !is_part && reason == ENXIO ? "no process reads this pipe; start its reader first, or name a file"
+                                          : strerror(reason));
     free(file->temp);
     *file = (file_writer){.path = path};
     errno = reason;

@@ -91,8 +91,8 @@ typedef struct file_writer {
     bool lasting;
 } file_writer;
 
-/* Opens a writer. If the path exists and is not a regular file, but a pipe or a device for example, the writer writes
- * to it directly. */
+/* Opens a writer. A pipe, a device or an open file such as /dev/stdout is written directly. A pipe that no process
+ * reads is refused. */
 bool file_writer_open(file_writer *file, const char *path, octreel_error *error);
 
 /* Opens a writer in a folder whose contents other people may have prepared. An existing pipe, device or link at the

@@ -4,6 +4,7 @@
 
 #include <errno.h>
 #include <inttypes.h>
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,10 +21,28 @@ static bool create_folder(const char *path, octreel_error *error)
     return S_ISDIR(status.st_mode) || error_set(error, "%s: cannot create the folder: a file has this name", path);
 }
 
+/* Checks that the system accepts the path of a folder and of any file in it. mkdir() would find out too late: after
+ * the parent folders were created. */
+static bool check_path_length(const char *folder, octreel_error *error)
+{
+    const size_t longest = PATH_MAX - sizeof "/" - NAME_MAX;
+    size_t name = 0;
+    for (const char *at = folder; *at && name <= NAME_MAX; at++)
+        name = *at == '/' ? 0 : name + 1;
+    if (name > NAME_MAX)
+        return error_set(error, "%.60s...: cannot create the folder: a name in its path is longer than %d bytes",
+                         folder, NAME_MAX);
+    return strlen(folder) <= longest ||
+           error_set(error, "%.60s...: cannot create the folder: its path has %zu bytes, but at most %zu are possible",
+                     folder, strlen(folder), longest);
+}
+
 bool folder_create(const char *folder, octreel_error *error)
 {
     if (!*folder)
         return error_set(error, "the folder's name is empty");
+    if (!check_path_length(folder, error))
+        return false;
     char *path = strdup(folder);
     if (!path)
         return error_no_memory(error);

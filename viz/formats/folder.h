@@ -7,7 +7,8 @@
 
 #include <stdint.h>
 
-/* Creates the folder and its parent folders, unless they exist. */
+/* Creates the folder and its parent folders, unless they exist. Returns false with an error. A path that is too long is
+ * refused before any folder is created. */
 bool folder_create(const char *folder, octreel_error *error);
 
 /* Creates the folder for a recording. Returns false with an error if the folder already contains a recording or

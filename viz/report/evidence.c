@@ -105,8 +105,8 @@ static bool check_folder_is_not_side(const char *folder, const diff_side *side, 
 
 static bool has_marker(const char *folder)
 {
-    char text[sizeof marker_beginning] = "", *path = path_join(folder, MARKER);
-    FILE *file = path ? fopen(path, "rb") : NULL;
+    char text[sizeof marker_beginning] = "", ignored[FILE_REASON], *path = path_join(folder, MARKER);
+    FILE *file = path ? file_open(path, NULL, ignored) : NULL;
     free(path);
     if (!file)
         return false;

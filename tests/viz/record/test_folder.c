@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* test_folder.c - the folder of a recording is made with its parents, refused unchanged, or filled with whole files. */
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -165,6 +166,35 @@ static void assert_written(const char *folder, const char *name, const char *tex
     free(back);
 }
 
+/* mkdir() notices that a path is too long only after its parents were created. */
+static void folder_with_too_long_a_path_is_refused_before_any_is_made(void **state)
+{
+    enum { LONGEST = 4095 - 256 }; /* PATH_MAX without its zero, a slash and a file name */
+    static char path[PATH_MAX + 300];
+    octreel_error error = {""};
+    const temp_folder *folder = *state;
+    const int start = snprintf(path, sizeof path, "%s/", folder->name);
+    for (int at = start; at < LONGEST; at++)
+        path[at] = (at - start) % 100 == 99 ? '/' : 'x';
+    strcpy(path + LONGEST, "y");
+    assert_false(folder_create(path, &error));
+    assert_contains(error.text, "cannot create the folder: its path has 3840 bytes, but at most 3839 are possible");
+    assert_int_equal(temp_folder_count(folder), 0);
+}
+
+static void folder_with_too_long_a_name_is_refused_before_its_parents_are_made(void **state)
+{
+    char path[600];
+    octreel_error error = {""};
+    const temp_folder *folder = *state;
+    const int start = snprintf(path, sizeof path, "%s/a/b/", folder->name);
+    memset(path + start, 'x', NAME_MAX + 1);
+    strcpy(path + start + NAME_MAX + 1, "/c");
+    assert_false(folder_create(path, &error));
+    assert_contains(error.text, ": cannot create the folder: a name in its path is longer than 255 bytes");
+    assert_int_equal(temp_folder_count(folder), 0);
+}
+
 static void files_are_written_and_replaced_whole(void **state)
 {
     const temp_folder *folder = *state;
@@ -224,6 +254,8 @@ int main(void)
         IN_FOLDER(empty_name_and_folder_that_cannot_be_made_are_refused),
         IN_FOLDER(folder_without_permission_is_refused_with_the_reason),
         IN_FOLDER(reason_is_not_cut_after_a_long_path),
+        IN_FOLDER(folder_with_too_long_a_path_is_refused_before_any_is_made),
+        IN_FOLDER(folder_with_too_long_a_name_is_refused_before_its_parents_are_made),
         IN_FOLDER(files_are_written_and_replaced_whole),
         IN_FOLDER(unwritable_file_leaves_the_old_file_and_no_part),
         IN_FOLDER(file_without_its_folder_is_an_error),
