@@ -125,20 +125,6 @@ bool file_copy_prepare(file_writer *file, const char *from, const char *to, octr
  * path. */
 bool file_copy_unique(const char *from, const char *to, octreel_error *error);
 
-/* An output file that the user names on the command line. It must not overwrite an input or another output. */
-typedef struct output_file {
-    const char *option; /* the option as the user typed it, such as "-o" */
-    const char *path;   /* the path that follows the option; null: the option was not given */
-} output_file;
-
-/* Checks that an output is not the input file. Returns false with an error if both have the same device and inode, even
- * if their paths differ. "-" and files that are not regular, such as pipes, may be both input and output. */
-bool check_output_is_not_input(const output_file *output, const char *input, octreel_error *error);
-
-/* Checks that no two outputs are the same file, even if the file does not exist yet, and that at most one output is
- * "-". Returns false with an error. */
-bool check_outputs_differ(const output_file *outputs, size_t count, octreel_error *error);
-
 /* have_same_bytes() returns whether both paths are regular files with the same bytes; it returns false for "-".
  * have_same_file() compares the files of one name in two folders; if memory runs out, it returns false and sets errno
  * to ENOMEM. */

@@ -2,6 +2,7 @@
 /* cmd_accept.c - octreel accept: makes new frames the reference. */
 #include "command.h"
 #include "accept.h"
+#include "outputs.h"
 
 #include <limits.h>
 #include <stdio.h>
@@ -10,7 +11,7 @@
 
 typedef struct arguments {
     const char *from, *date, *reason, *store;
-    bool variant, json;
+    bool variant, json, force;
 } arguments;
 
 static bool read_date(const command_option *option, const char *text, void *into)
@@ -34,6 +35,7 @@ static const command_option options[] = {
      "also save the pictures in DIR, each under the digest of its pixels, so that octreel diff --store can show what "
      "was expected",
      .read = read_folder, OPTION_VALUE(arguments, store)},
+    FORCE_OPTION(arguments, force, "save pictures in DIR even if it is or contains the current folder"),
     JSON_OPTION(arguments, json, "print a summary as JSON, with the names of all changed frames"),
     {.help = "Baselines. A baseline is a text file for git with one digest for each frame and the reason for each "
              "change; octreel help baseline describes it:"},
@@ -90,6 +92,8 @@ static int run(int argc, char **argv)
         return print_error("--date needs --reason TEXT");
     if (a.from && file_is_standard_stream(a.from) && file_is_standard_stream(argv[optind + 1]))
         return print_error("\"-\" is given twice, but standard input can be read only once");
+    if (!check_outputs(&(output_file){"--store", NULL, a.store}, 1, NULL, 0, false, a.force))
+        return EXIT_TROUBLE;
     return accept_listed(&a, argv + optind, argc - optind);
 }
 

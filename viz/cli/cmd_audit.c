@@ -5,6 +5,7 @@
 #include "file.h"
 #include "file_kind.h"
 #include "folder.h"
+#include "outputs.h"
 #include "progress.h"
 
 #include <stdio.h>
@@ -18,9 +19,8 @@ enum { HTML, JUNIT, OUTPUTS };
 typedef struct arguments {
     audit_limits limits;
     output_file outputs[OUTPUTS];
-    const char *folder; /* the folder of --html DIR, or null */
     uint64_t max_ticks;
-    bool json;
+    bool json, force;
 } arguments;
 
 static bool read_limits(const command_option *option, const char *text, void *into)
@@ -60,24 +60,13 @@ static const command_option options[] = {
     {"junit", "FILE", "write JUnit XML with one test case for each kind of query", .read = read_file,
      OPTION_VALUE(arguments, outputs[JUNIT].path)},
     MAX_TICKS_OPTION(arguments, max_ticks),
+    FORCE_OPTION(arguments, force, FORCE_FILES),
     JSON_OPTION(arguments, json,
                 "print JSON; a ratio of null is infinite: the true neighbour is at the target, or none was named"),
     {0},
 };
 
 /* ---- Files -------------------------------------------------------------------------------------------------- */
-
-/* Checks that no output overwrites an input or another output. */
-static bool check_files(const char *path, const output_file outputs[OUTPUTS], octreel_error *error)
-{
-    char *session = path_join(path, "session.json");
-    bool ok = session ? check_outputs_differ(outputs, OUTPUTS, error) : error_no_memory(error);
-    for (int i = 0; ok && i < OUTPUTS; i++)
-        ok = check_output_is_not_input(&outputs[i], path, error) &&
-             check_output_is_not_input(&outputs[i], session, error);
-    free(session);
-    return ok;
-}
 
 /* Prints a verdict to the file `out`. Relative links start at `from`, the folder of that file. Returns false if
  * memory runs out. */
@@ -120,11 +109,11 @@ static void print_verdict(const arguments *a, const audit_verdict *verdict)
 static bool write_audit(const arguments *a, const char *path, audit_report *report, octreel_error *error)
 {
     progress p = progress_start("ticks");
-    const bool done = check_files(path, a->outputs, error) &&
-                      audit_read(path, &a->limits, a->max_ticks, &(watcher){progress_show, NULL, &p}, report, error);
+    const char *folder = a->outputs[HTML].folder;
+    const bool done = audit_read(path, &a->limits, a->max_ticks, &(watcher){progress_show, NULL, &p}, report, error);
     progress_end(&p);
     const audit_verdict verdict = {file_display_name(path), file_kind_of(path) == KIND_RECORDING, report};
-    if (!done || (a->folder && !folder_create(a->folder, error)) ||
+    if (!done || (folder && !folder_create(folder, error)) ||
         !write_file(a->outputs[HTML].path, audit_print_page, &verdict, error) ||
         !write_file(a->outputs[JUNIT].path, print_junit, &verdict, error))
         return false;
@@ -143,19 +132,20 @@ static int audit(const arguments *a, const char *path)
 
 static int run(int argc, char **argv)
 {
-    arguments a = {.outputs = {[HTML] = {"--html", NULL}, [JUNIT] = {"--junit", NULL}}};
-    const char **html = &a.outputs[HTML].path;
+    arguments a = {.outputs = {[HTML] = {.option = "--html"}, [JUNIT] = {.option = "--junit"}}};
+    output_file *html = &a.outputs[HTML];
     char *page = NULL;
     int status = command_read_arguments(&command_audit, &a, argc, argv);
     if (status != COMMAND_GO_ON)
         return status;
-    if (!check_standard_output(a.outputs, OUTPUTS, a.json))
-        return EXIT_TROUBLE;
-    if (*html && !is_page(*html)) {
-        a.folder = *html;
-        *html = page = path_join(a.folder, AUDIT_PAGE);
+    if (html->path && !is_page(html->path)) {
+        html->folder = html->path;
+        html->path = page = path_join(html->folder, AUDIT_PAGE);
     }
-    status = a.folder && !page ? print_error("out of memory") : audit(&a, argv[optind]);
+    if (html->folder && !page)
+        return print_error("out of memory");
+    status =
+        check_outputs(a.outputs, OUTPUTS, argv + optind, 1, a.json, a.force) ? audit(&a, argv[optind]) : EXIT_TROUBLE;
     free(page);
     return status;
 }

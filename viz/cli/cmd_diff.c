@@ -6,6 +6,7 @@
 #include "hint.h"
 #include "ignored_layers.h"
 #include "number.h"
+#include "outputs.h"
 #include "picture_store.h"
 #include "report.h"
 #include "text.h"
@@ -15,19 +16,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The output files. PAGE is report.html in the folder of --output and stands for the whole folder. */
+/* The outputs. PAGE is report.html in the folder of --output. */
 enum { PAGE, JUNIT, MARKDOWN, OUTPUTS };
 
 typedef struct arguments {
     diff_options options;
-    unsigned layers;              /* bits 1 << view_layer of the ignored layers */
-    image_rectangle *ignored;     /* owned */
-    output_file outputs[OUTPUTS]; /* [PAGE] is the page in `folder` */
-    const char *folder, *store;   /* the values of --output and --store; null: not given */
-    uint64_t causes;              /* the number of differing frames and ticks to explain */
-    bool has_causes;              /* --causes was given */
-    size_t lines;                 /* the number of groups that are listed; at least the value of --causes */
-    bool json, each, annotate;
+    unsigned layers;          /* bits 1 << view_layer of the ignored layers */
+    image_rectangle *ignored; /* owned */
+    output_file outputs[OUTPUTS];
+    const char *store; /* the value of --store; null: not given */
+    uint64_t causes;   /* the number of differing frames and ticks to explain */
+    bool has_causes;   /* --causes was given */
+    size_t lines;      /* the number of groups that are listed; at least the value of --causes */
+    bool json, force, each, annotate;
 } arguments;
 
 static bool read_delta(const command_option *option, const char *text, void *into)
@@ -131,7 +132,8 @@ static const command_option options[] = {
      "write evidence into DIR: report.html, one page with everything, in which you tick findings for octreel accept "
      "--from; for the first frame of each finding NAME.expected.png, NAME.actual.png and NAME.difference.png "
      "(different pixels glow, even by one level; tolerated pixels are blue); and contact.png, small copies of all",
-     .read = read_folder, OPTION_VALUE(arguments, folder)},
+     .read = read_folder, OPTION_VALUE(arguments, outputs[PAGE].folder)},
+    FORCE_OPTION(arguments, force, FORCE_FILES),
     JSON_OPTION(arguments, json, "print JSON; share/octreel/diff.schema.json describes it"),
     {"junit", "FILE", "write JUnit XML, one test case for each frame, for GitLab, Jenkins and GitHub",
      .read = read_file, OPTION_VALUE(arguments, outputs[JUNIT].path)},
@@ -190,11 +192,12 @@ static int write_reports(const arguments *a, diff_report *all)
     static const int statuses[] = {
         [DIFF_SAME] = EXIT_DONE, [DIFF_DIFFERENT] = EXIT_FINDING, [DIFF_TROUBLE] = EXIT_TROUBLE};
     const diff_verdict verdict = explanation_verdict(all->why, all->result);
+    const char *folder = a->outputs[PAGE].folder;
     evidence e = {.folder = NULL};
     octreel_error error;
     bool ok = true;
-    if (a->folder) {
-        ok = evidence_collect(&e, a->folder, all->result, all->groups, &error);
+    if (folder) {
+        ok = evidence_collect(&e, folder, all->result, all->groups, &error);
         all->evidence = &e;
         ok = ok && contact_sheet_write(all, &error) && diff_report_page(all, &error);
     }
@@ -210,21 +213,12 @@ static int write_reports(const arguments *a, diff_report *all)
     return verdict == DIFF_TROUBLE ? print_first_error(all->result, all->why) : statuses[verdict];
 }
 
-/* Checks that no output overwrites a compared file or another output. */
-static bool check_files(const arguments *a, const diff_side sides[2], octreel_error *error)
-{
-    bool ok = check_outputs_differ(a->outputs, OUTPUTS, error);
-    for (size_t i = 0; ok && i < OUTPUTS; i++)
-        ok = diff_side_check_output(&sides[0], &a->outputs[i], error) &&
-             diff_side_check_output(&sides[1], &a->outputs[i], error);
-    return ok;
-}
-
 /* Checks everything that can be checked before the folder of evidence is changed. */
 static bool check_before_writing(const arguments *a, const diff_side sides[2], octreel_error *error)
 {
-    return diff_check(&sides[0], &sides[1], &a->options, error) && check_files(a, sides, error) &&
-           (!a->folder || evidence_prepare(a->folder, &sides[0], &sides[1], error));
+    const char *folder = a->outputs[PAGE].folder;
+    return diff_check(&sides[0], &sides[1], &a->options, error) &&
+           (!folder || evidence_prepare(folder, &sides[0], &sides[1], error));
 }
 
 static int compare(const arguments *a, const char *paths[2])
@@ -256,22 +250,23 @@ static int compare(const arguments *a, const char *paths[2])
 static int run(int argc, char **argv)
 {
     arguments a = {.options = diff_options_default(),
-                   .outputs = {{"-o", NULL}, {"--junit", NULL}, {"--markdown", NULL}},
+                   .outputs = {{.option = "-o"}, {.option = "--junit"}, {.option = "--markdown"}},
                    .causes = EXPLAIN_DEFAULT};
     int status = command_read_arguments(&command_diff, &a, argc, argv);
     a.annotate = a.annotate || getenv("GITHUB_ACTIONS");
     a.lines = a.has_causes && a.causes > LIST_LINES ? (size_t)a.causes : LIST_LINES;
-    if (a.folder && !a.has_causes)
+    output_file *page = &a.outputs[PAGE];
+    if (page->folder && !a.has_causes)
         a.causes = DIFF_REPORT_PAGE_FRAMES; /* the page shows this many frames, each with its cause */
-    char *page = a.folder ? path_join(a.folder, EVIDENCE_PAGE) : NULL;
-    a.outputs[PAGE].path = page;
-    if (status == COMMAND_GO_ON && a.folder && !page)
+    char *path = page->folder ? path_join(page->folder, EVIDENCE_PAGE) : NULL;
+    page->path = path;
+    if (status == COMMAND_GO_ON && page->folder && !path)
         status = print_error("out of memory");
     else if (status == COMMAND_GO_ON)
-        status = check_standard_output(a.outputs, OUTPUTS, a.json)
+        status = check_outputs(a.outputs, OUTPUTS, argv + optind, 2, a.json, a.force)
                      ? compare(&a, (const char *[]){argv[optind], argv[optind + 1]})
                      : EXIT_TROUBLE;
-    free(page);
+    free(path);
     free(a.ignored);
     return status;
 }

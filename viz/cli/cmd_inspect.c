@@ -13,6 +13,7 @@
 #include "octree/octree.h"
 #include "point_scale.h"
 #include "number.h"
+#include "outputs.h"
 #include "point_world.h"
 #include "progress.h"
 #include "query_options.h"
@@ -33,7 +34,7 @@ typedef struct arguments {
     const char *node; /* the address of the node to print, or null */
     query_options queries;
     octree_def def;
-    bool has_world, json;
+    bool has_world, json, force;
     view_options view_options;
     view view;
     renderer_choice renderer;
@@ -102,6 +103,7 @@ static const command_option options[] = {
      .read = read_node, OPTION_VALUE(arguments, node)},
     {"nodes", "FILE.csv", "write all nodes as CSV; - is standard output, and the report then goes to standard error",
      .read = read_file, OPTION_VALUE(arguments, outputs[NODES].path)},
+    FORCE_OPTION(arguments, force, FORCE_FILES),
     SHARED_OPTIONS(query_option_row, arguments, queries),
     JSON_OPTION(arguments, json, "print JSON; it lists every point of an answer"),
     {.help = "How the picture looks:"},
@@ -278,21 +280,9 @@ static bool check_picture(const arguments *a)
     return refuse("--%s changes the picture, but no picture is drawn: add -o FILE.png", first);
 }
 
-/* Checks that no output is the cloud, and that the outputs are different files. */
-static bool check_outputs(const arguments *a)
-{
-    octreel_error error;
-    if (!check_standard_output(a->outputs, OUTPUTS, a->json))
-        return false;
-    return (check_outputs_differ(a->outputs, OUTPUTS, &error) &&
-            check_output_is_not_input(&a->outputs[PICTURE], a->cloud, &error) &&
-            check_output_is_not_input(&a->outputs[NODES], a->cloud, &error)) ||
-           refuse("%s", error.text);
-}
-
 static int run(int argc, char **argv)
 {
-    arguments a = {.outputs = {[PICTURE] = {"-o", NULL}, [NODES] = {"--nodes", NULL}},
+    arguments a = {.outputs = {[PICTURE] = {.option = "-o"}, [NODES] = {.option = "--nodes"}},
                    .def = octree_def_default(),
                    .view = view_make_default(),
                    .renderer.fill = DRAW_FILL_CHECKED};
@@ -301,8 +291,8 @@ static int run(int argc, char **argv)
     if (status != COMMAND_GO_ON)
         return status;
     a.cloud = argv[optind];
-    const bool ok =
-        check_renderer(&a.renderer) && check_picture(&a) && read_view(&a.view_options, &a.view) && check_outputs(&a);
+    const bool ok = check_renderer(&a.renderer) && check_picture(&a) && read_view(&a.view_options, &a.view) &&
+                    check_outputs(a.outputs, OUTPUTS, argv + optind, 1, a.json, a.force);
     return ok ? inspect(&a) : EXIT_TROUBLE;
 }
 

@@ -3,7 +3,7 @@
 #include "command.h"
 #include "file.h"
 #include "film_report.h"
-#include "folder.h"
+#include "outputs.h"
 #include "played_page.h"
 #include "progress.h"
 #include "session_file.h"
@@ -17,7 +17,9 @@
 #include <unistd.h>
 
 typedef struct arguments {
-    const char *session, *keys, *page; /* SESSION, --keys and the page to write; null: not given */
+    char *session;           /* SESSION; null: not given */
+    const char *keys, *page; /* --keys and the page to write; null: not given */
+    bool force;
     film_options film;
     view_options view;
 } arguments;
@@ -25,8 +27,9 @@ typedef struct arguments {
 static const command_option options[] = {
     {"output", "FILE",
      "the page to write; - is standard output (default: the name of SESSION with .html, in the current folder, or "
-     "octreel.html). An existing file is overwritten only if it is such a page",
+     "octreel.html). Without --force an existing file is overwritten only if it is such a page",
      .read = read_file, OPTION_VALUE(arguments, page)},
+    FORCE_OPTION(arguments, force, FORCE_FILES),
     {"keys", "KEYS", "play these keys instead of the session's: " KEYS_HELP, .read = read_text,
      OPTION_VALUE(arguments, keys)},
     MAX_TICKS_OPTION(arguments, film.max_ticks),
@@ -46,30 +49,18 @@ static void make_page_name(const char *session, char name[NAME_MAX + 1])
     snprintf(name, NAME_MAX + 1, "%.*s.html", (int)length, base);
 }
 
-static bool is_recording_page(const char *path)
-{
-    char *folder = path_parent_folder(path);
-    const bool is =
-        folder && folder_is_recording_file(path_base_name(path)) && folder_contains(folder, "recording.json");
-    free(folder);
-    return is;
-}
-
 /* Checks that the page overwrites no other file. Only a page that this command wrote earlier may be overwritten. */
 static bool check_page(const arguments *a)
 {
-    const output_file output = {"-o", a->page};
-    octreel_error error;
-    if (file_is_standard_stream(a->page))
-        return true;
-    if (a->session && !check_output_is_not_input(&output, a->session, &error))
-        return refuse("%s", error.text);
-    if (is_recording_page(a->page))
-        return refuse("%s: is the page of a recording and is not overwritten; name another file with -o", a->page);
+    const output_file output = {.option = "-o", .path = a->page};
     struct stat status;
-    const bool there = stat(a->page, &status) == 0 && S_ISREG(status.st_mode) && status.st_size > 0;
-    return !there || file_kind_of(a->page) == KIND_PAGE ||
-           refuse("%s: exists and was not written by octreel play; name another file with -o", a->page);
+    if (!check_outputs(&output, 1, &a->session, a->session != NULL, false, a->force))
+        return false;
+    return a->force || file_is_standard_stream(a->page) || stat(a->page, &status) != 0 || !S_ISREG(status.st_mode) ||
+           status.st_size == 0 || file_kind_of(a->page) == KIND_PAGE ||
+           refuse("%s: exists and was not written by octreel play: name another file with -o, or add --force to "
+                  "overwrite it",
+                  a->page);
 }
 
 /* Prints a path as a part of a URL (RFC 3986): characters that a URL cannot contain become %XX. */

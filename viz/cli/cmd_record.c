@@ -5,6 +5,7 @@
 #include "file.h"
 #include "film_report.h"
 #include "number.h"
+#include "outputs.h"
 #include "progress.h"
 #include "recording_file.h"
 #include "folder_files.h"
@@ -21,7 +22,7 @@ typedef struct arguments {
     film_options film;
     view_options view;
     uint64_t every; /* the value of --every; 0: not given */
-    bool no_frames, json;
+    bool no_frames, json, force;
 } arguments;
 
 static bool read_ticks(const command_option *option, const char *text, void *into)
@@ -65,6 +66,7 @@ static const command_option options[] = {
      "overwrite the recording in DIR. The old recording stays until the first tick is filmed, other files in DIR stay "
      "for good, and a folder that holds no recording is refused",
      .read = read_flag, OPTION_VALUE(arguments, film.replace)},
+    FORCE_OPTION(arguments, force, "film into DIR even if it is or contains the current folder"),
     JSON_OPTION(arguments, json, "print a summary as JSON to standard output"),
     {.help = "How the frames look:"},
     SHARED_OPTIONS(view_option_row, arguments, view),
@@ -215,27 +217,6 @@ static int film_session_file(arguments *a)
     return status;
 }
 
-/* Returns whether a folder is the current folder or contains it. Frames in such a folder would mix with unrelated
- * files. */
-static bool contains_current_folder(const char *folder)
-{
-    struct stat named, here, before = {0};
-    char up[PATH_MAX] = ".";
-    bool is = false, more = stat(folder, &named) == 0;
-    for (size_t length = 1; more && !is && length + sizeof "/.." < sizeof up; before = here) {
-        more = stat(up, &here) == 0 &&
-               (length == 1 || !is_same_file(&here, &before)); /* stop at the root, which is its own parent */
-        is = more && is_same_file(&named, &here);
-        length += (size_t)snprintf(up + length, sizeof up - length, "/..");
-    }
-    return is;
-}
-
-static bool may_hold_frames(const char *folder)
-{
-    return !contains_current_folder(folder) || file_kind_of(folder) == KIND_RECORDING;
-}
-
 static int run(int argc, char **argv)
 {
     arguments a = {.film = {.view = view_make_default(),
@@ -246,10 +227,8 @@ static int run(int argc, char **argv)
         return status;
     if (!a.film.folder)
         return print_error("record needs a folder for the frames: add -o DIR");
-    if (!may_hold_frames(a.film.folder))
-        return print_error(
-            "-o needs a folder of its own, but \"%s\" is or contains the current folder: use -o frames, for example",
-            a.film.folder);
+    if (!check_outputs(&(output_file){"-o", NULL, a.film.folder}, 1, NULL, 0, false, a.force))
+        return EXIT_TROUBLE;
     if (a.film.replace && (a.film.resume || a.film.last != 0))
         return print_error("--replace starts a new recording and does not work with %s: leave out one of them",
                            a.film.resume ? "--resume" : "--ticks");

@@ -238,25 +238,6 @@ const char *draw_fill_words_at(int index)
     return words[index];
 }
 
-static size_t count_standard_outputs(const output_file *outputs, size_t count)
-{
-    size_t found = 0;
-    for (size_t i = 0; i < count; i++)
-        found += outputs[i].path && file_is_standard_stream(outputs[i].path);
-    return found;
-}
-
-bool check_standard_output(const output_file *outputs, size_t count, bool json)
-{
-    return count_standard_outputs(outputs, count) + json <= 1 ||
-           refuse("only one output can go to standard output; name files for the others");
-}
-
-bool is_standard_output_taken(const output_file *outputs, size_t count)
-{
-    return count_standard_outputs(outputs, count) > 0;
-}
-
 /* ---- Options of a view -------------------------------------------------------------------------------------- */
 
 static bool read_view_text(const command_option *option, const char *text, void *into)

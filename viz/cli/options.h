@@ -116,13 +116,6 @@ bool fits_output_option(command_option_reader *reader, const char *path);
 /* Checks that no file name is empty. Otherwise prints an error and returns false. */
 bool check_names_not_empty(const char *command, char *const *names, int count);
 
-/* Checks that at most one output is standard output. With `json`, the JSON report is such an output. Otherwise
- * prints an error and returns false. */
-bool check_standard_output(const output_file *outputs, size_t count, bool json);
-
-/* Returns whether an output file is standard output. Reports are then printed on standard error or not at all. */
-bool is_standard_output_taken(const output_file *outputs, size_t count);
-
 /* Reads a whole number that is an argument, not the value of an option. If it is invalid, prints an error and
  * returns false. */
 bool read_count(const char *name, const char *text, uint64_t min, uint64_t max, uint64_t *value);

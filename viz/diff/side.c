@@ -143,27 +143,3 @@ void diff_side_release(diff_side *side)
     free(side->frames);
     *side = (diff_side){0};
 }
-
-static bool check_recording_file(const diff_side *side, const char *name, const output_file *output,
-                                 octreel_error *error)
-{
-    char *path = path_join(side->path, name);
-    const bool ok = path ? check_output_is_not_input(output, path, error) : error_no_memory(error);
-    free(path);
-    return ok;
-}
-
-/* An output file that does not exist yet overwrites nothing. This check comes first and avoids a stat() call for
- * each frame. */
-bool diff_side_check_output(const diff_side *side, const output_file *output, octreel_error *error)
-{
-    struct stat status;
-    if (!output->path || stat(output->path, &status) != 0)
-        return true;
-    bool ok = side->kind != DIFF_BASELINE || check_output_is_not_input(output, side->source, error);
-    for (size_t i = 0; ok && i < side->count; i++)
-        ok = !side->frames[i].path || check_output_is_not_input(output, side->frames[i].path, error);
-    for (size_t i = 0; ok && side->kind == DIFF_RECORDING && recording_files[i]; i++)
-        ok = check_recording_file(side, recording_files[i], output, error);
-    return ok;
-}

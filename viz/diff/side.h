@@ -55,10 +55,6 @@ typedef struct diff_side {
 bool diff_side_open(diff_side *side, const char *path, octreel_error *error);
 void diff_side_release(diff_side *side);
 
-/* Check that an output does not overwrite a file of this side: a frame, the baseline, or another file of a
- * recording. Return false with an error if it would. */
-bool diff_side_check_output(const diff_side *side, const output_file *output, octreel_error *error);
-
 /* Return "picture", "folder", "recording" or "baseline". */
 const char *diff_kind_name(diff_kind kind);
 

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "commands.h"
@@ -111,6 +112,98 @@ static void two_reports_must_be_different_files(void **state)
     do_in(state, "diff a a --junit /dev/null --markdown /dev/null");
 }
 
+/* A recording, a cloud, a baseline, and links to files of the recording. */
+static void make_valuable_files(void **state)
+{
+    file_write_text(place_in(*state, "p.xyz").path, points);
+    do_in(state, "record -q --size 16x16 --keys w -o film && ln -s film/frame_000001.png soft && ln -s film dir && "
+                 "ln film/frame_000001.png hard && ln film/ticks.jsonl ticks && ln -s film/renderer.json renderer && "
+                 "cp -r film kept");
+    do_in(state, "accept base.txt film --reason x && cp base.txt kept.txt");
+}
+
+static void valuable_files_are_not_replaced(void **state)
+{
+    static const char *const rows[][2] = {
+        {"inspect p.xyz -o film/frame_000001.png", "-o film/frame_000001.png is a file of the recording in film: name "
+                                                   "another file, or add --force to overwrite it"},
+        {"inspect p.xyz -o ./film/../film/frame_000001.png", " is a file of the recording in ./film/../film: "},
+        {"inspect p.xyz -o film/frame_000009.png", "-o film/frame_000009.png is a file of the recording in film"},
+        {"inspect p.xyz -o dir/frame_000000.png", "-o dir/frame_000000.png is a file of the recording in dir"},
+        {"inspect p.xyz -o soft", "-o soft is a file of the recording in /"},
+        {"inspect p.xyz -o hard", "-o hard is a frame of a recording: name another file, or add --force"},
+        {"inspect p.xyz --nodes ticks", "--nodes ticks is a file of a recording"},
+        {"inspect p.xyz --nodes renderer", "--nodes renderer is a file of the recording in /"},
+        {"inspect p.xyz --nodes base.txt", "--nodes base.txt is a baseline: name another file, or add --force"},
+        {"audit film/session.json --junit film/recording.json", "--junit film/recording.json is a file of the rec"},
+        {"audit film --junit film/session.json", "--junit film/session.json is the same file as film/session.json"},
+        {"audit film --html film/index.html", "--html film/index.html is the same file as film/index.html, which is r"},
+        {"audit film --html /", "--html needs a folder of its own, but \"/\" is or contains the current folder: name a "
+                                "new folder, or add --force to write into this one"},
+        {"diff base.txt film -o ..", "-o needs a folder of its own, but \"..\""},
+        {"diff film film --markdown base.txt", "--markdown base.txt is a baseline"},
+        {"play -o film/index.html", "-o film/index.html is a file of the recording in film"},
+        {"play -o base.txt", "-o base.txt is a baseline"},
+        {"accept new film --store .", "--store needs a folder of its own, but \".\""},
+    };
+    make_valuable_files(state);
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+        assert_refused(state, rows[i][0], rows[i][1]);
+    assert_same_folders(place_in(*state, "film").path, place_in(*state, "kept").path, NULL);
+    assert_same_files(place_in(*state, "base.txt").path, place_in(*state, "kept.txt").path);
+}
+
+static void force_replaces_valuable_files(void **state)
+{
+    make_valuable_files(state);
+    do_in(state, "inspect p.xyz --size 16x16 -o film/frame_000001.png --nodes base.txt --force >said");
+    assert_has_text(state, "base.txt", "address", true);
+    do_in(state, "play --force -o film/index.html >said");
+    do_in(state, "inspect p.xyz --nodes p.xyz --force >said");
+    assert_has_text(state, "p.xyz", "address", true);
+    do_in(state, "record -q --size 16x16 --keys w --no-frames --force -o .");
+    assert_refused(state, "record -q --keys w --force -o .", ".: already holds a recording");
+}
+
+/* Opening a pipe for writing waits for a reader. */
+static void pipe_without_a_reader_is_refused(void **state)
+{
+    file_write_text(place_in(*state, "p").path, points);
+    assert_int_equal(mkfifo(place_in(*state, "pipe").path, 0600), 0);
+    assert_refused(state, "inspect p --nodes pipe", "pipe: cannot be written: no process reads this pipe; start its");
+    assert_refused(state, "inspect p -o pipe", "pipe: ");
+    const temp_folder *own = *state;
+    command_result read = run_script("cd %s && exec 3<>pipe && %s inspect p --nodes pipe >said && head -n 1 <&3",
+                                     own->name, octreel_program());
+    assert_done(&read);
+    assert_non_null(strstr(read.out, "address"));
+    command_release(&read);
+    do_in(state, "inspect p --nodes /dev/null >said");
+}
+
+/* The file behind such a name was opened by the shell. It is neither replaced nor overwritten. */
+static void open_files_are_written_by_their_names(void **state)
+{
+    static const char *const names[] = {"/dev/stdout >>got", "/dev/stdout | cat >>got", "/dev/fd/3 3>>got",
+                                        "/dev/stderr 2>>got"};
+    file_write_text(place_in(*state, "p").path, points);
+    do_in(state, "inspect p --nodes expected >said");
+    char *nodes = file_read(place_in(*state, "expected").path, NULL);
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        char line[80];
+        file_write_text(place_in(*state, "got").path, "before\n");
+        snprintf(line, sizeof line, "inspect p --nodes %s", names[i]);
+        command_result result = run_in(state, line);
+        assert_done(&result);
+        command_release(&result);
+        char *got = file_read(place_in(*state, "got").path, NULL);
+        assert_int_equal(strncmp(got, "before\n", 7), 0);
+        assert_int_equal(strncmp(got + 7, nodes, strlen(nodes)), 0);
+        free(got);
+    }
+    free(nodes);
+}
+
 static void refused_comparison_writes_no_evidence(void **state)
 {
     gallery_make(*state, "a", "1.png 2.png");
@@ -166,6 +259,10 @@ int main(void)
         IN_FOLDER(recording_files_are_not_overwritten),
         IN_FOLDER(reports_overwrite_no_compared_file),
         IN_FOLDER(two_reports_must_be_different_files),
+        IN_FOLDER(valuable_files_are_not_replaced),
+        IN_FOLDER(force_replaces_valuable_files),
+        IN_FOLDER(pipe_without_a_reader_is_refused),
+        IN_FOLDER(open_files_are_written_by_their_names),
         IN_FOLDER(refused_comparison_writes_no_evidence),
         IN_FOLDER(record_reports_elements_left_out_by_lod),
         IN_FOLDER(inspect_reports_elements_left_out_by_lod_once),

@@ -150,7 +150,7 @@ static void only_pages_of_play_are_overwritten(void **state)
         {"-o mine.html", "mine.html: exists and was not written by octreel play"},
         {"mine.json -o new.html", "mine.json:1: "},
         {"s.json -o s.json", "s.json"},
-        {"-o film/index.html", "film/index.html: is the page of a recording"},
+        {"-o film/index.html", "-o film/index.html is a file of the recording in film: name another file"},
         {"-o film", "\"film\" is a folder"},
         {"-o p.png", "p.png"},
         {"-o ''", "-o: the name is empty"},

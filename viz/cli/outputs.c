@@ -1,0 +1,169 @@
+/* SPDX-License-Identifier: MIT */
+/* outputs.c - checks that the outputs of a command replace nothing the user may need. */
+#define _XOPEN_SOURCE 700 /* realpath() */
+#include "outputs.h"
+#include "file_kind.h"
+#include "folder.h"
+#include "frame_file.h"
+#include "options.h"
+
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- Outputs among each other ------------------------------------------------------------------------------- */
+
+static size_t count_standard_outputs(const output_file *outputs, size_t count)
+{
+    size_t found = 0;
+    for (size_t i = 0; i < count; i++)
+        found += outputs[i].path && file_is_standard_stream(outputs[i].path);
+    return found;
+}
+
+bool is_standard_output_taken(const output_file *outputs, size_t count)
+{
+    return count_standard_outputs(outputs, count) > 0;
+}
+
+/* Returns whether two paths that do not exist yet would be the same file: their names and their folders are the same.
+ * If a folder does not exist either, the paths are compared as text. */
+static bool is_same_new_path(const char *a, const char *b)
+{
+    struct stat folders[2];
+    if (!stat_parent(a, &folders[0]) || !stat_parent(b, &folders[1]))
+        return strcmp(a, b) == 0;
+    return is_same_file(&folders[0], &folders[1]) && strcmp(path_base_name(a), path_base_name(b)) == 0;
+}
+
+static bool is_same_path(const char *a, const char *b)
+{
+    struct stat files[2];
+    if (file_is_standard_stream(a) || file_is_standard_stream(b))
+        return false;
+    const bool exists[2] = {stat(a, &files[0]) == 0, stat(b, &files[1]) == 0};
+    if (exists[0] && exists[1])
+        return S_ISREG(files[0].st_mode) && is_same_file(&files[0], &files[1]);
+    return !exists[0] && !exists[1] && is_same_new_path(a, b);
+}
+
+static bool check_outputs_differ(const output_file *outputs, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        for (size_t j = 0; j < i; j++)
+            if (outputs[i].path && outputs[j].path && is_same_path(outputs[i].path, outputs[j].path))
+                return refuse("%s %s is the same file as %s %s", outputs[i].option, outputs[i].path, outputs[j].option,
+                              outputs[j].path);
+    return true;
+}
+
+/* ---- What an output would replace --------------------------------------------------------------------------- */
+
+/* Reports that an output would replace a file: "-o p.png" and then what the file is. Returns false. */
+static bool refuse_file(const output_file *output, const char *is, const char *of, const char *end)
+{
+    return refuse("%s %s is %s%s%s: name another file, or add --force to overwrite it", output->option, output->path,
+                  is, of, end);
+}
+
+/* Checks that an output, whose status is given, is not an input. Of an input folder, the files of a recording and the
+ * pictures are read. */
+static bool check_input(const output_file *output, const struct stat *status, const char *input)
+{
+    struct stat other;
+    octreel_error error;
+    char path[PATH_MAX];
+    bool ok = true;
+    if (file_is_standard_stream(input) || stat(input, &other) != 0)
+        return true;
+    if (!S_ISDIR(other.st_mode))
+        return !is_same_file(status, &other) || refuse_file(output, "the same file as ", input, ", which is read");
+    char **names = folder_names(input, &error);
+    for (size_t i = 0; ok && names && names[i]; i++)
+        if ((folder_is_recording_file(names[i]) || file_has_ending(names[i], ".png")) &&
+            path_print(input, names[i], path))
+            ok = check_input(output, status, path);
+    free(names);
+    return names ? ok : refuse("%s", error.text);
+}
+
+/* Checks that a path is not the name of a file in a recording. */
+static bool check_not_in_recording(const output_file *output, const char *path)
+{
+    const char *name = path_base_name(path);
+    char *folder = path_parent_folder(path);
+    const bool ok =
+        (folder || refuse("out of memory")) &&
+        ((!folder_is_recording_file(name) && !folder_is_unfinished_file(name)) ||
+         !folder_contains(folder, "recording.json") || refuse_file(output, "a file of the recording in ", folder, ""));
+    free(folder);
+    return ok;
+}
+
+/* Checks the content of an existing file. It finds a file of a recording also by a link to it in another folder. */
+static bool check_content(const output_file *output)
+{
+    uint64_t tick;
+    octreel_error ignored;
+    const file_kind kind = file_kind_of(output->path);
+    if (1u << kind & (FILE_KIND(BASELINE) | FILE_KIND(SESSION) | FILE_KIND(PART)))
+        return refuse_file(output, file_kind_rows[kind].name, "", "");
+    return kind != KIND_PNG || !frame_read_tick(output->path, &tick, &ignored) ||
+           refuse_file(output, "a frame of a recording", "", "");
+}
+
+static bool check_file(const output_file *output, char *const *inputs, int input_count)
+{
+    struct stat status;
+    bool ok = true;
+    if (!output->path || file_is_standard_stream(output->path))
+        return true;
+    const bool exists = stat(output->path, &status) == 0;
+    if (exists && !S_ISREG(status.st_mode))
+        return true;
+    for (int i = 0; ok && exists && i < input_count; i++)
+        ok = check_input(output, &status, inputs[i]);
+    char *real = exists ? realpath(output->path, NULL) : NULL; /* follows links */
+    ok = ok && check_not_in_recording(output, output->path) && (!real || check_not_in_recording(output, real)) &&
+         (!exists || check_content(output));
+    free(real);
+    return ok;
+}
+
+/* ---- Folders ------------------------------------------------------------------------------------------------ */
+
+/* Returns whether a folder is the current folder or contains it. The files of the output would mix with unrelated
+ * files. */
+static bool contains_current_folder(const char *folder)
+{
+    struct stat named, here, before = {0};
+    char up[PATH_MAX] = ".";
+    bool is = false, more = stat(folder, &named) == 0;
+    for (size_t length = 1; more && !is && length + sizeof "/.." < sizeof up; before = here) {
+        more = stat(up, &here) == 0 &&
+               (length == 1 || !is_same_file(&here, &before)); /* stop at the root, which is its own parent */
+        is = more && is_same_file(&named, &here);
+        length += (size_t)snprintf(up + length, sizeof up - length, "/..");
+    }
+    return is;
+}
+
+static bool check_folder(const output_file *output)
+{
+    return !output->folder || !contains_current_folder(output->folder) ||
+           file_kind_of(output->folder) == KIND_RECORDING ||
+           refuse("%s needs a folder of its own, but \"%s\" is or contains the current folder: name a new folder, or "
+                  "add --force to write into this one",
+                  output->option, output->folder);
+}
+
+bool check_outputs(const output_file *outputs, size_t count, char *const *inputs, int input_count, bool json,
+                   bool force)
+{
+    bool ok = count_standard_outputs(outputs, count) + json <= 1 ||
+              refuse("only one output can go to standard output; name files for the others");
+    ok = ok && check_outputs_differ(outputs, count);
+    for (size_t i = 0; ok && !force && i < count; i++)
+        ok = check_folder(&outputs[i]) && check_file(&outputs[i], inputs, input_count);
+    return ok;
+}

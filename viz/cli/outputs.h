@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: MIT */
+/* outputs.h - the outputs that a command was given, and the check that they replace nothing the user may need. */
+#ifndef CLI_OUTPUTS_H
+#define CLI_OUTPUTS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* An output of a command line: a file, a folder, or a folder and the main file in it. */
+typedef struct output_file {
+    const char *option; /* the option as it was typed, such as "-o" */
+    const char *path;   /* the file, or "-" for standard output; null: none */
+    const char *folder; /* the folder that the option names; null: the option names the file, or was not given */
+} output_file;
+
+/* Checks the outputs before anything is written. Always refused are two outputs that are the same file, and two that
+ * go to standard output; with `json`, the JSON report is such an output. Unless `force` is true, also refused are
+ * - a file that is an input or lies in an input folder and is read there;
+ * - a file of a recording, even if it does not exist yet;
+ * - a baseline, a session or a frame;
+ * - a folder that is or contains the current folder, unless it holds a recording.
+ * Two paths are the same file if device and inode are the same. Pipes and devices are never refused. If an output is
+ * refused, prints an error and returns false. Cost: a call of stat() for each file in an input folder. */
+bool check_outputs(const output_file *outputs, size_t count, char *const *inputs, int input_count, bool json,
+                   bool force);
+
+/* Returns whether an output file is standard output. Reports are then printed on standard error or not at all. */
+bool is_standard_output_taken(const output_file *outputs, size_t count);
+
+/* The row of --force in a command's table. */
+#define FORCE_OPTION(type, member, text)                                                                               \
+    {                                                                                                                  \
+        "force", NULL, text, .read = read_flag, OPTION_VALUE(type, member)                                             \
+    }
+
+#define FORCE_FILES                                                                                                    \
+    "write outputs even over an input, a baseline, a session or a file of a recording, and into a folder that is or "  \
+    "contains the current folder"
+
+#endif
