@@ -30,7 +30,9 @@ static const command_option options[] = {
     SHARED_OPTIONS(renderer_option_row, arguments, pick.renderer),
     JSON_OPTION(arguments, json,
                 "print JSON: the kind, layer, node or point and a sentence for each element, topmost first. Of the "
-                "`samples` of a pixel, an element has painted `painted` and is visible in `shown`"),
+                "`samples` of a pixel, an element has painted `painted` and is visible in `shown`. A `node` that is "
+                "explained also has `capacity`, `split` (at this tick), the ids of `arrived` and `left` points and, "
+                "unless its cell exists since tick 0, `made_by`"),
     {0},
 };
 
@@ -64,10 +66,13 @@ const command command_pick = {
     .options = options,
     .line = "list what is drawn at a pixel of a frame",
     .usage = "FRAME X Y [OPTION ...]",
-    .about = "Name the node, point, query or text that is drawn on top at pixel (X, Y) of a recorded frame, the "
-             "elements below it, the other nodes that share the same edge, and the other points on the same pixel. "
-             "(0, 0) is the top left pixel. The session beside the frame is replayed to the frame's tick. A frame "
-             "that differs from what the session draws is refused.\n",
+    .about =
+        "Name the node, point, query or text that is drawn on top at pixel (X, Y) of a recorded frame, the "
+        "elements below it, the other nodes that share the same edge, and the other points on the same pixel. "
+        "(0, 0) is the top left pixel. For a leaf, and for a node that split at the frame's tick, this also prints "
+        "the capacity of a leaf, the points that arrived or left at the tick, and which split or merge made the "
+        "node's cell. The session beside the frame is replayed to the frame's tick. A frame "
+        "that differs from what the session draws is refused.\n",
     .statuses = {"done, also where nothing is drawn", NULL, "error"},
     .examples = "# record the example, and ask for the element at pixel (800, 200) of tick 219\n"
                 "octreel record -o flight\n"

@@ -117,6 +117,7 @@ static layer_source make_source(const view *v, const octree_game *game)
 void tick_history_release(tick_history *h)
 {
     heat_release(&h->heat);
+    node_changes_release(&h->changes);
 }
 
 bool tick_history_add(tick_history *h, const view *v, const octree_game *game)
@@ -125,7 +126,8 @@ bool tick_history_add(tick_history *h, const view *v, const octree_game *game)
     if (in.tick->gap)
         return true;
     closeup_follow(&h->closeup, &in);
-    return !(v->layers & VIEW_HEAT_LAYERS) || heat_add_tick(&h->heat, game);
+    return node_changes_end_tick(&h->changes, game) &&
+           (!(v->layers & VIEW_HEAT_LAYERS) || heat_add_tick(&h->heat, game));
 }
 
 bool tick_scene_build(scene *s, const view *v, const octree_game *game, const tick_history *h,

@@ -5,6 +5,7 @@
 
 #include "closeup_course.h"
 #include "heat.h"
+#include "node_changes.h"
 #include "octree/game.h"
 #include "point_values.h"
 #include "scene.h"
@@ -16,6 +17,7 @@ enum { KEYS_BEHIND = 5, KEYS_AHEAD = 6 };
 typedef struct tick_history {
     heat heat; /* number of visits and points of leaves so far; empty if the view shows no heat layer */
     closeup_course closeup;
+    node_changes changes; /* empty unless changes.tracked is set at tick 0 */
 } tick_history;
 
 void tick_history_release(tick_history *h);

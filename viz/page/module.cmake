@@ -63,7 +63,7 @@ list(APPEND wasm_includes -isystem ${wasm_folder}/include)
 
 # absent.c replaces the sources that are left out; the linker drops unused functions.
 file(GLOB wasm_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/lib/src/*/*.c base/*.c image/image.c scene/*.c layers/*.c
-     compose/*.c draw/*.c clouds/point_world.c formats/*.c record/playback.c record/picture.c replay/pick.c page/module/*.c)
+     compose/*.c draw/*.c clouds/point_world.c formats/*.c record/playback.c record/picture.c replay/pick.c replay/node_reason.c page/module/*.c)
 list(FILTER wasm_sources EXCLUDE REGEX "/(context[a-z_]*|gl_surface|file_read|parallel)\\.c$")
 list(APPEND wasm_sources ${GLYPHS})
 set(wasm_objects "")

@@ -53,14 +53,19 @@ static bool finish_tick(playback *p, octree_status status, octreel_error *error)
     return add_history(p, error);
 }
 
+static bool begin_tick(playback *p, const octree_input *input, octreel_error *error)
+{
+    return node_changes_begin_tick(&p->history.changes, p->game, input) || error_no_memory(error);
+}
+
 bool playback_advance(playback *p, octreel_error *error)
 {
-    return finish_tick(p, octree_game_advance(p->game), error);
+    return begin_tick(p, NULL, error) && finish_tick(p, octree_game_advance(p->game), error);
 }
 
 bool playback_play_input(playback *p, const octree_input *input, octreel_error *error)
 {
-    return finish_tick(p, octree_game_play(p->game, input), error);
+    return begin_tick(p, input, error) && finish_tick(p, octree_game_play(p->game, input), error);
 }
 
 /* ---- Filming ------------------------------------------------------------------------------------------------ */

@@ -51,6 +51,7 @@ static bool compose_scene_again(pick *p, replay *r, const char *folder, octreel_
 {
     if (!replay_open(r, folder, error))
         return false;
+    r->playback.history.changes.tracked = true;
     if (p->tick >= r->ticks)
         return error_set(error, "%s: shows tick %" PRIu64 ", but the session in its folder ends with tick %" PRIu64,
                          p->path, p->tick, r->ticks - 1);
@@ -119,6 +120,31 @@ static void copy_foreign_node(pick_element *e)
     e->subject.foreign = &e->place;
 }
 
+/* True if an element above shows the same node. */
+static bool is_node_known(const pick *p, octree_address node)
+{
+    for (size_t i = 0; i < p->count; i++)
+        if (p->elements[i].explained && p->elements[i].subject.node.address == node)
+            return true;
+    return false;
+}
+
+/* Explain the element's node. Does nothing if the element shows no node that can be explained. */
+static bool explain_node(const pick *p, pick_element *e, const playback *from, octreel_error *error)
+{
+    text_stream s;
+    const octree_node *node = &e->subject.node;
+    if (!e->subject.has_node || e->subject.gone || !is_node_explained(from->game, node) ||
+        is_node_known(p, node->address))
+        return true;
+    const bool found = node_reason_find(&e->reason, from->game, &from->history.changes, node);
+    if (text_stream_begin(&s)) {
+        fputs(e->subject.text, s.stream);
+        node_reason_print(s.stream, &e->reason);
+    }
+    return (text_stream_end(&s, &e->explained) && found) || error_no_memory(error);
+}
+
 static bool name_elements(pick *p, renderer *r, const playback *from, octreel_error *error)
 {
     const scene *s = &from->scene;
@@ -135,7 +161,9 @@ static bool name_elements(pick *p, renderer *r, const playback *from, octreel_er
             .layer = layer_rows[scene_element_head(s, element).style.layer].name,
             .subject = describe_element(from->game, &from->history.heat, s, element),
         };
-        copy_foreign_node(&p->elements[p->count++]);
+        copy_foreign_node(&p->elements[p->count]);
+        ok = explain_node(p, &p->elements[p->count], from, error);
+        p->count++;
     }
     draw_covers_release(&touches);
     return ok;
@@ -180,6 +208,10 @@ bool pick_frame(const char *path, const pick_options *options, pick *found, octr
 
 void pick_release(pick *p)
 {
+    for (size_t i = 0; i < p->count; i++) {
+        node_reason_release(&p->elements[i].reason);
+        free(p->elements[i].explained);
+    }
     free(p->elements);
     *p = (pick){0};
 }
@@ -222,6 +254,11 @@ static void print_heading(FILE *out, const pick *p)
         fprintf(out, ", %s:\n", print_color(p, color));
 }
 
+static const char *element_text(const pick_element *e)
+{
+    return e->explained ? e->explained : e->subject.text;
+}
+
 static const char *in_closeup(const pick_element *e)
 {
     return e->in_closeup ? " (in the close-up)" : "";
@@ -233,14 +270,14 @@ static void print_element(FILE *out, const pick *p, const pick_element *e)
 {
     if (e->touch.painted == 0) {
         fprintf(out, "      %s %s%s\n",
-                e->kind == SCENE_BOX ? "its edge is also that of" : "on the same pixel:", e->subject.text,
+                e->kind == SCENE_BOX ? "its edge is also that of" : "on the same pixel:", element_text(e),
                 in_closeup(e));
         return;
     }
     fputs(e->touch.shown ? "  " : "    over ", out);
     if (e->touch.shown && p->samples > 1)
         fprintf(out, "%d of %d samples: ", e->touch.shown, p->samples);
-    fprintf(out, "%s%s%s\n", e->subject.text, is_gap(e) ? " (between two of its dashes)" : "", in_closeup(e));
+    fprintf(out, "%s%s%s\n", element_text(e), is_gap(e) ? " (between two of its dashes)" : "", in_closeup(e));
 }
 
 static void print_text(FILE *out, const pick *p)
@@ -260,9 +297,10 @@ static void write_pair(json_writer *w, const char *key, const int pair[2])
     json_write_end_array(w);
 }
 
-static void write_node(json_writer *w, const element_subject *subject)
+static void write_node(json_writer *w, const pick_element *e)
 {
     char path[OCTREE_ADDRESS_TEXT];
+    const element_subject *subject = &e->subject;
     const octree_node *node = &subject->node;
     json_begin_object_member(w, "node");
     json_write_text_member(w, "path", octree_address_format(node->address, path));
@@ -272,6 +310,8 @@ static void write_node(json_writer *w, const element_subject *subject)
         json_write_integer_member(w, "points", node->count);
     }
     json_write_box_member(w, "box", &node->box);
+    if (e->explained)
+        node_reason_write(w, &e->reason);
     json_write_end_object(w);
 }
 
@@ -317,12 +357,12 @@ static void write_element(json_writer *w, const pick_element *e)
     if (e->in_closeup)
         json_write_bool_member(w, "closeup", true);
     if (e->subject.has_node)
-        write_node(w, &e->subject);
+        write_node(w, e);
     if (e->subject.foreign)
         write_foreign_node(w, e->subject.foreign);
     if (e->subject.has_point)
         write_point(w, &e->subject.point);
-    json_write_text_member(w, "text", e->subject.text);
+    json_write_text_member(w, "text", element_text(e));
     json_write_end_object(w);
 }
 

@@ -7,6 +7,7 @@
 #include "describe.h"
 #include "folder.h"
 #include "image.h"
+#include "node_reason.h"
 #include "pixel.h"
 #include "playback.h"
 
@@ -28,6 +29,9 @@ typedef struct pick_element {
     /* Copies of the data at subject.foreign, because the game may end before the pick is released. */
     octree_foreign_place place;
     octree_foreign_node node;
+    /* The reason and the sentence of a node that is explained, at its topmost element; else zero and null. Owned. */
+    node_reason reason;
+    char *explained;
 } pick_element;
 
 typedef struct pick {

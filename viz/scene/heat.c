@@ -2,6 +2,7 @@
 /* heat.c - counts visits and points of nodes over the ticks; see heat.h. */
 #include "heat.h"
 #include "array.h"
+#include "node_changes.h"
 #include "octree/octree.h"
 
 static const hash_map_item_type by_node = {sizeof(heat_cell), hash_map_hash_id, hash_map_ids_equal};
@@ -47,14 +48,6 @@ static octree_walk_order add_subtree_points(const octree_node *node, void *conte
     if (cell)
         cell->points += node->count;
     return cell ? OCTREE_WALK_ON : OCTREE_WALK_STOP;
-}
-
-/* Returns whether `address` is the address `node` or the address of one of its descendants. */
-static bool is_descendant_or_self(octree_address address, octree_address node)
-{
-    while (address > node)
-        address >>= 3;
-    return address == node;
 }
 
 /* Count a visit of a node. If `below` is true, also count a visit of each of its descendants. Every node of the tree

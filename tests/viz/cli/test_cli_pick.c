@@ -398,6 +398,62 @@ static void recording_without_close_up_has_no_close_up_elements(void **state)
     command_release(&result);
 }
 
+/* The test fails unless pick says a text about a node of a tick, at some pixel of row 20. */
+static void assert_explained(const char *film, uint64_t tick, const char *path, const char *text)
+{
+    json_t *node = json_string(path);
+    bool found = false;
+    for (int x = 0; x < 64 && !found; x++) {
+        command_result result = run_octreel(NULL, "pick %s %d 20 --json", frame_place(film, tick).path, x);
+        assert_done(&result);
+        json_t *said = json_read(result.out);
+        command_release(&result);
+        const json_t *element = element_with(said, "node", "path", node);
+        found = element;
+        if (element)
+            assert_contains(json_string_value(json_object_get(element, "text")), text);
+        json_decref(said);
+    }
+    assert_true(found);
+    json_decref(node);
+}
+
+static void leaf_and_split_node_are_explained(void **state)
+{
+    static const char session[] =
+        "{\"octreel\": \"session\", \"version\": 2, \"player\": null, \"ticks\": 4, \"tree\": {\"capacity\": 2}, "
+        "\"points\": [[1, 1, 1, 1], [7, 7, 7, 2]], \"world\": {\"min\": [0, 0, 0], \"max\": [8, 8, 8]}}\n"
+        "{\"tick\": 1, \"edits\": [{\"insert\": {\"id\": 5, \"position\": [7, 1, 1]}}]}\n"
+        "{\"tick\": 2, \"edits\": [{\"insert\": {\"id\": 6, \"position\": [1, 1, 2]}}]}\n"
+        "{\"tick\": 4, \"edits\": [{\"remove\": 5}, {\"remove\": 6}]}\n";
+    static const struct {
+        uint64_t tick;
+        const char *path, *text;
+    } rows[] = {
+        {0, "root", "; capacity 2; its cell exists since tick 0"},
+        {1, "root",
+         "; capacity 2, so it split at this tick, when it held 3 points; point 5 arrived at this tick; its cell exists "
+         "since tick 0"},
+        {1, "0",
+         "; capacity 2; no point arrived or left at this tick; its cell was made by the split of node root at tick 1, "
+         "when that node held 3 points"},
+        {2, "0",
+         "; capacity 2; point 6 arrived at this tick; its cell was made by the split of node root at tick 1, when that "
+         "node held 3 points"},
+        {3, "0", "; no point arrived or left at this tick; its cell was made by the split of node root at tick 1"},
+        {4, "root",
+         "; capacity 2; points 5, 6 left at this tick; its cell was made by a merge at tick 4, when it held 2 points"},
+    };
+    const place source = place_in(*state, "s.json"), film = place_in(*state, "film");
+    file_write_text(source.path, session);
+    command_result result =
+        run_octreel(NULL, "record -q %s --size 64x48 --camera top --layers nodes -o %s", source.path, film.path);
+    assert_done(&result);
+    command_release(&result);
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+        assert_explained(film.path, rows[i].tick, rows[i].path, rows[i].text);
+}
+
 #define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
 
 int main(void)
@@ -406,6 +462,7 @@ int main(void)
         IN_FOLDER(every_point_is_named_at_its_pixel),
         IN_FOLDER(nodes_are_named_at_their_edges),
         IN_FOLDER(foreign_nodes_are_named_with_their_errors),
+        IN_FOLDER(leaf_and_split_node_are_explained),
         IN_FOLDER(pick_works_inside_the_recording_folder),
         IN_FOLDER(elements_of_the_close_up_are_named),
         IN_FOLDER(recording_without_close_up_has_no_close_up_elements),

@@ -122,6 +122,7 @@ bool web_open(size_t session, size_t recording)
     page.room_size = 0;
     page.summed_layers = v.layers & VIEW_HEAT_LAYERS ? VIEW_HEAT_LAYERS : 0;
     page.open = playback_open(&page.playback, &page.session.session, &page.session.values, &v, &page.error);
+    page.playback.history.changes.tracked = page.open;
     if (!page.open)
         close_all();
     return page.open || fail();
@@ -368,12 +369,12 @@ static bool write_pick(FILE *out)
                   .tick = octree_game_tick(p->game)->number,
                   .width = p->view.width,
                   .height = p->view.height};
-    if (!pick_scene(&found, p, p->picture.renderer, &page.error))
-        return false;
+    const bool ok = pick_scene(&found, p, p->picture.renderer, &page.error);
     found.color = image_color_at(&p->picture.frame, found.pixel[0], found.pixel[1]);
-    pick_print(out, &found, true);
+    if (ok)
+        pick_print(out, &found, true);
     pick_release(&found);
-    return true;
+    return ok;
 }
 
 /* Make web_text() return the elements at a pixel of the drawn picture as JSON (see pick.h). */

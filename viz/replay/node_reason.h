@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: MIT */
+/* node_reason.h - explains a node at a tick: how full it is, which points the tick brought or took away, and which
+ * split or merge made its cell. `octreel pick` and the page print the same explanation. */
+#ifndef REPLAY_NODE_REASON_H
+#define REPLAY_NODE_REASON_H
+
+#include "json_write.h"
+#include "tick_scene.h"
+
+typedef struct node_reason {
+    uint64_t tick;
+    size_t points, capacity;
+    bool split;            /* the node split at this tick */
+    id_list arrived, left; /* the points that the tick brought or took away; empty at tick 0; owned */
+    node_change maker;     /* the change that made the node's cell; zero: the cell exists since tick 0 */
+} node_reason;
+
+/* Returns whether a node is explained: it is a leaf, or it split at the game's last tick. */
+bool is_node_explained(const octree_game *game, const octree_node *node);
+
+/* Explain a node of the game's last tick. `changes` must be tracked since tick 0. Returns false if memory runs out.
+ * Call node_reason_release() in either case. */
+bool node_reason_find(node_reason *r, const octree_game *game, const node_changes *changes, const octree_node *node);
+void node_reason_release(node_reason *r);
+
+/* Append the explanation to a sentence about the node: "; capacity 2; point 5 arrived at this tick; ...". */
+void node_reason_print(FILE *out, const node_reason *r);
+
+/* Write the explanation as members of a JSON object. */
+void node_reason_write(json_writer *w, const node_reason *r);
+
+#endif
