@@ -24,7 +24,8 @@
  *     caller's mode (some 10 ns). Visitors, tracers, allocators and executors run in the caller's mode and must not
  *     change it. Tasks run in the default mode, whatever mode the executor's threads have.
  *   - -0.0 equals +0.0 in every comparison; stored coordinates keep their bits.
- *   - The points passed to a change may lie in the tree's own memory, such as the points of an octree_node.
+ *   - The points and destinations passed to a change may lie in the tree's own memory, such as the points of an
+ *     octree_node.
  */
 #ifndef OCTREE_OCTREE_H
 #define OCTREE_OCTREE_H

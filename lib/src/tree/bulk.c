@@ -172,15 +172,16 @@ static octree_status check_arguments(const batch *b, octree_change_kind kind)
     return is_visited(b->tree) ? OCTREE_BUSY : OCTREE_OK;
 }
 
-/* Returns whether the caller's array of points lies in a leaf, as the array octree_node.points does. */
-static bool lies_in_tree_memory(const octree *tree, const octree_point *points, size_t count)
+/* Returns whether a position of the caller is that of a stored point, in the memory of its leaf, as in the array
+ * octree_node.points. */
+static bool lies_in_tree_memory(const octree *tree, const double *position)
 {
-    if (count == 0 || check_position(tree, points->position) != OCTREE_OK)
+    if (check_position(tree, position) != OCTREE_OK)
         return false;
-    const path p = find_path(tree, morton_code(tree->axes, points->position));
+    const path p = find_path(tree, morton_code(tree->axes, position));
     const node *end = path_end(&p);
-    for (uint32_t i = 0; end->octants == 0 && i + count <= end->count; i++)
-        if (points == &leaf_points(end)[i])
+    for (uint32_t i = 0; end->octants == 0 && i < end->count; i++)
+        if (position == leaf_points(end)[i].position)
             return true;
     return false;
 }
@@ -290,8 +291,8 @@ static void log_changes(const batch *b, octree_change_kind kind)
             change_log_append(b->tree, kind, &b->points[i], b->points[i].position);
 }
 
-/* Make a batch of changes and log the changes. Points that lie in the tree's own memory are copied first. Points are
- * also copied if a zero in them may have another sign than the stored zero. */
+/* Make a batch of changes and log the changes. Points and destinations that lie in the tree's own memory are copied
+ * first. Points are also copied if a zero in them may have another sign than the stored zero. */
 static octree_status change_many(batch b, octree_change_kind kind, size_t *done)
 {
     octree_status status = check_arguments(&b, kind);
@@ -300,21 +301,26 @@ static octree_status change_many(batch b, octree_change_kind kind, size_t *done)
     change_log *log = &b.tree->changes;
     arena *memory = &b.tree->store.memory;
     const uint64_t version = b.tree->version;
-    const bool in_tree = lies_in_tree_memory(b.tree, b.points, b.count);
+    const bool in_tree = b.count > 0 && lies_in_tree_memory(b.tree, b.points->position);
+    const bool to_in_tree = b.count > 0 && b.to && lies_in_tree_memory(b.tree, b.to[0]);
     bool logs = change_log_is_on(log) && b.count <= change_log_limit(b.tree);
     const bool signs = logs && kind != OCTREE_INSERTED && have_zeros(b.points, b.count);
     const size_t copies_size = in_tree || signs ? b.count * sizeof *b.points : 0;
+    const size_t to_size = to_in_tree ? b.count * sizeof *b.to : 0;
     const size_t statuses_size = logs && !b.statuses ? b.count * sizeof *b.statuses : 0;
     octree_point *copies = copies_size ? arena_allocate(memory, copies_size) : NULL;
+    void *to = to_size ? arena_allocate(memory, to_size) : NULL;
     octree_status *statuses = statuses_size ? arena_allocate(memory, statuses_size) : NULL;
     logs = logs && (copies || !signs);
     if (copies)
         b.points = memcpy(copies, b.points, copies_size);
     if (copies && signs)
         copy_stored_signs(b.tree, copies, b.count);
+    if (to)
+        b.to = memcpy(to, b.to, to_size);
     if (statuses)
         b.statuses = statuses;
-    status = in_tree && !copies ? OCTREE_NO_MEMORY : change_by_kind(&b, kind);
+    status = (in_tree && !copies) || (to_in_tree && !to) ? OCTREE_NO_MEMORY : change_by_kind(&b, kind);
     const bool changes = status == OCTREE_OK && b.done > 0;
     b.tree->version = version + changes;
     if (changes && logs && b.statuses)
@@ -324,6 +330,7 @@ static octree_status change_many(batch b, octree_change_kind kind, size_t *done)
     if (status == OCTREE_OK && done)
         *done = b.done;
     arena_free(memory, copies, copies_size);
+    arena_free(memory, to, to_size);
     arena_free(memory, statuses, statuses_size);
     return status;
 }

@@ -484,6 +484,29 @@ static void a_batch_succeeds_without_memory_to_log_it(void **state)
     }
 }
 
+/* The destination is the position of a stored point, whose leaf splits and so frees its memory. */
+static void a_destination_in_the_trees_own_memory_is_logged(void **state)
+{
+    (void)state;
+    octree *tree = make_tree(octree_def_default().world, 2, OCTREE_MAX_DEPTH, OCTREE_GROW);
+    const octree_point points[] = {{{1, 2, 3}, 1}, {{4, 5, 6}, 2}, {{-7, -8, -9}, 3}};
+    follower f = {.name = 1};
+    assert_int_equal(octree_insert_many(tree, points, 3, NULL, NULL), OCTREE_OK);
+    assert_false(follow(&f, tree));
+    octree_node leaf;
+    size_t moved;
+    assert_int_equal(octree_locate(tree, points[0].position, &leaf), OCTREE_OK);
+    assert_int_equal(leaf.count, 2);
+    const octree_point *stored = leaf.points;
+    assert_int_equal(octree_move_many(tree, &points[2], (const double(*)[3])stored->position, 1, NULL, &moved),
+                     OCTREE_OK);
+    assert_int_equal(moved, 1);
+    assert_true(follow(&f, tree));
+    assert_int_equal(f.changes, 1);
+    brute_free(&f.copy);
+    octree_destroy(tree);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -500,6 +523,7 @@ int main(void)
         cmocka_unit_test(a_change_refused_as_null_is_not_logged),
         cmocka_unit_test(changes_are_unknown_after_too_large_a_batch),
         cmocka_unit_test(a_batch_succeeds_without_memory_to_log_it),
+        cmocka_unit_test(a_destination_in_the_trees_own_memory_is_logged),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
