@@ -79,7 +79,8 @@ static bool change_in_rounds(contender *c, manner how, batch_kind kind, const ti
     return !isnan(removal) && !isnan(insertion);
 }
 
-/* ---- A frame ------------------------------------------------------------------------------------------------ */
+/* ---- Moves, and a frame --------------------------------------------------------------------------------------------
+ */
 
 static size_t move(contender *c, manner how, const ticks *t, size_t all)
 {
@@ -94,6 +95,14 @@ static size_t move(contender *c, manner how, const ticks *t, size_t all)
     if (c->peer == &peer_octree)
         octree_clear(c->self);
     return c->peer->change[PEER_BUILD](c->self, t->back ? t->before : t->after, NULL, all) == all ? t->count : 0;
+}
+
+static bool move_once(contender *c, manner how, const workload *w, const ticks *t, int round)
+{
+    const double start = processor_time();
+    const size_t moved = move(c, how, t, w->count);
+    c->round_ns[round] = (processor_time() - start) / (double)t->count;
+    return moved == t->count;
 }
 
 static bool play_frame(contender *c, manner how, const workload *w, const ticks *t, int round, peer_answer *answers)
@@ -138,8 +147,9 @@ static outcome play_rounds(lineup *l, const workload *w, const char *op, batch_k
     for (int round = 0; round < rounds; round++, t->back = !t->back)
         for (int i = 0; i < l->count; i++) {
             contender *c = &l->of[i];
-            const bool done = kind == BATCH_FRAME ? play_frame(c, entries[i].how, w, t, round, answers[i])
-                                                  : change_in_rounds(c, entries[i].how, kind, t, round);
+            const bool done = kind == BATCH_FRAME  ? play_frame(c, entries[i].how, w, t, round, answers[i])
+                              : kind == BATCH_MOVE ? move_once(c, entries[i].how, w, t, round)
+                                                   : change_in_rounds(c, entries[i].how, kind, t, round);
             if (!done) {
                 fprintf(stderr, "octree-bench: %s: %s did not make all changes\n", op, c->who);
                 return UNLIKE;

@@ -8,6 +8,7 @@
 typedef enum batch_kind {
     BATCH_INSERT,
     BATCH_REMOVE,
+    BATCH_MOVE,  /* a share of the points moves by one mean spacing; the first round is the first call on a tree */
     BATCH_FRAME, /* a share of the points moves by one mean spacing; 1000 boxes and 1000 nearest points are asked for */
 } batch_kind;
 

@@ -39,7 +39,7 @@ typedef struct op {
     const char *note; /* why there is no goal, or when another choice is better; may be null */
 } op;
 
-enum { OPS = 29 };
+enum { OPS = 35 };
 
 extern const op all_ops[OPS];
 

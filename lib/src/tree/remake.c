@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* remake.c - a batch in which many points move: rebuilds the tree from the destinations and the staying points.
  *
- * Problem: when a fifth of the points or more move, as in every step of a simulation, nearly every leaf changes.
+ * Problem: when three tenths of the points or more move, as in every step of a simulation, nearly every leaf changes.
  * Finding each moved point by descent and then editing its leaf costs more than building a tree.
  *
  * Idea: read all stored points once, in memory order. A table of ids shows whether a stored point moves. If it does not
