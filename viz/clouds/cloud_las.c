@@ -42,9 +42,6 @@ static const unsigned record_sizes[] = {20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 
 enum {
     FORMATS = sizeof record_sizes / sizeof record_sizes[0],
     COMPRESSED = 0xc0, /* the bits of the point format that LAZ sets */
-    AT_INTENSITY = LAS_AT_INTENSITY,
-    AT_FLAGS = LAS_AT_FLAGS,
-    AT_CLASS = LAS_AT_CLASS,
 };
 
 const unsigned las_colors_at[FORMATS] = {[2] = 20, [3] = 28, [5] = 28, [7] = 30, [8] = 30, [10] = 30};
@@ -214,10 +211,10 @@ static void read_values(const las_reader *reader, const unsigned char *record, d
     const unsigned color = las_colors_at[reader->format];
     for (unsigned i = 0; color && i < 3; i++)
         numbers[CLOUD_RED + i] = (double)cloud_read_bits(2, false, record + color + 2 * i);
-    numbers[CLOUD_INTENSITY] = (double)cloud_read_bits(2, false, record + AT_INTENSITY);
-    numbers[CLOUD_CLASS] = reader->format >= 6  ? record[AT_CLASS]
-                           : reader->minor == 0 ? record[AT_FLAGS]
-                                                : record[AT_FLAGS] & 0x1f;
+    numbers[CLOUD_INTENSITY] = (double)cloud_read_bits(2, false, record + LAS_AT_INTENSITY);
+    numbers[CLOUD_CLASS] = reader->format >= 6  ? record[LAS_AT_CLASS]
+                           : reader->minor == 0 ? record[LAS_AT_FLAGS]
+                                                : record[LAS_AT_FLAGS] & 0x1f;
 }
 
 /* Add the point of a record. `at` is the byte offset of the record in the file, for errors. */
@@ -225,7 +222,7 @@ static bool add_record(const las_reader *reader, const unsigned char *record, si
 {
     static const cloud_scalar integer = {CLOUD_SIGNED, 4};
     double numbers[CLOUD_CHANNELS];
-    if (record[AT_FLAGS] & reader->withheld) {
+    if (record[LAS_AT_FLAGS] & reader->withheld) {
         cloud_count_skipped(reader->file, "marked as withheld");
         return true;
     }
