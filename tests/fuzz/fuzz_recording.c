@@ -189,7 +189,7 @@ static void compare(const char *a, const char *b, bool evident)
     explanation why = {0};
     octreel_error error = {""};
     const diff_options options = diff_options_default();
-    if (told(diff_side_open(&sides[0], a, &error) && diff_side_open(&sides[1], b, &error) &&
+    if (told(diff_side_open(&sides[0], a, NULL, &error) && diff_side_open(&sides[1], b, NULL, &error) &&
                  diff_run(&sides[0], &sides[1], &options, &result, &error) &&
                  explain(&sides[0], &sides[1], &result, EXPLAIN_DEFAULT, &why, &error),
              &error))

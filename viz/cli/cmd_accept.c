@@ -11,7 +11,7 @@
 
 typedef struct arguments {
     const char *from, *date, *reason, *store;
-    bool variant, json, force;
+    bool variant, flat, json, force;
 } arguments;
 
 static bool read_date(const command_option *option, const char *text, void *into)
@@ -31,6 +31,7 @@ static const command_option options[] = {
      "accept the frames that FILE lists, one name a line; the page of octreel diff -o saves the ticked findings as "
      "accept.txt; - is standard input",
      .read = read_name, OPTION_VALUE(arguments, from)},
+    FLAT_OPTION(arguments, flat),
     {"store", "DIR",
      "also save the pictures in DIR, each under the digest of its pixels, so that octreel diff --store can show what "
      "was expected",
@@ -65,6 +66,7 @@ static int accept_listed(const arguments *a, char **paths, int count)
     frame_list names = {0};
     const accept_options all = {.reference = paths[0],
                                 .frames = paths[1],
+                                .flat = a->flat,
                                 .names = &names,
                                 .note = {a->date ? a->date : format_today(date), a->reason},
                                 .store = a->store,
@@ -104,11 +106,12 @@ const command command_accept = {
     .line = "make new frames the reference that octreel diff compares with",
     .usage = "REFERENCE NEW [FRAME ...] [OPTION ...]",
     .about =
-        "Copy frames from NEW to REFERENCE: all frames, or only the named ones. NEW is a PNG, a folder of PNGs, a "
-        "recording, or - for a PNG from standard input. REFERENCE is one of these or a baseline, and is created if "
-        "it does not exist. References with the same pixels are not changed. A reference without a frame in NEW is "
-        "removed if all frames are accepted or if it is named. The differences are printed as octreel diff prints "
-        "them. Look at the pictures first.\n",
+        "Copy frames from NEW to REFERENCE: all frames, or only the named ones. NEW is a PNG, a folder of PNGs with "
+        "its subfolders, a recording, or - for a PNG from standard input. REFERENCE is one of these or a baseline, "
+        "and is created if it does not exist. FRAME is a path below NEW, as in menu/1.png. References with the same "
+        "pixels are not changed. A reference without a frame in NEW is removed if all frames are accepted or if it "
+        "is named. The differences are printed, and subfolders are searched, as by octreel diff. Look at the "
+        "pictures first.\n",
     .more = "Several processes may accept into one reference at the same time; each sees the changes of the others. "
             "Nothing is accepted when the disk is full, and nothing from a recording that is damaged or not finished, "
             "because the references of its missing frames would be removed. Nothing is accepted when the environment "

@@ -28,7 +28,7 @@ typedef struct arguments {
     uint64_t causes;   /* the number of differing frames and ticks to explain */
     bool has_causes;   /* --causes was given */
     size_t lines;      /* the number of groups that are listed; at least the value of --causes */
-    bool json, force, each, annotate;
+    bool flat, json, force, each, annotate;
 } arguments;
 
 static bool read_delta(const command_option *option, const char *text, void *into)
@@ -122,6 +122,7 @@ static const command_option options[] = {
      "unknown cause in which the same pixels differ by the same amounts",
      .read = read_flag, OPTION_VALUE(arguments, each)},
     {.help = "Input and output:"},
+    FLAT_OPTION(arguments, flat),
     {"store", "DIR",
      "with a baseline: show the expected pictures that octreel accept --store has saved in DIR; they never change the "
      "verdict",
@@ -228,8 +229,9 @@ static int compare(const arguments *a, const char *paths[2])
     explanation why = {0};
     frame_groups groups = {0};
     octreel_error error;
-    const bool ok = diff_side_open(&sides[0], paths[0], &error) && diff_side_open(&sides[1], paths[1], &error) &&
-                    check_before_writing(a, sides, &error) &&
+    const diff_search search[2] = {{a->flat, {paths[1], a->store}}, {a->flat, {paths[0], a->store}}};
+    const bool ok = diff_side_open(&sides[0], paths[0], &search[0], &error) &&
+                    diff_side_open(&sides[1], paths[1], &search[1], &error) && check_before_writing(a, sides, &error) &&
                     diff_run(&sides[0], &sides[1], &a->options, &result, &error) &&
                     (!a->store || picture_store_fetch(a->store, &sides[0], &result, &error)) &&
                     explain(&sides[0], &sides[1], &result, a->causes, &why, &error) &&
@@ -277,11 +279,16 @@ const command command_diff = {
     .options = options,
     .line = "compare pictures, folders of pictures or recordings, and say why they differ",
     .usage = "REFERENCE COMPARED [OPTION ...]",
-    .about = "Compare the pictures of two sides frame by frame. A side is a PNG, a folder of PNGs (without its "
-             "subfolders), a recording, or a baseline that octreel accept has made; - is a PNG or a baseline from "
-             "standard input. Frames are paired by name. A frame that only one side has is a difference. Where a "
-             "baseline accepts several digests of a frame, any of them passes. Recordings without frames are compared "
-             "by their ticks.\n",
+    .about = "Compare the pictures of two sides frame by frame. A side is a PNG, a folder of PNGs with its subfolders, "
+             "a recording, or a baseline that octreel accept has made; - is a PNG or a baseline from standard input. "
+             "Frames are paired by name; in a subfolder, the name is the path below the folder, as in menu/1.png. A "
+             "frame that only one side has is a difference. Where a baseline accepts several digests of a frame, any "
+             "of them passes. Recordings without frames are compared by their ticks.\n"
+             "\n"
+             "In a folder, files and subfolders whose names begin with a dot are left out, and so are links to "
+             "folders, folders that octreel diff -o has written, the folder of --store, and the other side if it lies "
+             "in the folder. A recording in a subfolder is compared like other PNGs. Subfolders of a recording are "
+             "not searched.\n",
     .statuses = {"the same, or within the tolerances", "different", "error, such as an unreadable picture"},
     .examples = "# print whether two pictures are the same, pixel by pixel\n"
                 "octreel diff before.png after.png\n"

@@ -90,6 +90,12 @@ command_option_reader read_quiet;  /* makes is_quiet() return true */
         "json", NULL, text, .read = read_flag, OPTION_VALUE(type, member)                                              \
     }
 
+#define FLAT_OPTION(type, member)                                                                                      \
+    {                                                                                                                  \
+        "no-recursive", NULL, "use only the PNGs directly in a folder, not those in its subfolders",                   \
+            .read = read_flag, OPTION_VALUE(type, member)                                                              \
+    }
+
 #define FILL_OPTION(type, member)                                                                                      \
     {                                                                                                                  \
         "fill", "WITH", "the rasterizer; the pixels are the same (--any-renderer implies gl): one of",                 \

@@ -61,7 +61,8 @@ static diff_side empty_side(const char *path, diff_kind kind, bool no_frames)
 static bool open_sides(accepting *a, octreel_error *error)
 {
     const accept_options *o = a->options;
-    if (!diff_side_open(&a->frames, o->frames, error))
+    const diff_search in_frames = {o->flat, {o->reference, o->store}}, in_reference = {o->flat, {o->frames, o->store}};
+    if (!diff_side_open(&a->frames, o->frames, &in_frames, error))
         return false;
     if (a->frames.kind == DIFF_BASELINE)
         return error_set(error, "%s: cannot accept a baseline; give the pictures themselves", o->frames);
@@ -74,7 +75,7 @@ static bool open_sides(accepting *a, octreel_error *error)
             empty_side(o->reference, baseline ? DIFF_BASELINE : a->frames.kind, a->frames.no_frames && !baseline);
         return check_new_name(o, a->reference.kind, error);
     }
-    if (!diff_side_open(&a->reference, o->reference, error))
+    if (!diff_side_open(&a->reference, o->reference, &in_reference, error))
         return false;
     if (a->reference.kind == DIFF_RECORDING && a->frames.kind == DIFF_FOLDER)
         return error_set(error,
@@ -94,6 +95,17 @@ static bool is_named(const accept_options *options, const char *name)
     return options->names->count == 0;
 }
 
+/* Return the name of the first frame whose file has the same name, but which lies in another folder, or null. */
+static const char *find_elsewhere(const diff_result *result, const char *name)
+{
+    for (size_t i = 0; i < result->count; i++) {
+        const char *other = diff_pair_name(&result->pairs[i]);
+        if (strcmp(path_base_name(other), path_base_name(name)) == 0)
+            return other;
+    }
+    return NULL;
+}
+
 static bool check_names(const accepting *a, octreel_error *error)
 {
     for (size_t i = 0; i < a->options->names->count; i++) {
@@ -103,7 +115,9 @@ static bool check_names(const accepting *a, octreel_error *error)
             continue;
         if (listed->line)
             snprintf(line, sizeof line, "line %zu of the list: ", listed->line);
-        return error_set(error, "%sno frame %s in %s or in %s", line, listed->name, a->frames.path, a->reference.path);
+        const char *meant = find_elsewhere(&a->result, listed->name);
+        return error_set(error, "%sno frame %s in %s or in %s%s%s%s", line, listed->name, a->frames.path,
+                         a->reference.path, meant ? "; did you mean " : "", meant ? meant : "", meant ? "?" : "");
     }
     return true;
 }

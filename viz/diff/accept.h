@@ -11,6 +11,7 @@
 typedef struct accept_options {
     const char *reference; /* a PNG, a folder, a recording or a baseline; created if it does not exist */
     const char *frames;    /* a PNG, a folder or a recording */
+    bool flat;             /* leave out the subfolders of folders */
     /* The names of the frames to accept. Empty: accept all frames and remove references without a frame. */
     const frame_list *names;
 

@@ -85,7 +85,9 @@ static bool prepare_copies(const accepting *a, file_set *set, octreel_error *err
     for (size_t i = 0; ok && i < a->result.count; i++) {
         const diff_pair *pair = &a->result.pairs[i];
         if (a->actions[i] == CHANGED || a->actions[i] == ADDED)
-            ok = prepare_copy(set, pair->b->path, copy_final_path(a, pair), error);
+            ok = (a->reference.kind == DIFF_PICTURE ||
+                  folder_create_inside(a->reference.path, diff_pair_name(pair), error)) &&
+                 prepare_copy(set, pair->b->path, copy_final_path(a, pair), error);
         else if (whole && pair->finding == FOUND_SAME_PIXELS)
             ok = prepare_recording_file(a, diff_pair_name(pair), set, error);
     }
@@ -96,15 +98,26 @@ static bool prepare_copies(const accepting *a, file_set *set, octreel_error *err
 
 /* ---- Replacing ----------------------------------------------------------------------------------------------- */
 
-/* Remove each reference that has no new frame. */
+/* Remove each reference that has no new frame, and the subfolders that are empty then. */
 static bool remove_references(const accepting *a, octreel_error *error)
 {
     for (size_t i = 0; i < a->result.count; i++) {
         const diff_pair *pair = &a->result.pairs[i];
-        if (a->actions[i] == REMOVED && remove(pair->a->path) != 0)
+        if (a->actions[i] != REMOVED)
+            continue;
+        if (remove(pair->a->path) != 0)
             return error_set(error, "%s: cannot be removed: %s", pair->a->path, strerror(errno));
+        folder_remove_empty_inside(a->reference.path, pair->a->name);
     }
     return true;
+}
+
+/* Remove the empty subfolders that a failed change has created. */
+static void remove_new_folders(const accepting *a)
+{
+    for (size_t i = 0; i < a->result.count; i++)
+        if (a->actions[i] == ADDED && a->reference.kind != DIFF_PICTURE)
+            folder_remove_empty_inside(a->reference.path, diff_pair_name(&a->result.pairs[i]));
 }
 
 static bool replace_files(const accepting *a, octreel_error *error)
@@ -112,6 +125,8 @@ static bool replace_files(const accepting *a, octreel_error *error)
     file_set set = {0};
     const bool ok = prepare_copies(a, &set, error) && rename_copies(&set, error) && remove_references(a, error);
     release_set(&set);
+    if (!ok)
+        remove_new_folders(a);
     return ok;
 }
 

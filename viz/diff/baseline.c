@@ -192,6 +192,32 @@ static bool read_acceptance(diff_side *side, char *line, size_t number, octreel_
                      side->path, number, a.id);
 }
 
+/* Return whether a name is the path of a file below a folder: no part of it is empty, "." or "..". */
+static bool is_path_below(const char *name)
+{
+    for (const char *at = name;; at++) {
+        const size_t length = strcspn(at, "/");
+        if (length == 0 || (at[0] == '.' && (length == 1 || (length == 2 && at[1] == '.'))))
+            return false;
+        at += length;
+        if (!*at)
+            return true;
+    }
+}
+
+static bool add_written_frame(diff_side *side, const char *written, frame_digest digest, size_t number,
+                              octreel_error *error)
+{
+    char *name = read_name(written);
+    bool ok = name || error_no_memory(error);
+    if (ok && !is_path_below(name))
+        ok = error_set(error, "%s:%zu: expected the path of a frame below its folder, as in \"menu/1\", not \"%s\"",
+                       side->path, number, written);
+    ok = ok && diff_side_add_frame(side, name, digest, error);
+    free(name);
+    return ok;
+}
+
 static bool read_digest(diff_side *side, const char *line, size_t number, octreel_error *error)
 {
     frame_digest digest = {0};
@@ -201,7 +227,7 @@ static bool read_digest(diff_side *side, const char *line, size_t number, octree
     if (strncmp(line, written, sizeof written - 1) != 0 || !is_id(id))
         return fail_line(side, number, error);
     const char *at = line + sizeof written - 1;
-    if (!*at || strchr(at, '/') || has_control_character(at))
+    if (!*at || has_control_character(at))
         return fail_line(side, number, error);
     const acceptance *by = find_id(side, line);
     if (!by)
@@ -212,10 +238,7 @@ static bool read_digest(diff_side *side, const char *line, size_t number, octree
     digest.height = by->height;
     digest.kind = by->kind;
     digest.acceptance = (size_t)(by - side->acceptances);
-    char *name = read_name(at);
-    const bool ok = name ? diff_side_add_frame(side, name, digest, error) : error_no_memory(error);
-    free(name);
-    return ok;
+    return add_written_frame(side, at, digest, number, error);
 }
 
 static bool read_version(const diff_side *side, const char *line, octreel_error *error)
@@ -290,11 +313,6 @@ bool baseline_read(diff_side *side, octreel_error *error)
 
 /* ---- Frames and their variants ------------------------------------------------------------------------------- */
 
-static int by_name(const void *a, const void *b)
-{
-    return strcmp(((const diff_frame *)a)->name, ((const diff_frame *)b)->name);
-}
-
 /* Skip a variant that the frame already has: a union merge may repeat the line of a variant. */
 bool baseline_add_variant(diff_frame *frame, const frame_digest *digest)
 {
@@ -323,8 +341,7 @@ bool baseline_merge_frames(diff_side *side, octreel_error *error)
 {
     size_t kept = 0;
     bool ok = true;
-    if (side->count > 0)
-        qsort(side->frames, side->count, sizeof *side->frames, by_name);
+    diff_side_sort_frames(side);
     for (size_t i = 0; i < side->count; i++) {
         diff_frame frame = side->frames[i];
         if (kept > 0 && strcmp(side->frames[kept - 1].name, frame.name) == 0) {

@@ -67,7 +67,7 @@ static bool is_frame_name(const diff_side *side, const char *name)
     uint64_t tick;
     if (side->kind == DIFF_RECORDING)
         return frame_parse_name(name, &tick);
-    return name[0] != '.' && name[diff_stem_length(name)];
+    return name[diff_stem_length(name)];
 }
 
 /* Return whether recording.json says that the recording was made without frames. If recording.json is unreadable,
@@ -80,19 +80,73 @@ static bool is_without_frames(const diff_side *side)
     return side->kind == DIFF_RECORDING && recording_read(side->path, &v, &every, &ignored) && every == 0;
 }
 
-static bool read_folder(diff_side *side, octreel_error *error)
+bool diff_is_evidence_folder(const char *folder)
 {
-    char **names = folder_names(side->path, error);
-    bool ok = true;
-    if (!names)
-        return false;
+    char text[sizeof EVIDENCE_MARKER_BEGINNING - 1], reason[FILE_REASON], *path = path_join(folder, EVIDENCE_MARKER);
+    FILE *file = path ? file_open(path, NULL, reason) : NULL;
+    const bool is = file && fread(text, 1, sizeof text, file) == sizeof text &&
+                    memcmp(text, EVIDENCE_MARKER_BEGINNING, sizeof text) == 0;
+    if (file)
+        fclose(file);
+    free(path);
+    return is;
+}
+
+static bool is_left_out(const diff_search *search, const char *folder, const struct stat *status)
+{
+    struct stat other;
+    for (size_t i = 0; i < sizeof search->left_out / sizeof search->left_out[0]; i++)
+        if (search->left_out[i] && stat(search->left_out[i], &other) == 0 && is_same_file(status, &other))
+            return true;
+    return diff_is_evidence_folder(folder);
+}
+
+static bool add_folder(diff_side *side, const diff_search *search, const char *below, octreel_error *error);
+
+/* Add a frame, or the frames of a subfolder. A frame that was removed since its name was read is added, too, and
+ * later reported as unreadable. */
+static bool add_entry(diff_side *side, const diff_search *search, const char *name, octreel_error *error)
+{
+    const bool flat = search->flat || side->kind == DIFF_RECORDING;
+    struct stat status = {0};
+    char *path = path_join(side->path, name);
+    bool ok = path || error_no_memory(error);
+    if (ok && !flat && lstat(path, &status) != 0 && errno != ENOENT)
+        ok = error_set(error, "%s: %s", path, strerror(errno));
+    else if (ok && S_ISDIR(status.st_mode))
+        ok = is_left_out(search, path, &status) || add_folder(side, search, name, error);
+    else if (ok && is_frame_name(side, name))
+        ok = diff_side_add_frame(side, name, (frame_digest){0}, error);
+    free(path);
+    return ok;
+}
+
+/* Add the frames of a folder: of the side itself if `below` is "", otherwise of this subfolder. */
+static bool add_folder(diff_side *side, const diff_search *search, const char *below, octreel_error *error)
+{
+    char *path = *below ? path_join(side->path, below) : strdup(side->path);
+    char **names = path ? folder_names(path, error) : NULL;
+    bool ok = names || (!path && error_no_memory(error));
+    for (size_t i = 0; ok && names[i]; i++) {
+        if (names[i][0] == '.')
+            continue;
+        char *name = path_join(below, names[i]);
+        ok = name ? add_entry(side, search, name, error) : error_no_memory(error);
+        free(name);
+    }
+    free(names);
+    free(path);
+    return ok;
+}
+
+static bool read_folder(diff_side *side, const diff_search *search, octreel_error *error)
+{
     side->kind = folder_contains(side->path, "recording.json") ? DIFF_RECORDING : DIFF_FOLDER;
     side->no_frames = is_without_frames(side);
-    for (size_t i = 0; ok && !side->no_frames && names[i]; i++)
-        if (is_frame_name(side, names[i]))
-            ok = diff_side_add_frame(side, names[i], (frame_digest){0}, error);
-    free(names);
-    return ok;
+    if (!side->no_frames && !add_folder(side, search, "", error))
+        return false;
+    diff_side_sort_frames(side);
+    return true;
 }
 
 static bool read_file(diff_side *side, octreel_error *error)
@@ -110,8 +164,9 @@ static bool read_file(diff_side *side, octreel_error *error)
     }
 }
 
-bool diff_side_open(diff_side *side, const char *path, octreel_error *error)
+bool diff_side_open(diff_side *side, const char *path, const diff_search *search, octreel_error *error)
 {
+    static const diff_search everything = {false, {NULL}};
     struct stat status;
     bool ok;
     *side = (diff_side){.path = file_display_name(path), .source = path};
@@ -120,7 +175,7 @@ bool diff_side_open(diff_side *side, const char *path, octreel_error *error)
     else if (stat(path, &status) != 0)
         ok = error_set(error, "%s: %s", path, strerror(errno));
     else if (S_ISDIR(status.st_mode))
-        ok = read_folder(side, error);
+        ok = read_folder(side, search ? search : &everything, error);
     else if (S_ISREG(status.st_mode))
         ok = read_file(side, error);
     else
@@ -128,6 +183,17 @@ bool diff_side_open(diff_side *side, const char *path, octreel_error *error)
     if (!ok)
         diff_side_release(side);
     return ok;
+}
+
+static int by_name(const void *a, const void *b)
+{
+    return strcmp(((const diff_frame *)a)->name, ((const diff_frame *)b)->name);
+}
+
+void diff_side_sort_frames(diff_side *side)
+{
+    if (side->count > 0)
+        qsort(side->frames, side->count, sizeof *side->frames, by_name);
 }
 
 void diff_side_release(diff_side *side)

@@ -30,7 +30,7 @@ typedef struct acceptance {
 } acceptance;
 
 typedef struct diff_frame {
-    char *name;             /* the file name without its folder */
+    char *name;             /* the path below the side's folder, such as "menu/1.png"; of a picture, its file name */
     char *path;             /* null in a baseline, unless the picture was found in a store */
     frame_digest digest;    /* in a baseline: the variant that was accepted last; otherwise zero */
     frame_digest *variants; /* in a baseline: all accepted digests; owned */
@@ -41,7 +41,7 @@ typedef struct diff_side {
     const char *path;   /* the path as given, or "standard input", for messages and for opening a folder; not owned */
     const char *source; /* the path as given, for opening a file; not owned */
     diff_kind kind;
-    diff_frame *frames; /* sorted by name with strcmp(); names are unique; owned */
+    diff_frame *frames; /* sorted by name, in byte order; names are unique; owned */
     size_t count, room;
     bool no_frames;          /* a recording made without frames: its ticks are compared instead */
     image_color background;  /* in a baseline: the color behind transparent pixels */
@@ -49,11 +49,30 @@ typedef struct diff_side {
     size_t acceptance_count, acceptance_room;
 } diff_side;
 
-/* Open the side at a path. The path "-" reads a PNG or a baseline from standard input. The frames of a folder are
- * the PNG files directly in it, except files whose names begin with a dot. Return false with an error if the path is
- * not a picture, folder, recording or baseline. The side is then empty. */
-bool diff_side_open(diff_side *side, const char *path, octreel_error *error);
+/* Which subfolders of a folder are searched for frames. */
+typedef struct diff_search {
+    bool flat;               /* none */
+    const char *left_out[2]; /* not these, such as the other side, nor folders in them; null: none; not owned */
+} diff_search;
+
+/* Open the side at a path. The path "-" reads a PNG or a baseline from standard input. Return false with an error if
+ * the path is not a picture, folder, recording or baseline, or if a subfolder cannot be read. The side is then empty.
+ *
+ * The frames of a folder are the PNG files in it and in its subfolders. Links to folders are not followed. Files and
+ * folders whose names begin with a dot are left out, and so are folders of evidence and those that `search` names. A
+ * null `search` leaves out nothing else. A recording has no subfolders; one that lies in a folder is a plain folder. */
+bool diff_side_open(diff_side *side, const char *path, const diff_search *search, octreel_error *error);
 void diff_side_release(diff_side *side);
+
+/* Sort the frames by name, in byte order. */
+void diff_side_sort_frames(diff_side *side);
+
+/* The file that marks a folder of evidence, which diff --output writes, and how its text begins. */
+#define EVIDENCE_MARKER "evidence.txt"
+#define EVIDENCE_MARKER_BEGINNING "octreel evidence 1\n"
+
+/* Return whether a folder has the marker. */
+bool diff_is_evidence_folder(const char *folder);
 
 /* Return "picture", "folder", "recording" or "baseline". */
 const char *diff_kind_name(diff_kind kind);

@@ -9,16 +9,32 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
-static bool create_folder(const char *path, octreel_error *error)
+typedef int status_reader(const char *path, struct stat *status); /* stat() or lstat() */
+
+static bool create_folder(const char *path, status_reader *read_status, octreel_error *error)
 {
     struct stat status;
     if (mkdir(path, 0777) == 0)
         return true;
     const int reason = errno;
-    if (stat(path, &status) != 0)
+    if (read_status(path, &status) != 0)
         return error_set(error, "%s: cannot create the folder: %s", path, strerror(reason));
-    return S_ISDIR(status.st_mode) || error_set(error, "%s: cannot create the folder: a file has this name", path);
+    return S_ISDIR(status.st_mode) || error_set(error, "%s: cannot create the folder: a %s has this name", path,
+                                                S_ISLNK(status.st_mode) ? "link" : "file");
+}
+
+/* Creates the folders of a path that end before a slash at or after `from`. */
+static bool create_parents(char *path, char *from, status_reader *read_status, octreel_error *error)
+{
+    bool ok = true;
+    for (char *slash = strchr(from, '/'); ok && slash; slash = strchr(slash + 1, '/')) {
+        *slash = 0;
+        ok = create_folder(path, read_status, error);
+        *slash = '/';
+    }
+    return ok;
 }
 
 /* Checks that the system accepts the path of a folder and of any file in it. mkdir() would find out too late: after
@@ -46,15 +62,31 @@ bool folder_create(const char *folder, octreel_error *error)
     char *path = strdup(folder);
     if (!path)
         return error_no_memory(error);
-    bool ok = true;
-    for (char *slash = strchr(path + 1, '/'); ok && slash; slash = strchr(slash + 1, '/')) {
-        *slash = 0;
-        ok = create_folder(path, error);
-        *slash = '/';
-    }
-    ok = ok && create_folder(path, error);
+    const bool ok = create_parents(path, path + 1, stat, error) && create_folder(path, stat, error);
     free(path);
     return ok;
+}
+
+bool folder_create_inside(const char *folder, const char *name, octreel_error *error)
+{
+    char *path = path_join(folder, name);
+    if (!path)
+        return error_no_memory(error);
+    const bool ok = create_parents(path, path + strlen(path) - strlen(name), lstat, error);
+    free(path);
+    return ok;
+}
+
+void folder_remove_empty_inside(const char *folder, const char *name)
+{
+    char *path = path_join(folder, name);
+    char *const start = path ? path + strlen(path) - strlen(name) : NULL;
+    for (char *slash; path && (slash = strrchr(start, '/'));) {
+        *slash = 0;
+        if (rmdir(path) != 0) /* not empty */
+            break;
+    }
+    free(path);
 }
 
 char *chunk_print_name(uint64_t first, uint64_t last, char name[CHUNK_NAME])

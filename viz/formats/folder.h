@@ -11,6 +11,12 @@
  * refused before any folder is created. */
 bool folder_create(const char *folder, octreel_error *error);
 
+/* Creates the parent folders of a path below a folder: "menu" in the folder for "menu/1.png". Returns false with an
+ * error, also if one of them is a link, which could lead out of the folder. folder_remove_empty_inside() removes these
+ * folders where they are empty. */
+bool folder_create_inside(const char *folder, const char *name, octreel_error *error);
+void folder_remove_empty_inside(const char *folder, const char *name);
+
 /* Creates the folder for a recording. Returns false with an error if the folder already contains a recording or
  * frames. */
 bool folder_create_for_recording(const char *folder, octreel_error *error);

@@ -14,14 +14,13 @@
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
-/* The file that marks a folder as a folder of evidence. Its text says which files the next comparison removes. */
-#define MARKER "evidence.txt"
-static const char marker_beginning[] = "octreel evidence 1\n";
-static const char marker_text[] = "octreel evidence 1\n"
-                                  "What octreel diff found: open " EVIDENCE_PAGE ".\n"
-                                  "The next octreel diff -o into this folder removes the page, contact.png and all\n"
-                                  "pictures named *.expected.png, *.actual.png and *.difference.png.\n";
+/* The text of EVIDENCE_MARKER. It says which files the next comparison removes. */
+static const char marker_text[] =
+    EVIDENCE_MARKER_BEGINNING "What octreel diff found: open " EVIDENCE_PAGE ".\n"
+                              "The next octreel diff -o into this folder removes the page, contact.png and all\n"
+                              "pictures named *.expected.png, *.actual.png and *.difference.png, also in subfolders.\n";
 
 /* ---- Names --------------------------------------------------------------------------------------------------- */
 
@@ -52,25 +51,22 @@ static size_t fitting_length(const char *stem)
  * too long is cut and ends with a digest of the whole name. */
 char *evidence_name(const char *frame, evidence_picture picture)
 {
-    const size_t stem = diff_stem_length(frame), size = strlen(frame) + sizeof LONGEST_ENDING;
+    const char *file = path_base_name(frame);
+    const size_t stem = diff_stem_length(file), size = strlen(frame) + sizeof LONGEST_ENDING;
     const bool fits = stem + sizeof ".difference.png.part" - 1 <= NAME_MAX;
     char digest[24] = "", *name = malloc(size);
     if (!fits)
         snprintf(digest, sizeof digest, "~%016" PRIx64, octree_digest_bytes(OCTREE_DIGEST_START, frame, strlen(frame)));
     if (name)
-        snprintf(name, size, "%.*s%s.%s%s", (int)(fits ? stem : fitting_length(frame)), frame, digest,
-                 evidence_word(picture), frame[stem] ? frame + stem : ".png");
+        snprintf(name, size, "%.*s%.*s%s.%s%s", (int)(file - frame), frame, (int)(fits ? stem : fitting_length(file)),
+                 file, digest, evidence_word(picture), file[stem] ? file + stem : ".png");
     return name;
 }
 
-bool evidence_is_name(const char *name)
+static bool is_picture_name(const char *name)
 {
-    static const char *const files[] = {EVIDENCE_PAGE, EVIDENCE_PAGE ".part", CONTACT_SHEET, CONTACT_SHEET ".part"};
     static const char part[] = ".part";
     size_t length = strlen(name);
-    for (size_t i = 0; i < sizeof files / sizeof *files; i++)
-        if (strcmp(name, files[i]) == 0)
-            return true;
     if (length > sizeof part - 1 && strcmp(name + length - (sizeof part - 1), part) == 0)
         length -= sizeof part - 1;
     for (int i = 0; i < EVIDENCE_PICTURES; i++) {
@@ -82,6 +78,15 @@ bool evidence_is_name(const char *name)
     return false;
 }
 
+bool evidence_is_name(const char *name)
+{
+    static const char *const files[] = {EVIDENCE_PAGE, EVIDENCE_PAGE ".part", CONTACT_SHEET, CONTACT_SHEET ".part"};
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++)
+        if (strcmp(name, files[i]) == 0)
+            return true;
+    return is_picture_name(name);
+}
+
 static char *picture_path(const char *folder, const diff_pair *pair, evidence_picture picture)
 {
     char *name = evidence_name(diff_pair_name(pair), picture), *path = name ? path_join(folder, name) : NULL;
@@ -91,57 +96,88 @@ static char *picture_path(const char *folder, const diff_pair *pair, evidence_pi
 
 /* ---- The folder ---------------------------------------------------------------------------------------------- */
 
-static bool check_folder_is_not_side(const char *folder, const diff_side *side, octreel_error *error)
+/* Return how many times ".." leads from a folder to `outer`; -1: it is not in `outer`. */
+static int find_depth(const char *folder, const struct stat *outer)
 {
-    struct stat folder_status, side_status;
-    if (side->kind == DIFF_BASELINE || file_is_standard_stream(side->source) || stat(folder, &folder_status) != 0)
+    char path[PATH_MAX];
+    struct stat last = {0}, at;
+    bool fits = path_print(folder, "", path);
+    for (int depth = 0; fits && stat(path, &at) == 0 && !is_same_file(&at, &last); depth++, last = at) {
+        if (is_same_file(&at, outer))
+            return depth;
+        fits = strlen(path) + sizeof "/.." <= sizeof path;
+        if (fits)
+            strcat(path, "/..");
+    }
+    return -1;
+}
+
+static bool check_folder_holds_no_side(const char *folder, const diff_side *side, octreel_error *error)
+{
+    struct stat status;
+    if (side->kind == DIFF_BASELINE || file_is_standard_stream(side->source) || stat(folder, &status) != 0)
         return true;
-    const bool found =
-        side->kind == DIFF_PICTURE ? stat_parent(side->path, &side_status) : stat(side->path, &side_status) == 0;
-    return !found || !is_same_file(&folder_status, &side_status) ||
+    char *compared = side->kind == DIFF_PICTURE ? path_parent_folder(side->path) : strdup(side->path);
+    if (!compared)
+        return error_no_memory(error);
+    const int depth = find_depth(compared, &status);
+    free(compared);
+    return depth < 0 ||
            error_set(error, "%s: %s is compared, and would be removed: choose another folder for evidence", folder,
-                     side->kind == DIFF_PICTURE ? "a picture in it" : "it");
+                     side->kind == DIFF_PICTURE ? "a picture in it"
+                     : depth                    ? "a folder in it"
+                                                : "it");
 }
 
-static bool has_marker(const char *folder)
+static bool clear_folder(const char *folder, bool top, octreel_error *error);
+
+/* Remove a file of an earlier comparison; or the pictures of a subfolder, and the subfolder if it is empty then. Other
+ * files, hidden folders and folders of other evidence stay. */
+static bool clear_entry(const char *folder, const char *name, bool top, octreel_error *error)
 {
-    char text[sizeof marker_beginning] = "", ignored[FILE_REASON], *path = path_join(folder, MARKER);
-    FILE *file = path ? file_open(path, NULL, ignored) : NULL;
+    struct stat status;
+    char *path = path_join(folder, name);
+    bool ok = path || error_no_memory(error);
+    if (ok && lstat(path, &status) == 0 && S_ISDIR(status.st_mode)) {
+        const bool clears = name[0] != '.' && !diff_is_evidence_folder(path);
+        ok = !clears || clear_folder(path, false, error);
+        if (clears)
+            rmdir(path); /* fails if the folder is not empty */
+    } else if (ok && (top ? evidence_is_name(name) : is_picture_name(name)))
+        ok = folder_remove_file(folder, name, error);
     free(path);
-    if (!file)
-        return false;
-    const size_t size = fread(text, 1, sizeof text - 1, file);
-    fclose(file);
-    return size == sizeof text - 1 && memcmp(text, marker_beginning, size) == 0;
+    return ok;
 }
 
-/* Remove a file of an earlier comparison. In a folder with the marker, other files stay. A folder without the marker
- * must be empty. */
-static bool clear_entry(const char *folder, const char *name, bool marked, octreel_error *error)
+static bool clear_folder(const char *folder, bool top, octreel_error *error)
 {
-    if (marked)
-        return !evidence_is_name(name) || folder_remove_file(folder, name, error);
-    return strcmp(name, MARKER ".part") == 0 ||
-           error_set(error, "%s: contains %s but no evidence of octreel diff; choose a new or empty folder", folder,
-                     name);
-}
-
-static bool clear_folder(const char *folder, octreel_error *error)
-{
-    const bool marked = has_marker(folder);
     char **names = folder_names(folder, error);
     bool ok = names;
     for (size_t i = 0; ok && names[i]; i++)
-        ok = clear_entry(folder, names[i], marked, error);
+        ok = clear_entry(folder, names[i], top, error);
+    free(names);
+    return ok;
+}
+
+static bool check_folder_is_empty(const char *folder, octreel_error *error)
+{
+    char **names = folder_names(folder, error);
+    bool ok = names;
+    for (size_t i = 0; ok && names[i]; i++)
+        ok = strcmp(names[i], EVIDENCE_MARKER ".part") == 0 ||
+             error_set(error, "%s: contains %s but no evidence of octreel diff; choose a new or empty folder", folder,
+                       names[i]);
     free(names);
     return ok;
 }
 
 bool evidence_prepare(const char *folder, const diff_side *a, const diff_side *b, octreel_error *error)
 {
-    return check_folder_is_not_side(folder, a, error) && check_folder_is_not_side(folder, b, error) &&
-           folder_create(folder, error) && clear_folder(folder, error) &&
-           folder_write_file(folder, MARKER, marker_text, sizeof marker_text - 1, error);
+    return check_folder_holds_no_side(folder, a, error) && check_folder_holds_no_side(folder, b, error) &&
+           folder_create(folder, error) &&
+           (diff_is_evidence_folder(folder) ? clear_folder(folder, true, error)
+                                            : check_folder_is_empty(folder, error)) &&
+           folder_write_file(folder, EVIDENCE_MARKER, marker_text, sizeof marker_text - 1, error);
 }
 
 /* ---- The files of both sides --------------------------------------------------------------------------------- */
@@ -162,7 +198,9 @@ static bool copy_frame(const diff_frame *frame, const diff_pair *pair, evidence_
     if (!has_file(frame))
         return true;
     char *path = picture_path(folder, pair, picture);
-    const bool ok = path ? file_copy_to(frame->path, path, error) : error_no_memory(error);
+    const bool ok =
+        path ? folder_create_inside(folder, diff_pair_name(pair), error) && file_copy_to(frame->path, path, error)
+             : error_no_memory(error);
     free(path);
     *written |= ok ? 1u << picture : 0;
     return ok;

@@ -38,8 +38,12 @@ place gallery_make(const temp_folder *in, const char *folder, const char *names)
     assert_int_equal(mkdir(made.path, 0777), 0);
     assert_true(strlen(names) < sizeof list);
     strcpy(list, names);
-    for (char *name = strtok(list, " "); name; name = strtok(NULL, " "))
+    for (char *name = strtok(list, " "); name; name = strtok(NULL, " ")) {
+        octreel_error error = {""};
+        if (!folder_create_inside(made.path, name, &error))
+            fail_msg("%s", error.text);
         gallery_write(place_below(made.path, name).path, seed++, 0);
+    }
     return made;
 }
 
@@ -47,7 +51,7 @@ diff_side assert_side(const char *path)
 {
     diff_side side;
     octreel_error error = {""};
-    if (!diff_side_open(&side, path, &error))
+    if (!diff_side_open(&side, path, NULL, &error))
         fail_msg("%s", error.text);
     return side;
 }

@@ -16,8 +16,8 @@ image gallery_picture(uint64_t seed);
  */
 void gallery_write(const char *path, uint64_t seed, int spoilt);
 
-/* Make a folder in a test's folder. For each of the names, which are separated by blanks, write a picture; picture i
- * has the seed i. */
+/* Make a folder in a test's folder. For each of the names, which are separated by blanks and may lie in subfolders,
+ * write a picture; picture i has the seed i. */
 place gallery_make(const temp_folder *in, const char *folder, const char *names);
 
 /* The test fails with the error if a side cannot be opened, or if two sides cannot be compared. */

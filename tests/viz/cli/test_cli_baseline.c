@@ -227,6 +227,29 @@ static void accept_replaces_a_damaged_picture_in_the_store(void **state)
     assert_same_files(picture.path, place_below(s.before.path, "2.png").path);
 }
 
+/* ---- Subfolders ---------------------------------------------------------------------------------------------- */
+
+static void frames_in_subfolders_have_digests_and_stored_pictures(void **state)
+{
+    const states s = {gallery_make(*state, "old", "1.png menu/1.png menu/old/2.png"),
+                      gallery_make(*state, "new", "1.png menu/1.png menu/old/2.png"), place_in(*state, "baseline.txt"),
+                      place_in(*state, "old/store")}; /* the store is no part of the frames */
+    const place out = place_in(*state, "out");
+    char more[4096];
+    snprintf(more, sizeof more, "--store %s" BY("the first", "2026-11-22"), s.store.path);
+    accept_into(&s, &s.before, more);
+    accept_into(&s, &s.before, more);
+    assert_int_equal(count_lines(s.file.path, "\n"), 6);
+    assert_int_equal(count_lines(s.file.path, " menu/old/2\n"), 1);
+    assert_diff(&s, &s.after, "", 0, "same: 3 frames");
+    gallery_write(place_below(s.after.path, "menu/old/2.png").path, 2, 5);
+    snprintf(more, sizeof more, "--store %s -o %s", s.store.path, out.path);
+    assert_diff(&s, &s.after, more, 1, "  menu/old/2.png: 5 of 384 pixels differ");
+    assert_same_files(place_below(out.path, "menu/old/2.expected.png").path,
+                      place_below(s.before.path, "menu/old/2.png").path);
+    assert_diff(&s, &s.after, "--no-recursive", 1, "different: 2 of 3 frames");
+}
+
 /* ---- Who else writes, and disks that are full ---------------------------------------------------------------- */
 
 static void concurrent_accepts_lose_nothing(void **state)
@@ -285,6 +308,7 @@ int main(void)
         WITH_FOLDER(evidence_shows_expected_pictures_from_the_store),
         WITH_FOLDER(bad_picture_in_the_store_is_reported_without_changing_the_verdict),
         WITH_FOLDER(accept_replaces_a_damaged_picture_in_the_store),
+        WITH_FOLDER(frames_in_subfolders_have_digests_and_stored_pictures),
         WITH_FOLDER(concurrent_accepts_lose_nothing),
         WITH_FOLDER(full_disk_accepts_nothing),
     };

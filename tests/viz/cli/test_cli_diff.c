@@ -135,6 +135,30 @@ static void unreadable_frames_are_listed(void **state)
     command_release(&result);
 }
 
+/* One identical frame at the top must not hide those below it. */
+static void frames_in_subfolders_decide_the_verdict(void **state)
+{
+    static const char names[] = "0.png a/b/0.png a/b/1.png a/b/2.png a/b/3.png";
+    const place a = gallery_make(*state, "a", names), b = gallery_make(*state, "b", names);
+    for (uint64_t i = 1; i <= 3; i++) {
+        char name[16];
+        snprintf(name, sizeof name, "a/b/%d.png", (int)i);
+        gallery_write(place_below(b.path, name).path, i + 1, 5);
+    }
+    command_result result =
+        run_octreel(NULL, "diff %s %s --each --junit %s", a.path, b.path, place_in(*state, "out.xml").path);
+    assert_ends(&result, 1, "different: 3 of 5 frames, 2 the same by their bytes\n  a/b/1.png: 5 of 384 pixels differ");
+    char *xml = file_read(place_in(*state, "out.xml").path, NULL);
+    assert_contains(xml, "name=\"a/b/3.png\"");
+    free(xml);
+    result = run_octreel(NULL, "diff --no-recursive %s %s", a.path, b.path);
+    assert_ends(&result, 0, "same: 1 frame, 1 the same by its bytes\n");
+    result = run_octreel(NULL, "diff %s %s --json", a.path, b.path);
+    assert_int_equal(result.status, 1);
+    assert_contains(result.out, "\"frames\": [\"a/b/1.png\", \"a/b/2.png\", \"a/b/3.png\"]");
+    command_release(&result);
+}
+
 static double number(const json_t *object, const char *name)
 {
     return json_number_value(json_member(object, name));
@@ -281,6 +305,7 @@ int main(void)
         WITH_FOLDER(errors_are_printed_with_status_2),
         WITH_FOLDER(other_frames_are_compared_beside_an_unreadable_one),
         WITH_FOLDER(unreadable_frames_are_listed),
+        WITH_FOLDER(frames_in_subfolders_decide_the_verdict),
         WITH_FOLDER(json_contains_the_whole_result),
         WITH_FOLDER(json_is_printed_for_errors_too),
         WITH_FOLDER(text_lists_are_cut_but_json_lists_are_whole),

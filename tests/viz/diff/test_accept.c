@@ -205,6 +205,90 @@ static void inaccessible_reference_is_an_error(void **state)
     assert_true(S_ISLNK(status.st_mode));
 }
 
+/* ---- Subfolders ---------------------------------------------------------------------------------------------- */
+
+/* A reference and a later state of it, in subfolders: menu/1.png changed, old/2.png gone, hud/deep/3.png new. */
+static change make_nested_change(void **state)
+{
+    const change made = {gallery_make(*state, "golden", "0.png menu/1.png old/2.png"),
+                         gallery_make(*state, "new", "0.png menu/1.png hud/deep/3.png")};
+    gallery_write(place_below(made.after.path, "menu/1.png").path, 1, 5);
+    return made;
+}
+
+static void references_in_subfolders_are_written_and_removed(void **state)
+{
+    const change c = make_nested_change(state);
+    command_result result = accept_all(&c.before, &c.after);
+    assert_contains(result.out, "new      hud/deep/3.png: 24x16");
+    assert_contains(result.out, "changed  menu/1.png: 5 of 384 pixels differ");
+    assert_contains(result.out, "removed  old/2.png");
+    assert_contains(result.out, "golden: 3 before, 3 after: 1 changed, 1 new, 1 removed");
+    command_release(&result);
+    assert_same_files(place_below(c.before.path, "menu/1.png").path, place_below(c.after.path, "menu/1.png").path);
+    assert_same_files(place_below(c.before.path, "hud/deep/3.png").path,
+                      place_below(c.after.path, "hud/deep/3.png").path);
+    assert_false(file_exists(place_below(c.before.path, "old").path));
+}
+
+static void subfolders_stay_unchanged_without_recursion(void **state)
+{
+    const change c = make_nested_change(state);
+    gallery_write(place_below(c.after.path, "0.png").path, 0, 5);
+    command_result result = run_octreel(NULL, "accept --no-recursive %s %s", c.before.path, c.after.path);
+    assert_done(&result);
+    assert_contains(result.out, "golden: 1 before, 1 after: 1 changed, 0 new, 0 removed");
+    command_release(&result);
+    assert_true(file_exists(place_below(c.before.path, "old/2.png").path));
+    assert_false(file_exists(place_below(c.before.path, "hud").path));
+}
+
+/* On a full disk, and where a link would lead out of the reference. */
+static void nothing_in_subfolders_is_accepted_after_an_error(void **state)
+{
+    const change c = make_nested_change(state);
+    const command_setting full = {.file_limit = 16};
+    command_result result = run_octreel(&full, "accept %s %s", c.before.path, c.after.path);
+    assert_trouble(&result, "3.png: cannot be written");
+    assert_false(file_exists(place_below(c.before.path, "hud").path));
+    const place elsewhere = gallery_make(*state, "elsewhere", ""), link = place_below(c.before.path, "hud");
+    assert_int_equal(symlink(elsewhere.path, link.path), 0);
+    result = run_octreel(NULL, "accept %s %s", c.before.path, c.after.path);
+    assert_trouble(&result, "golden/hud: cannot create the folder: a link has this name");
+    assert_false(file_exists(place_below(elsewhere.path, "deep").path));
+    comparison_of made = assert_compared(c.before.path, c.after.path, NULL);
+    assert_int_equal(find_finding(&made, "menu/1.png"), FOUND_PIXELS);
+    assert_int_equal(find_finding(&made, "old/2.png"), FOUND_NO_FRAME);
+    comparison_release(&made);
+}
+
+static void frames_in_subfolders_are_named_by_their_paths(void **state)
+{
+    const change c = make_nested_change(state);
+    command_result result = run_octreel(NULL, "accept %s %s 3.png", c.before.path, c.after.path);
+    assert_trouble(&result, "golden; did you mean hud/deep/3.png?");
+    result = run_octreel(NULL, "accept %s %s hud/deep/3.png", c.before.path, c.after.path);
+    assert_done(&result);
+    assert_contains(result.out, "golden: 3 before, 4 after: 0 changed, 1 new, 0 removed");
+    command_release(&result);
+}
+
+/* New frames in the reference's folder are no references, and the other way round. */
+static void sides_in_one_another_are_not_mixed(void **state)
+{
+    const place outer = gallery_make(*state, "outer", "1.png inner/1.png"), inner = place_below(outer.path, "inner");
+    gallery_write(place_below(inner.path, "2.png").path, 7, 0);
+    command_result result = accept_all(&outer, &inner);
+    assert_contains(result.out, "outer: 1 before, 2 after: 1 changed, 1 new, 0 removed");
+    command_release(&result);
+    result = accept_all(&inner, &outer);
+    assert_contains(result.out, "inner: 2 before, 2 after: 0 changed, 0 new, 0 removed");
+    command_release(&result);
+    result = run_octreel(NULL, "diff %s %s", inner.path, outer.path);
+    assert_done(&result);
+    command_release(&result);
+}
+
 #define BECAUSE " --reason why --date 2026-11-22"
 
 static void accept_updates_a_baseline_line_by_line(void **state)
@@ -352,6 +436,11 @@ int main(void)
         WITH_FOLDER(missing_reference_is_created),
         WITH_FOLDER(name_of_a_file_becomes_no_folder_and_no_picture_in_another_format),
         WITH_FOLDER(inaccessible_reference_is_an_error),
+        WITH_FOLDER(references_in_subfolders_are_written_and_removed),
+        WITH_FOLDER(subfolders_stay_unchanged_without_recursion),
+        WITH_FOLDER(nothing_in_subfolders_is_accepted_after_an_error),
+        WITH_FOLDER(frames_in_subfolders_are_named_by_their_paths),
+        WITH_FOLDER(sides_in_one_another_are_not_mixed),
         WITH_FOLDER(accept_updates_a_baseline_line_by_line),
         WITH_FOLDER(recording_is_accepted_with_its_ticks),
         WITH_FOLDER(empty_folder_becomes_a_recording),

@@ -84,8 +84,10 @@ static void frame_has_all_variants_and_is_represented_by_the_newest(void **state
 static void every_frame_name_survives_the_round_trip(void **state)
 {
     (void)state;
-    static const char *const names[] = {"a.png", "a.PNG", "a.png.png", "a.Png.png", "a .png", " .png", "7f.png", "p"};
-    static const char *const lines[] = {"a", "a.PNG", "a.png.png", "a.Png.png", "a .png", " .png", "7f", "p"};
+    static const char *const names[] = {"a.png",  "a.PNG", "a.png.png",  "a.Png.png",   "a .png", " .png",
+                                        "7f.png", "p",     "menu/1.png", "a/b /.c.PNG", "..png",  "-/-.png"};
+    static const char *const lines[] = {"a",  "a.PNG", "a.png.png", "a.Png.png",   "a .png", " .png",
+                                        "7f", "p",     "menu/1",    "a/b /.c.PNG", ".",      "-/-"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         diff_side side = {.path = "file", .kind = DIFF_BASELINE, .background = {255, 255, 255}};
         octreel_error error;
@@ -146,7 +148,13 @@ static void malformed_line_is_refused_with_its_number(void **state)
         {HEAD FIRST "7f 0123456789ABCDEF a\n", "file:4: expected"},
         {HEAD FIRST "7f 0123456789abcdef \n", "file:4: expected"},
         {HEAD FIRST "7f 0123456789abcdef\n", "file:4: expected"},
-        {HEAD FIRST "7f 0123456789abcdef ../a\n", "file:4: expected"},
+        {HEAD FIRST "7f 0123456789abcdef ../a\n", "file:4: expected the path of a frame below its folder, as in"},
+        {HEAD FIRST "7f 0123456789abcdef a/../../b\n", "file:4: expected the path"},
+        {HEAD FIRST "7f 0123456789abcdef a/./b\n", "file:4: expected the path"},
+        {HEAD FIRST "7f 0123456789abcdef ./a\n", "file:4: expected the path"},
+        {HEAD FIRST "7f 0123456789abcdef /a\n", "file:4: expected the path"},
+        {HEAD FIRST "7f 0123456789abcdef a//b\n", "file:4: expected the path"},
+        {HEAD FIRST "7f 0123456789abcdef a/b\x01\n", "file:4: expected an acceptance"},
         {HEAD FIRST "7f 0123456789abcdef a\tb\n", "file:4: expected"},
         {HEAD FIRST "7f\n", "file:4: expected"},
         {HEAD FIRST "7\n", "file:4: expected"},

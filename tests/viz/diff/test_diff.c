@@ -39,13 +39,81 @@ static void recording_contains_only_its_frames(void **state)
     diff_side_release(&side);
 }
 
+static void assert_frames(const char *path, const diff_search *search, const char *names)
+{
+    diff_side side;
+    octreel_error error = {""};
+    char all[1024] = "";
+    if (!diff_side_open(&side, path, search, &error))
+        fail_msg("%s", error.text);
+    for (size_t i = 0; i < side.count; i++)
+        snprintf(all + strlen(all), sizeof all - strlen(all), "%s%s", i ? " " : "", side.frames[i].name);
+    assert_string_equal(all, names);
+    diff_side_release(&side);
+}
+
+static void subfolders_are_searched_in_byte_order(void **state)
+{
+    const place folder = gallery_make(*state, "a", "a/x.png a.png a-b.png a/b/y.png B/z.png a0.png b.png/1.png");
+    assert_frames(folder.path, NULL, "B/z.png a-b.png a.png a/b/y.png a/x.png a0.png b.png/1.png");
+    assert_frames(folder.path, &(diff_search){.flat = true}, "a-b.png a.png a0.png b.png");
+}
+
+static void hidden_linked_and_left_out_folders_are_not_searched(void **state)
+{
+    const place folder =
+        gallery_make(*state, "a", "1.png .git/2.png other/3.png out/4.actual.png out/deep/5.actual.png linked/6.png");
+    const place elsewhere = gallery_make(*state, "b", "7.png"), other = place_in(*state, "a/other");
+    file_write_text(place_in(*state, "a/out/evidence.txt").path, "octreel evidence 1\n");
+    assert_int_equal(symlink(elsewhere.path, place_in(*state, "a/linked/folder").path), 0);
+    assert_int_equal(symlink("..", place_in(*state, "a/linked/loop").path), 0);
+    assert_int_equal(mkfifo(place_in(*state, "a/linked/evidence.txt").path, 0600), 0);
+    assert_frames(folder.path, NULL, "1.png linked/6.png other/3.png");
+    assert_frames(folder.path, &(diff_search){.left_out = {NULL, other.path}}, "1.png linked/6.png");
+    assert_frames(other.path, &(diff_search){.left_out = {folder.path, other.path}}, "3.png");
+}
+
+/* A recording that lies in a folder is a folder of pictures; subfolders of a recording are no part of it. */
+static void recording_is_searched_only_below_a_folder(void **state)
+{
+    const place folder = gallery_make(*state, "a", "film/frame_000000.png film/sheet.png film/old/frame_000000.png");
+    file_write_text(place_in(*state, "a/film/recording.json").path, "{}");
+    assert_frames(place_in(*state, "a/film").path, NULL, "frame_000000.png");
+    assert_frames(folder.path, NULL, "film/frame_000000.png film/old/frame_000000.png film/sheet.png");
+}
+
 static void assert_no_side(const char *path, const char *part)
 {
     diff_side side;
     octreel_error error = {""};
-    assert_false(diff_side_open(&side, path, &error));
+    assert_false(diff_side_open(&side, path, NULL, &error));
     assert_non_null(strstr(error.text, part));
     assert_null(side.frames);
+}
+
+/* A frame that cannot be reached must not look like a frame that does not exist. */
+static void unreachable_entry_is_an_error(void **state)
+{
+    const place folder = gallery_make(*state, "a", "a_rather_long_name.png");
+    char path[4096];
+    snprintf(path, sizeof path, "%s", folder.path);
+    while (strlen(path) + sizeof "/." + 8 < sizeof path)
+        strcat(path, "/.");
+    assert_no_side(path, "a_rather_long_name.png: File name too long");
+}
+
+static void different_frames_in_subfolders_differ(void **state)
+{
+    const place a = gallery_make(*state, "a", "1.png a/b/2.png a/b/3.png a/4.png"),
+                b = gallery_make(*state, "b", "1.png a/b/2.png a/b/3.png c/4.png");
+    gallery_write(place_in(*state, "b/a/b/3.png").path, 2, 4);
+    comparison_of made = assert_compared(a.path, b.path, NULL);
+    assert_int_equal(made.result.verdict, DIFF_DIFFERENT);
+    assert_int_equal(find_finding(&made, "a/b/2.png"), FOUND_SAME_BYTES);
+    assert_int_equal(find_finding(&made, "a/b/3.png"), FOUND_PIXELS);
+    assert_int_equal(find_finding(&made, "a/4.png"), FOUND_NO_FRAME);
+    assert_int_equal(find_finding(&made, "c/4.png"), FOUND_NO_REFERENCE);
+    comparison_release(&made);
 }
 
 static void invalid_sides_are_refused(void **state)
@@ -254,6 +322,11 @@ int main(void)
     const struct CMUnitTest tests[] = {
         WITH_FOLDER(folder_contains_its_pictures_in_order),
         WITH_FOLDER(recording_contains_only_its_frames),
+        WITH_FOLDER(subfolders_are_searched_in_byte_order),
+        WITH_FOLDER(hidden_linked_and_left_out_folders_are_not_searched),
+        WITH_FOLDER(recording_is_searched_only_below_a_folder),
+        WITH_FOLDER(different_frames_in_subfolders_differ),
+        WITH_FOLDER(unreachable_entry_is_an_error),
         WITH_FOLDER(invalid_sides_are_refused),
         WITH_FOLDER(frames_are_paired_by_name),
         WITH_FOLDER(recordings_of_different_length_differ),

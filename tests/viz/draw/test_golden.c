@@ -53,7 +53,7 @@ static bool empty_folder(void)
     diff_side before;
     octreel_error error;
     mkdir(OCTREEL_DRAWN, 0777);
-    if (!diff_side_open(&before, OCTREEL_DRAWN, &error))
+    if (!diff_side_open(&before, OCTREEL_DRAWN, NULL, &error))
         return fprintf(stderr, "%s\n", error.text) < 0;
     bool ok = true;
     for (size_t i = 0; i < before.count; i++)
@@ -97,8 +97,8 @@ static bool open_gallery(gallery *g)
 {
     const diff_options exact = diff_options_default();
     octreel_error error = {""};
-    if (draw_all(g->renderer) && diff_side_open(&g->references, OCTREEL_GOLDEN, &error) &&
-        diff_side_open(&g->drawn, OCTREEL_DRAWN, &error) &&
+    if (draw_all(g->renderer) && diff_side_open(&g->references, OCTREEL_GOLDEN, NULL, &error) &&
+        diff_side_open(&g->drawn, OCTREEL_DRAWN, NULL, &error) &&
         diff_run(&g->references, &g->drawn, &exact, &g->result, &error))
         return true;
     fprintf(stderr, "%s\n", error.text);

@@ -125,6 +125,8 @@ static void different_frame_names_have_different_file_names(void **state)
         {"photo", "photo.actual.png"},
         {"png", "png.actual.png"},
         {".png", ".png.actual.png"},
+        {"menu/1.png", "menu/1.actual.png"},
+        {"menu.png/1", "menu.png/1.actual.png"},
     };
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         char *name = evidence_name(names[i][0], EVIDENCE_ACTUAL);
@@ -136,6 +138,39 @@ static void different_frame_names_have_different_file_names(void **state)
     assert_true(evidence_is_name("a.difference.png.part"));
     assert_false(evidence_is_name(".difference.png"));
     assert_false(evidence_is_name("difference.png"));
+}
+
+static void pictures_of_subfolders_lie_in_subfolders(void **state)
+{
+    const place a = gallery_make(*state, "a", "menu/1.png menu/old/2.png"), b = gallery_make(*state, "b", "menu/1.png"),
+                folder = place_in(*state, "out"), menu = place_in(*state, "out/menu");
+    gallery_write(place_below(b.path, "menu/1.png").path, 0, 3);
+    leave_and_forget(a.path, b.path, folder.path);
+    assert_folder_has(menu.path, "1.actual.png 1.difference.png 1.expected.png old");
+    assert_same_files(place_below(menu.path, "old/2.expected.png").path, place_below(a.path, "menu/old/2.png").path);
+    file_write_text(place_below(menu.path, "report.html").path, "mine");
+    leave_and_forget(a.path, a.path, folder.path);
+    assert_folder_has(menu.path, "report.html");
+}
+
+/* Removing old evidence and writing new evidence never leave the folder, and spare other evidence in it. */
+static void links_and_other_evidence_in_the_folder_stay(void **state)
+{
+    const place a = gallery_make(*state, "a", "menu/1.png"), b = gallery_make(*state, "b", "menu/1.png"),
+                folder = place_in(*state, "out"), elsewhere = gallery_make(*state, "c", "9.actual.png");
+    leave_and_forget(a.path, a.path, folder.path);
+    gallery_write(place_below(b.path, "menu/1.png").path, 0, 3);
+    leave_and_forget(a.path, b.path, place_below(folder.path, "sub").path);
+    assert_int_equal(symlink(elsewhere.path, place_below(folder.path, "menu").path), 0);
+    comparison_of made = assert_compared(a.path, b.path, NULL);
+    octreel_error error = {""};
+    evidence e;
+    assert_true(evidence_prepare(folder.path, &made.a, &made.b, &error));
+    assert_false(evidence_collect(&e, folder.path, &made.result, group_frames(&made, true), &error));
+    assert_contains(error.text, "out/menu: cannot create the folder: a link has this name");
+    comparison_release(&made);
+    assert_folder_has(elsewhere.path, "9.actual.png");
+    assert_true(file_exists(place_below(folder.path, "sub/menu/1.actual.png").path));
 }
 
 /* ---- The folder ---------------------------------------------------------------------------------------------- */
@@ -185,6 +220,11 @@ static void compared_pictures_are_not_removed(void **state)
     assert_refused(a.path, folder.path, folder.path, "it is compared, and would be removed");
     assert_refused(expected.path, actual.path, folder.path, "a picture in it is compared");
     assert_folder_has(folder.path, "1.expected.png 2.actual.png evidence.txt");
+    const place inner = gallery_make(*state, "out/inner", "1.actual.png");
+    assert_refused(a.path, inner.path, folder.path, "a folder in it is compared");
+    assert_refused(place_below(inner.path, "1.actual.png").path, actual.path, folder.path,
+                   "a picture in it is compared");
+    assert_folder_has(inner.path, "1.actual.png");
 }
 
 static void error_names_a_folder_that_cannot_be_made(void **state)
@@ -226,6 +266,8 @@ int main(void)
         WITH_FOLDER(pictures_show_expected_actual_and_difference),
         WITH_FOLDER(equal_frames_leave_no_pictures),
         cmocka_unit_test(different_frame_names_have_different_file_names),
+        WITH_FOLDER(pictures_of_subfolders_lie_in_subfolders),
+        WITH_FOLDER(links_and_other_evidence_in_the_folder_stay),
         WITH_FOLDER(new_evidence_replaces_old_evidence),
         WITH_FOLDER(unrelated_folder_is_refused_and_unchanged),
         WITH_FOLDER(empty_folder_is_accepted),
