@@ -24,10 +24,9 @@ typedef struct arguments {
     unsigned layers;          /* bits 1 << view_layer of the ignored layers */
     image_rectangle *ignored; /* owned */
     output_file outputs[OUTPUTS];
-    const char *store; /* the value of --store; null: not given */
-    uint64_t causes;   /* the number of differing frames and ticks to explain */
-    bool has_causes;   /* --causes was given */
-    size_t lines;      /* the number of groups that are listed; at least the value of --causes */
+    uint64_t causes; /* the number of differing frames and ticks to explain */
+    bool has_causes; /* --causes was given */
+    size_t lines;    /* the number of groups that are listed; at least the value of --causes */
     bool flat, json, force, each, annotate;
 } arguments;
 
@@ -124,9 +123,9 @@ static const command_option options[] = {
     {.help = "Input and output:"},
     FLAT_OPTION(arguments, flat),
     {"store", "DIR",
-     "with a baseline: show the expected pictures that octreel accept --store has saved in DIR; they never change the "
-     "verdict",
-     .read = read_name, OPTION_VALUE(arguments, store)},
+     "with a baseline as REFERENCE: show the expected pictures that octreel accept --store has saved in DIR, and apply "
+     "the tolerances to them. Without a tolerance they never change the verdict",
+     .read = read_name, OPTION_VALUE(arguments, options.store)},
     {"background", "RRGGBB", "colour behind transparent pixels (default ffffff, white)", .read = read_color,
      OPTION_VALUE(arguments, options.background)},
     {"output", "DIR",
@@ -229,13 +228,14 @@ static int compare(const arguments *a, const char *paths[2])
     explanation why = {0};
     frame_groups groups = {0};
     octreel_error error;
-    const diff_search search[2] = {{a->flat, {paths[1], a->store}}, {a->flat, {paths[0], a->store}}};
-    const bool ok = diff_side_open(&sides[0], paths[0], &search[0], &error) &&
-                    diff_side_open(&sides[1], paths[1], &search[1], &error) && check_before_writing(a, sides, &error) &&
-                    diff_run(&sides[0], &sides[1], &a->options, &result, &error) &&
-                    (!a->store || picture_store_fetch(a->store, &sides[0], &result, &error)) &&
-                    explain(&sides[0], &sides[1], &result, a->causes, &why, &error) &&
-                    frame_groups_make(&groups, &result, &why, a->each, &error);
+    const diff_search search[2] = {{a->flat, {paths[1], a->options.store}}, {a->flat, {paths[0], a->options.store}}};
+    bool ok = diff_side_open(&sides[0], paths[0], &search[0], &error) &&
+              diff_side_open(&sides[1], paths[1], &search[1], &error) && check_before_writing(a, sides, &error) &&
+              diff_run(&sides[0], &sides[1], &a->options, &result, &error);
+    if (ok)
+        picture_store_fetch(&sides[0], &result);
+    ok = ok && explain(&sides[0], &sides[1], &result, a->causes, &why, &error) &&
+         frame_groups_make(&groups, &result, &why, a->each, &error);
     diff_report all = {
         .a = &sides[0], .b = &sides[1], .result = &result, .why = &why, .lines = a->lines, .groups = &groups};
     const int status = ok ? write_reports(a, &all) : print_error("%s", error.text);
@@ -297,7 +297,9 @@ const command command_diff = {
                 "# in a GitHub job: write evidence/report.html and a summary of the job\n"
                 "octreel diff golden frames -o evidence --markdown - >> \"$GITHUB_STEP_SUMMARY\"\n"
                 "# compare with a baseline, and show the expected pictures from its store\n"
-                "octreel diff baseline.txt frames --store pictures -o evidence\n",
+                "octreel diff baseline.txt frames --store pictures -o evidence\n"
+                "# compare with a baseline, with a colour tolerance for the frames whose digests differ\n"
+                "octreel diff baseline.txt frames --store pictures --max-delta 0.02\n",
     .environment = "  GITHUB_ACTIONS  if set, GitHub annotations are printed, as with --annotate\n",
     .files = "  DIR/report.html  the page, which needs no other file\n"
              "  DIR/contact.png  small copies of the pictures of all findings\n"

@@ -79,10 +79,10 @@ void pair_tolerance_release(image_tolerance *tolerance)
 
 /* ---- Pairing ------------------------------------------------------------------------------------------------ */
 
-static bool is_exact(const image_tolerance *tolerance)
+bool diff_is_exact(const diff_options *options)
 {
-    return tolerance->max_pixels == 0 && tolerance->max_delta == 0 && !tolerance->antialias &&
-           tolerance->ignored_count == 0;
+    const image_tolerance *t = &options->tolerance;
+    return t->max_pixels == 0 && t->max_delta == 0 && !t->antialias && t->ignored_count == 0 && !options->mask;
 }
 
 static bool same_color(image_color a, image_color b)
@@ -102,6 +102,21 @@ static bool is_single_pair(const diff_side *a, const diff_side *b)
     return (a->kind == DIFF_PICTURE || b->kind == DIFF_PICTURE) && has_one_frame(a) && has_one_frame(b);
 }
 
+static bool check_baseline(const diff_side *side, bool is_reference, const diff_options *options, octreel_error *error)
+{
+    if (!diff_is_exact(options) && !(is_reference && options->store))
+        return error_set(error,
+                         "%s: a baseline holds digests, which allow no tolerance; %s, or remove --max-pixels, "
+                         "--max-delta, --antialias, --ignore and --ignore-layer",
+                         side->path,
+                         is_reference
+                             ? "add --store DIR, the folder in which octreel accept --store DIR saved the pictures"
+                             : "compare the pictures themselves");
+    return same_color(side->background, options->background) ||
+           error_set(error, "%s: made over another background; add --background %02x%02x%02x", side->path,
+                     side->background.r, side->background.g, side->background.b);
+}
+
 bool diff_check(const diff_side *a, const diff_side *b, const diff_options *options, octreel_error *error)
 {
     const diff_side *const sides[2] = {a, b};
@@ -115,19 +130,12 @@ bool diff_check(const diff_side *a, const diff_side *b, const diff_options *opti
                          diff_kind_name(a->kind == DIFF_PICTURE ? b->kind : a->kind), a->path, b->path);
     if (a->count + b->count == 0 && !a->no_frames)
         return error_set(error, "nothing to compare: no PNG files in %s or %s", a->path, b->path);
-    for (int i = 0; i < 2; i++) {
-        if (sides[i]->kind != DIFF_BASELINE)
-            continue;
-        if (!is_exact(&options->tolerance) || options->mask)
-            return error_set(
-                error,
-                "%s: a baseline holds digests, which allow no tolerance; remove --max-pixels, --max-delta, "
-                "--antialias, --ignore and --ignore-layer",
-                sides[i]->path);
-        if (!same_color(sides[i]->background, options->background))
-            return error_set(error, "%s: made over another background; add --background %02x%02x%02x", sides[i]->path,
-                             sides[i]->background.r, sides[i]->background.g, sides[i]->background.b);
-    }
+    if (options->store && a->kind != DIFF_BASELINE)
+        return error_set(error, "--store works with a baseline only, as the reference; %s is a %s", a->path,
+                         diff_kind_name(a->kind));
+    for (int i = 0; i < 2; i++)
+        if (sides[i]->kind == DIFF_BASELINE && !check_baseline(sides[i], i == 0, options, error))
+            return false;
     return true;
 }
 

@@ -45,6 +45,7 @@ typedef struct diff_options {
     diff_mask *mask;        /* null: no layer is ignored */
     void *mask_context;
     const char *layers; /* the names of the ignored layers, separated by commas */
+    const char *store;  /* the picture store of the reference, which must be a baseline; null: none */
 } diff_options;
 
 /* Return options without a tolerance and with a white background. */
@@ -60,7 +61,7 @@ typedef struct diff_pair {
     image_difference difference; /* valid if both frames were decoded */
     pixel_mask mask;             /* the pixels of ignored layers */
     char *trouble;               /* the error if a frame is unreadable; owned */
-    char *no_picture;            /* the reason why the store has no picture of the reference; owned */
+    char *no_picture;            /* why the store has no picture of the reference, so no tolerance applies; owned */
     bool lacks_resources;        /* the system refused memory or a file handle, so the frame may be readable */
 } diff_pair;
 
@@ -74,8 +75,8 @@ typedef struct diff_result {
 } diff_result;
 
 /* Check that two sides can be compared, without reading a picture. Return false with an error for a picture and a
- * folder, a tolerance with a baseline, or two empty folders. Also return false if only one side is a recording
- * without frames. */
+ * folder, a baseline with a tolerance but without a store, a store without a baseline as reference, or two empty
+ * folders. Also return false if only one side is a recording without frames. */
 bool diff_check(const diff_side *a, const diff_side *b, const diff_options *options, octreel_error *error);
 
 /* Compare the frames of b with the reference a, on all cores. Files with equal bytes are not decoded. Other pairs
@@ -96,6 +97,9 @@ void compare_pixels(diff_pair *pair, const diff_options *options);
  * out. Release the tolerance in any case. */
 bool pair_tolerance(const diff_pair *pair, const diff_options *options, image_tolerance *tolerance);
 void pair_tolerance_release(image_tolerance *tolerance);
+
+/* Return whether the options accept no difference. */
+bool diff_is_exact(const diff_options *options);
 
 /* Return the name of a pair: the name of its frame or, if the frame is missing, of its reference. */
 const char *diff_pair_name(const diff_pair *pair);

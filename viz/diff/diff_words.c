@@ -180,6 +180,16 @@ static bool is_outside(const image_rectangle *r, const diff_result *result)
     return compared;
 }
 
+/* Print in how many frames the tolerance was not applied, because the store has no picture of the reference. */
+static void print_unapplied(FILE *out, const diff_result *result)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < result->count; i++)
+        count += result->pairs[i].b && result->pairs[i].no_picture;
+    if (count)
+        fprintf(out, "; not applied to %zu frame%s without a stored picture", count, plural_ending(count));
+}
+
 void diff_print_tolerance(FILE *out, const diff_result *result)
 {
     const diff_options *options = &result->options;
@@ -201,6 +211,8 @@ void diff_print_tolerance(FILE *out, const diff_result *result)
         print_item(out, &first, "the layer%s %s", strchr(options->layers, ',') ? "s" : "", options->layers);
     if (first)
         fputs("compared exactly", out);
+    else
+        print_unapplied(out, result);
     if (any_transparent(result))
         fprintf(out, "; transparent pixels lie over #%02x%02x%02x", options->background.r, options->background.g,
                 options->background.b);

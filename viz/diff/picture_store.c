@@ -65,59 +65,62 @@ char *picture_store_find(const char *store, const frame_digest *digest, image_co
 /* ---- For a comparison ---------------------------------------------------------------------------------------- */
 
 typedef struct fetching {
-    const char *store;
     diff_side *reference;
     diff_result *result;
 } fetching;
 
-/* Return the path of the newest variant's picture or, if the store lacks it, of any other variant's picture. If the
- * store has no picture, the error is about the newest variant. */
-static char *find_variant_picture(const fetching *f, diff_frame *frame, frame_digest *found, octreel_error *why)
+/* Compare the frame of a pair, if it has one, with the picture of an accepted variant. Keep the picture, as
+ * frame->path, if it is the first or the frame is within the tolerance of it. Otherwise the pair stays unchanged: it
+ * differs by digest, even if another process replaces the picture meanwhile. */
+static void compare_variant(diff_pair *pair, diff_frame *frame, char *picture, const diff_options *options)
 {
-    octreel_error ignored;
-    *found = frame->digest;
-    char *path = picture_store_find(f->store, found, f->reference->background, why);
-    for (size_t i = frame->variant_count; !path && i > 0; i--) {
-        *found = frame->variants[i - 1];
-        path = picture_store_find(f->store, found, f->reference->background, &ignored);
+    const diff_pair before = *pair;
+    char *const first = frame->path;
+    frame->path = picture;
+    if (pair->b && pair->b->path)
+        compare_pixels(pair, options);
+    if (pair->finding == FOUND_WITHIN || (!first && diff_finding_verdict(pair->finding) == DIFF_DIFFERENT)) {
+        free(first);
+        return;
     }
-    return path;
+    if (pair->trouble != before.trouble)
+        free(pair->trouble);
+    *pair = before;
+    frame->path = first ? first : picture;
+    if (first)
+        free(picture);
 }
 
-/* Compare the pixels of a pair with a fetched picture. A pair that differs by digest stays different, even if
- * another process replaces the picture meanwhile. */
-static void compare_fetched(diff_pair *pair, const diff_options *options)
-{
-    const diff_finding before = pair->finding;
-    compare_pixels(pair, options);
-    if (diff_finding_verdict(pair->finding) != DIFF_DIFFERENT)
-        pair->finding = before;
-}
-
+/* Compare with the picture of the newest variant. If the store lacks it, or the frame is not within the tolerance of
+ * it, try the other variants. If the store has none of the pictures, pair->no_picture is about the newest. */
 static void fetch_picture(size_t i, void *context)
 {
     const fetching *f = context;
+    const diff_options *options = &f->result->options;
     diff_pair *pair = &f->result->pairs[i];
-    const bool unlike = pair->finding == FOUND_DIGEST || pair->finding == FOUND_SIZE;
-    if (!pair->a || pair->a->path || !(unlike || pair->finding == FOUND_NO_FRAME))
+    if (!pair->a || pair->a->path ||
+        (pair->finding != FOUND_DIGEST && pair->finding != FOUND_SIZE && pair->finding != FOUND_NO_FRAME))
         return;
     diff_frame *frame = &f->reference->frames[pair->a - f->reference->frames];
-    octreel_error why = {""};
-    frame_digest found;
-    frame->path = find_variant_picture(f, frame, &found, &why);
+    const bool tries_all = pair->b && !diff_is_exact(options);
+    octreel_error why = {""}, ignored;
+    for (size_t n = 0; n <= frame->variant_count && (!frame->path || (tries_all && pair->finding != FOUND_WITHIN));
+         n++) {
+        const frame_digest *digest = n ? &frame->variants[frame->variant_count - n] : &frame->digest;
+        char *picture = picture_store_find(options->store, digest, f->reference->background, n ? &ignored : &why);
+        if (picture)
+            compare_variant(pair, frame, picture, options);
+    }
     if (!frame->path)
         pair->no_picture = strdup(why.text);
-    else if (unlike && pair->b->path)
-        compare_fetched(pair, &f->result->options);
 }
 
-bool picture_store_fetch(const char *store, diff_side *reference, diff_result *result, octreel_error *error)
+void picture_store_fetch(diff_side *reference, diff_result *result)
 {
-    fetching f = {store, reference, result};
-    if (reference->kind != DIFF_BASELINE)
-        return error_set(error, "--store works with a baseline only, and %s is a %s", reference->path,
-                         diff_kind_name(reference->kind));
+    fetching f = {reference, result};
+    if (!result->options.store)
+        return;
     parallel_for(result->count, fetch_picture, &f);
+    result->verdict = DIFF_SAME;
     diff_count(result);
-    return true;
 }

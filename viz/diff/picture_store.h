@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* picture_store.h - a folder that holds pictures under the digests of their pixels: DIR/runs/01/0123456789abcdef.png.
  *
- * A store complements a baseline. It lies outside of git, for example in a CI cache or a mounted bucket. No verdict
- * depends on the store: its pictures only show how a frame should look. A picture is used only if its pixels have the
- * digest in its file name.
+ * A store complements a baseline. It lies outside of git, for example in a CI cache or a mounted bucket. Its pictures
+ * show how a frame should look. With a tolerance, they also decide the verdict of frames whose digests differ. A
+ * picture is used only if its pixels have the digest in its file name.
  */
 #ifndef DIFF_PICTURE_STORE_H
 #define DIFF_PICTURE_STORE_H
@@ -19,8 +19,9 @@ bool picture_store_add(const char *store, const char *picture, const frame_diges
  * lacks the picture, the picture is damaged, or memory runs out. */
 char *picture_store_find(const char *store, const frame_digest *digest, image_color background, octreel_error *error);
 
-/* For each differing pair of a baseline, fetch the picture of the reference and compare the pixels. If the store has
- * no such picture, write the reason to pair->no_picture. The verdict does not change. */
-bool picture_store_fetch(const char *store, diff_side *reference, diff_result *result, octreel_error *error);
+/* If the options of the result name a store: for each differing pair of a baseline, fetch the picture of the reference
+ * and compare the pixels. If the store has no such picture, write the reason to pair->no_picture. Only a pair within
+ * the tolerance of an accepted picture gets a better verdict. */
+void picture_store_fetch(diff_side *reference, diff_result *result);
 
 #endif

@@ -227,6 +227,59 @@ static void accept_replaces_a_damaged_picture_in_the_store(void **state)
     assert_same_files(picture.path, place_below(s.before.path, "2.png").path);
 }
 
+/* ---- Tolerances ---------------------------------------------------------------------------------------------- */
+
+static void stored_pictures_allow_a_tolerance(void **state)
+{
+    const states s = make_states(state);
+    const place out = place_in(*state, "out");
+    char more[4096];
+    snprintf(more, sizeof more, "--store %s" BY("the first", "2026-11-22"), s.store.path);
+    accept_into(&s, &s.before, more);
+    snprintf(more, sizeof more, "--store %s --max-delta 0.0027 -o %s", s.store.path, out.path);
+    assert_diff(&s, &s.after, more, 0,
+                "2 the same by their pixels, 1 forgiven\n  2.png: forgiven: 0 pixels count; 5 of");
+    assert_false(file_exists(place_below(out.path, "2.expected.png").path));
+    static const char *const tolerances[] = {"--max-pixels 5", "--ignore 0,3,5,1"};
+    for (size_t i = 0; i < 2; i++) {
+        snprintf(more, sizeof more, "--store %s %s", s.store.path, tolerances[i]);
+        assert_diff(&s, &s.after, more, 0, "1 forgiven");
+    }
+    snprintf(more, sizeof more, "--store %s --max-delta 0.0026 -o %s", s.store.path, out.path);
+    assert_diff(&s, &s.after, more, 1, "different: 1 of 3 frames");
+    assert_true(file_exists(place_below(out.path, "2.difference.png").path));
+}
+
+/* A frame passes if it is within the tolerance of any accepted picture. */
+static void tolerance_applies_to_every_variant(void **state)
+{
+    const states s = make_states(state);
+    char more[4096];
+    snprintf(more, sizeof more, "2.png --store %s" BY("the first", "2026-11-22"), s.store.path);
+    accept_into(&s, &s.before, more);
+    gallery_write(place_below(s.before.path, "2.png").path, 70, 0);
+    snprintf(more, sizeof more, "2.png --variant --store %s" BY("another", "2026-11-23"), s.store.path);
+    accept_into(&s, &s.before, more);
+    snprintf(more, sizeof more, "--store %s --max-pixels 5", s.store.path);
+    assert_diff(&s, &s.after, more, 1, "2 of 3 frames, 1 forgiven"); /* 1.png and 3.png have no reference */
+    gallery_write(place_below(s.after.path, "2.png").path, 1, 6);
+    assert_diff(&s, &s.after, more, 1, "; matches none of the 2 accepted variants");
+}
+
+static void tolerance_needs_stored_pictures(void **state)
+{
+    const states s = make_states(state);
+    char more[4096];
+    accept_into(&s, &s.before, BY("the first", "2026-11-22"));
+    command_result result = run_octreel(NULL, "diff %s %s --max-delta 0.1", s.file.path, s.after.path);
+    assert_trouble(&result, "baseline.txt: a baseline holds digests, which allow no tolerance; add --store DIR, the "
+                            "folder in which octreel accept --store DIR saved the pictures, or remove --max-pixels");
+    snprintf(more, sizeof more, "--store %s --max-delta 0.1", s.store.path);
+    assert_diff(&s, &s.after, more, 1, "colours within 0.1 YIQ; not applied to 1 frame without a stored picture\n");
+    result = run_octreel(NULL, "diff %s %s %s", s.file.path, s.file.path, more);
+    assert_trouble(&result, "which allow no tolerance; compare the pictures themselves");
+}
+
 /* ---- Subfolders ---------------------------------------------------------------------------------------------- */
 
 static void frames_in_subfolders_have_digests_and_stored_pictures(void **state)
@@ -308,6 +361,9 @@ int main(void)
         WITH_FOLDER(evidence_shows_expected_pictures_from_the_store),
         WITH_FOLDER(bad_picture_in_the_store_is_reported_without_changing_the_verdict),
         WITH_FOLDER(accept_replaces_a_damaged_picture_in_the_store),
+        WITH_FOLDER(stored_pictures_allow_a_tolerance),
+        WITH_FOLDER(tolerance_applies_to_every_variant),
+        WITH_FOLDER(tolerance_needs_stored_pictures),
         WITH_FOLDER(frames_in_subfolders_have_digests_and_stored_pictures),
         WITH_FOLDER(concurrent_accepts_lose_nothing),
         WITH_FOLDER(full_disk_accepts_nothing),
