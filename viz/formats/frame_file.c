@@ -148,7 +148,10 @@ bool frame_read_tick(const char *path, uint64_t *tick, octreel_error *error)
     if (image_read_text(path, scene_keyword, text, sizeof text))
         return error_set(
             error, "%s: is a picture of a single tree, drawn by octreel inspect; it has no session to replay", path);
-    return error_set(error, "%s: is not a frame of a recording: it has no PNG text %s", path, tick_keyword);
+    return error_set(error,
+                     "%s: is not a frame of a recording: it has no PNG text %s; give the file as octreel record wrote "
+                     "it, because other programs drop this text when they save a PNG",
+                     path, tick_keyword);
 }
 
 static bool read_digest(const char *path, const char *keyword, uint64_t *digest)

@@ -42,7 +42,10 @@ static bool check_beside(const pick *p, const char *folder, octreel_error *error
     static const char *const needed[] = {"recording.json", "session.json"};
     for (size_t i = 0; i < sizeof needed / sizeof needed[0]; i++)
         if (!folder_contains(folder, needed[i]))
-            return error_set(error, "%s: not a frame of a recording: its folder has no %s", p->path, needed[i]);
+            return error_set(error,
+                             "%s: not a frame of a recording: its folder has no %s; give the frame in the folder that "
+                             "octreel record wrote",
+                             p->path, needed[i]);
     return true;
 }
 

@@ -239,7 +239,7 @@ static void file_that_is_not_a_frame_is_refused(void **state)
     command_release(&result);
     assert_refused(tree.path, "1 1", "octreel inspect");
     assert_refused(text.path, "1 1", "text.png");
-    assert_refused(bare.path, "1 1", "octreel-tick");
+    assert_refused(bare.path, "1 1", "it has no PNG text octreel-tick; give the file as octreel record wrote it");
     assert_refused(place_in(*state, "nothing.png").path, "1 1", "nothing.png");
     assert_refused(folder.path, "1 1", "film");
 }
@@ -250,7 +250,9 @@ static void frame_without_its_recording_is_refused(void **state)
     size_t size;
     char *bytes = file_read(frame_place(folder.path, 3).path, &size);
     file_write(alone.path, bytes, size);
-    assert_refused(alone.path, "1 1", "not a frame of a recording");
+    assert_refused(alone.path, "1 1",
+                   "not a frame of a recording: its folder has no recording.json; give the frame in the folder that "
+                   "octreel record wrote");
     free(bytes);
 }
 
