@@ -66,8 +66,17 @@ static bool refuse_file(const output_file *output, const char *is, const char *o
                   is, of, end);
 }
 
-/* Checks that an output, whose status is given, is not an input. Of an input folder, the files of a recording and the
- * pictures are read. */
+/* Returns whether a command may read an entry of an input folder: a file of a recording, a picture or, if the folder
+ * holds no recording, a subfolder that is neither hidden nor a link. */
+static bool is_read_in_folder(const char *folder, const char *name, const char *path)
+{
+    struct stat status;
+    return folder_is_recording_file(name) || file_has_ending(name, ".png") ||
+           (name[0] != '.' && lstat(path, &status) == 0 && S_ISDIR(status.st_mode) &&
+            !folder_contains(folder, "recording.json"));
+}
+
+/* Checks that an output, whose status is given, is not an input. */
 static bool check_input(const output_file *output, const struct stat *status, const char *input)
 {
     struct stat other;
@@ -80,8 +89,7 @@ static bool check_input(const output_file *output, const struct stat *status, co
         return !is_same_file(status, &other) || refuse_file(output, "the same file as ", input, ", which is read");
     char **names = folder_names(input, &error);
     for (size_t i = 0; ok && names && names[i]; i++)
-        if ((folder_is_recording_file(names[i]) || file_has_ending(names[i], ".png")) &&
-            path_print(input, names[i], path))
+        if (path_print(input, names[i], path) && is_read_in_folder(input, names[i], path))
             ok = check_input(output, status, path);
     free(names);
     return names ? ok : refuse("%s", error.text);

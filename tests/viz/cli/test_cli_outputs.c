@@ -98,6 +98,9 @@ static void reports_overwrite_no_compared_file(void **state)
     assert_refused(state, "diff a.dig b --junit a.dig", "--junit a.dig is the same file as a.dig, which is read");
     assert_refused(state, "diff a/1.png b/2.png --markdown b/two", "--markdown b/two is the same file as b/2.png");
     assert_refused(state, "diff a b --junit b/two", "--junit b/two is the same file as b/2.png, which is read");
+    gallery_make(*state, "c", "menu/old/1.png");
+    assert_int_equal(link(place_in(*state, "c/menu/old/1.png").path, place_in(*state, "c/three").path), 0);
+    assert_refused(state, "diff c c --junit c/three", "--junit c/three is the same file as c/menu/old/1.png, which is");
     assert_text(state, "a.dig", before);
     assert_same_folders(place_in(*state, "a").path, place_in(*state, "b").path, NULL);
     free(before);
