@@ -68,6 +68,7 @@ size_t build(void *self, const octree_point *points, const octree_point *, size_
 // Adds up what lies within a squared radius.
 struct hits {
     using DistanceType = double; // this and sort() are asked for by nanoflann 1.5 and later
+    using IndexType = uint32_t;  // and this by 1.12
     double square;
     peer_answer &answer;
 

@@ -59,6 +59,7 @@ template <class S> S hair_above(wide<S> bound)
 
 template <class S> struct near_set {
     using DistanceType = S;
+    using IndexType = uint32_t;
     nearest_so_far<S> &best;
     const cloud<S> &points;
 
@@ -82,6 +83,7 @@ template <class S> struct near_set {
 
 template <class S> struct ball_set {
     using DistanceType = S;
+    using IndexType = uint32_t;
     const question<S> &asked;
     const cloud<S> &points;
     uint64_t *ids;

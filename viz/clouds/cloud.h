@@ -75,7 +75,7 @@ typedef struct cloud {
     unsigned color_full; /* the full scale of colour channels in the file: 1, 255 or 65535; 0: no colours */
     char column_note[CLOUD_COLUMN_NOTE]; /* a sentence about ignored values, or about columns without names; "": none */
     size_t out_of_range[POINT_VALUE_KINDS]; /* for each kind of value, how many were out of range and dropped */
-    char note[512];                         /* a sentence about unexpected data after the last point; "": none */
+    char note[672];                         /* a sentence about unexpected data after the last point; "": none */
 } cloud;
 
 /* Returns the row of a point in its file. Rows are counted from 0 and include skipped rows. */

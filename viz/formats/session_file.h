@@ -30,7 +30,7 @@
 typedef struct session_file {
     octree_session session;
     point_values values; /* colours, intensities and classes of points, found by the points' ids */
-    char note[512]; /* set by reading: a sentence about the session's point file; "" if there is nothing to report */
+    char note[672]; /* set by reading: a sentence about the session's point file; "" if there is nothing to report */
 } session_file;
 
 /* Reads a session file into *out. The path "-" reads standard input. Relative paths of point files start at the

@@ -52,7 +52,7 @@ typedef struct session_loader {
     uint64_t tick;         /* the tick whose object is being read; OCTREE_EVERY_TICK: the header is being read */
     bool ends;             /* the header has the member "ticks" */
     cloud points;          /* the points of the point file, if the file was read early to compute the world */
-    char note[512];        /* the text for session_file.note */
+    char note[672];        /* the text for session_file.note */
     session_values values;
     octree_body *bodies;                                            /* an array of header.session.body_count bodies */
     session_list lists[SESSION_LISTS], header_lists[SESSION_LISTS]; /* items of single ticks; items of the header */

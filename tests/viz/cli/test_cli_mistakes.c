@@ -152,9 +152,9 @@ static void invalid_numbers_and_colours_are_refused(void **state)
 
 static void colour_may_begin_with_a_hash(void **state)
 {
-    const char *picture = place_in(*state, "a.png").path;
-    command_result with = run_octreel(NULL, "diff %s %s --json --background #aBcdef", picture, picture);
-    command_result without = run_octreel(NULL, "diff %s %s --json --background abcdef", picture, picture);
+    const place picture = place_in(*state, "a.png");
+    command_result with = run_octreel(NULL, "diff %s %s --json --background #aBcdef", picture.path, picture.path);
+    command_result without = run_octreel(NULL, "diff %s %s --json --background abcdef", picture.path, picture.path);
     assert_done(&with);
     assert_non_null(strstr(with.out, "\"background\": \"#abcdef\""));
     assert_string_equal(with.out, without.out);

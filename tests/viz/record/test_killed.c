@@ -215,11 +215,10 @@ static void join_killed_at_any_call_is_repeated(void **state)
     assert_true(r.count > 5);
     assert_same_folders(whole.path, r.folder.path, NULL);
     for (size_t i = 0; i < r.count; i++) {
-        film_options options = {.folder = remains_at(&r, i).path};
         const place left = remains_at(&r, i);
+        film_options options = {.folder = left.path};
         film_summary summary;
         octreel_error error = {""};
-        options.folder = left.path;
         assert_all_whole(left.path);
         if (!join_chunks(&options, &summary, &error))
             fail_msg("%s", error.text);
