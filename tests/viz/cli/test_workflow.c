@@ -210,6 +210,21 @@ static void workflow_commands_contain_no_expressions(void **state)
     }
 }
 
+/* A tag can be moved to other code; a commit cannot. Own actions need none. */
+static void actions_of_others_are_pinned_by_commit(void **state)
+{
+    (void)state;
+    command_result lines =
+        run_script("cd %s && grep -rn 'uses: ' README.md .github viz/cli", shell_quote(OCTREEL_ROOT).text);
+    command_result unpinned = run_script("cd %s && grep -rn 'uses: ' README.md .github viz/cli | "
+                                         "grep -vE 'uses: (\\./|OWNER/octreel/|.*@[0-9a-f]{40} # v[0-9.]+$)'",
+                                         shell_quote(OCTREEL_ROOT).text);
+    assert_contains(lines.out, "actions/checkout@");
+    assert_string_equal(unpinned.out, "");
+    command_release(&lines);
+    command_release(&unpinned);
+}
+
 #define ON_MACHINE(test) cmocka_unit_test_setup_teardown(test, prepare_machine, forget_machine)
 
 int main(void)
@@ -222,6 +237,7 @@ int main(void)
         ON_MACHINE(job_packages_builds_checks_and_installs_packages),
         ON_MACHINE(hunt_runs_each_fuzzer_and_the_failure_campaign),
         ON_MACHINE(workflow_commands_contain_no_expressions),
+        cmocka_unit_test(actions_of_others_are_pinned_by_commit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
