@@ -84,7 +84,7 @@ function nearest(tick,   id, axis, sum, least, found)
     least = 1e9
     for (id in born) {
         sum = 0
-        for (axis = 0; axis < 3; axis++)
+        for (axis = 0; axis < 3 && sum <= least; axis++)
             sum += offset(id, axis, tick) ^ 2
         if (sum < least || sum == least && id + 0 < found) {
             least = sum

@@ -16,7 +16,7 @@ static const struct {
     {"./viz/demo", "it installs with apt and builds; tests/install/set_up runs it"},
     {"./tests/run", "it installs with apt, builds, and would run this test"},
     {"sbatch ", "it needs Slurm, and a cluster"},
-    {"cmake --install ", "tests/install/install_and_use runs it"},
+    {"cmake --build ", "tests/install/install_and_use runs it"},
     {"cc ", "tests/install/install_and_use runs it"},
 };
 
