@@ -16,12 +16,18 @@ if(NOT OCTREEL_DEBIAN)
   return()
 endif()
 
-foreach(program dpkg-gensymbols dpkg-shlibdeps)
+# Nothing is built if a program is missing that debian_stage.cmake runs after the build.
+set(missing "")
+foreach(program dpkg-gensymbols dpkg-shlibdeps strip gzip)
   find_program(OCTREEL_${program} ${program})
   if(NOT OCTREEL_${program})
-    message(FATAL_ERROR "Packages need ${program} (Debian: dpkg-dev)")
+    list(APPEND missing ${program})
   endif()
 endforeach()
+if(missing)
+  list(JOIN missing ", " missing)
+  message(FATAL_ERROR "Packages need ${missing}. Install them: sudo apt-get install dpkg-dev binutils gzip")
+endif()
 
 # Made for one release: 0.1.0-1~deb12 is older than 0.1.0-1~deb13, and both are older than 0.1.0-1, which is sid's.
 file(STRINGS /etc/os-release system REGEX "^(ID|VERSION_ID)=")
