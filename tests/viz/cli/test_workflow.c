@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "commands.h"
 #include "files.h"
@@ -43,9 +44,10 @@ static int prepare_machine(void **state)
     json_decref(hunt);
     const shell_word root = shell_quote(OCTREEL_ROOT);
     file_write_text(place_in(m->folder, "fakes").path, fakes);
-    command_result result = run_script("cd %s && mkdir -p bin viz tests && cp -R %s/viz/setup %s/viz/demo viz && "
-                                       "cp -R %s/tests/run %s/tests/examples tests && sh -e fakes",
-                                       ((temp_folder *)m->folder)->name, root.text, root.text, root.text, root.text);
+    command_result result =
+        run_script("cd %s && mkdir -p bin viz tests && cp -R %s/viz/setup %s/viz/demo viz && "
+                   "cp -R %s/tests/run %s/tests/examples tests && cp -R %s/.ci . && sh -e fakes",
+                   ((temp_folder *)m->folder)->name, root.text, root.text, root.text, root.text, root.text);
     assert_done(&result);
     command_release(&result);
     return 0;
@@ -147,6 +149,38 @@ static void job_page_records_and_compares_the_demo(void **state)
     assert_called(m, "octreel diff --annotate --output=octreel-evidence ");
 }
 
+/* Packages are missing at first; the line that the script prints installs them. */
+static void job_user_runs_the_line_that_a_script_prints(void **state)
+{
+    static const char lacking[] =
+        "printf '#!/bin/sh\\n[ -e there ] || { echo sudo apt-get install gcc >&2; exit 2; }\\n' |"
+        " cat - viz/setup >s && mv s viz/setup && chmod +x viz/setup &&"
+        " printf '#!/bin/sh\\necho \"sudo $*\" >>done\\ntouch there\\n' >bin/sudo &&"
+        " chmod +x bin/sudo";
+    static const char *const scripts[][2] = {{"./viz/demo", "octreel record --replace -o "},
+                                             {"./tests/run", "setup tests "},
+                                             {"./.ci/run", "-DOCTREEL_FUZZ=ON"}};
+    machine *m = *state;
+    fake_setup(m);
+    command_result made = run_script("cd %s && %s", ((temp_folder *)m->folder)->name, lacking);
+    assert_done(&made);
+    command_release(&made);
+    for (size_t i = 0; i < sizeof scripts / sizeof *scripts; i++) {
+        remove(place_in(m->folder, "there").path);
+        run_job(m, "user", "script", scripts[i][0]);
+        assert_called(m, "sudo apt-get install gcc\n");
+        assert_called(m, scripts[i][1]);
+    }
+}
+
+static void job_action_compares_frames(void **state)
+{
+    machine *m = *state;
+    assert_int_equal(mkdir(place_in(m->folder, "golden").path, 0755), 0);
+    run_job(m, "action", "none", "");
+    assert_called(m, "octreel diff --annotate --output=octreel-evidence ");
+}
+
 static void job_packages_builds_checks_and_installs_packages(void **state)
 {
     machine *m = *state;
@@ -179,6 +213,8 @@ static void hunt_runs_each_fuzzer_and_the_failure_campaign(void **state)
     command_result there = run_script("cd %s/tests/fuzz && ls fuzz_*.c", shell_quote(OCTREEL_ROOT).text);
     assert_string_equal(there.out, all);
     command_release(&there);
+    run_job(m, "newest", "part", "build");
+    assert_called(m, "/build --output-on-failure --no-tests=error -C all");
     run_job(m, "failures", "none", "");
     assert_called(m, "octreel-failure-campaign");
 }
@@ -234,6 +270,8 @@ int main(void)
         ON_MACHINE(job_tests_builds_and_runs_tests),
         ON_MACHINE(job_all_runs_each_build),
         ON_MACHINE(job_page_records_and_compares_the_demo),
+        ON_MACHINE(job_user_runs_the_line_that_a_script_prints),
+        ON_MACHINE(job_action_compares_frames),
         ON_MACHINE(job_packages_builds_checks_and_installs_packages),
         ON_MACHINE(hunt_runs_each_fuzzer_and_the_failure_campaign),
         ON_MACHINE(workflow_commands_contain_no_expressions),
