@@ -178,6 +178,10 @@ static bool is_special_file(const char *path)
     return find_named_descriptor(path) >= 0 || (stat(path, &status) == 0 && !S_ISREG(status.st_mode));
 }
 
+#ifdef __wasi__
+#define dup(descriptor) (-1) /* WASI has no copies of descriptors, and pages write no files */
+#endif
+
 /* Opens a pipe, a device or an open file for writing. Opening a pipe that no process reads would wait for a reader;
  * instead it fails with ENXIO. */
 static FILE *open_special_file(const char *path)

@@ -36,7 +36,7 @@ function(compile_wasm source objects)
   set(object ${wasm_folder}/${name}.o)
   add_custom_command(OUTPUT ${object} DEPENDS ${source} DEPFILE ${object}.d VERBATIM
                      COMMAND ${WASM_CLANG} ${wasm_target} ${optimized} -std=c17 -D_POSIX_C_SOURCE=200809L -ffp-contract=off
-                             -Wall -Wextra -Wpedantic ${wasm_includes} -MD -MF ${object}.d -c ${source} -o ${object})
+                             -Wall -Wextra -Wpedantic -Werror=implicit-function-declaration ${wasm_includes} -MD -MF ${object}.d -c ${source} -o ${object})
   set(${objects} ${${objects}} ${object} PARENT_SCOPE)
 endfunction()
 
