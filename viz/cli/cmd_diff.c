@@ -24,6 +24,7 @@ typedef struct arguments {
     unsigned layers;          /* bits 1 << view_layer of the ignored layers */
     image_rectangle *ignored; /* owned */
     output_file outputs[OUTPUTS];
+    uint64_t max_ticks;
     uint64_t causes; /* the number of differing frames and ticks to explain */
     bool has_causes; /* --causes was given */
     size_t lines;    /* the number of groups that are listed; at least the value of --causes */
@@ -116,6 +117,7 @@ static const command_option options[] = {
      "explain the first N different frames and ticks, and list N findings but at least 10; \"all\", or 0 for none "
      "(default 10, and 50 for the page of -o)",
      .read = read_causes, .size = sizeof(uint64_t), .max = UINT32_MAX},
+    MAX_TICKS_OPTION(arguments, max_ticks),
     {"each", NULL,
      "report one finding for each frame. Otherwise frames with the same cause are one finding, and so are frames of "
      "unknown cause in which the same pixels differ by the same amounts",
@@ -221,6 +223,17 @@ static bool check_before_writing(const arguments *a, const diff_side sides[2], o
            (!folder || evidence_prepare(folder, &sides[0], &sides[1], error));
 }
 
+static bool open_sides(const arguments *a, const char *paths[2], diff_side sides[2], octreel_error *error)
+{
+    for (int i = 0; i < 2; i++) {
+        const diff_search search = {a->flat, {paths[1 - i], a->options.store}};
+        if (!diff_side_open(&sides[i], paths[i], &search, error))
+            return false;
+        sides[i].max_ticks = a->max_ticks;
+    }
+    return true;
+}
+
 static int compare(const arguments *a, const char *paths[2])
 {
     diff_side sides[2] = {{0}, {0}};
@@ -228,9 +241,7 @@ static int compare(const arguments *a, const char *paths[2])
     explanation why = {0};
     frame_groups groups = {0};
     octreel_error error;
-    const diff_search search[2] = {{a->flat, {paths[1], a->options.store}}, {a->flat, {paths[0], a->options.store}}};
-    bool ok = diff_side_open(&sides[0], paths[0], &search[0], &error) &&
-              diff_side_open(&sides[1], paths[1], &search[1], &error) && check_before_writing(a, sides, &error) &&
+    bool ok = open_sides(a, paths, sides, &error) && check_before_writing(a, sides, &error) &&
               diff_run(&sides[0], &sides[1], &a->options, &result, &error);
     if (ok)
         picture_store_fetch(&sides[0], &result);

@@ -27,6 +27,7 @@ static const command_option options[] = {
      "where nothing is drawn at the pixel, report the nearest drawn pixel at most N pixels away (default 8; 0: report "
      "nothing)",
      .read = read_whole, OPTION_VALUE(arguments, pick.radius), .max = VIEW_MAX_SIDE},
+    MAX_TICKS_OPTION(arguments, pick.max_ticks),
     SHARED_OPTIONS(renderer_option_row, arguments, pick.renderer),
     JSON_OPTION(arguments, json,
                 "print JSON: the kind, layer, node or point and a sentence for each element, topmost first. Of the "

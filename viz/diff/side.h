@@ -44,6 +44,7 @@ typedef struct diff_side {
     diff_frame *frames; /* sorted by name, in byte order; names are unique; owned */
     size_t count, room;
     bool no_frames;          /* a recording made without frames: its ticks are compared instead */
+    uint64_t max_ticks;      /* set by the caller: a recording with more ticks is not replayed; 0: the default */
     image_color background;  /* in a baseline: the color behind transparent pixels */
     acceptance *acceptances; /* the acceptances of a baseline; owned */
     size_t acceptance_count, acceptance_room;

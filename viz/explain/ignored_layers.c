@@ -73,7 +73,7 @@ static int by_tick(const void *a, const void *b)
 static bool add_masks(const diff_side *side, unsigned layers, diff_pair **pairs, size_t count, octreel_error *error)
 {
     masking w = {.layers = layers};
-    bool ok = replay_open(&w.replay, side->path, error);
+    bool ok = replay_open(&w.replay, side->path, side->max_ticks, error);
     for (size_t i = 0; ok && i < count; i++)
         ok = add_mask(&w, pairs[i], error);
     replay_close(&w.replay);

@@ -41,7 +41,7 @@ bool recorded_open(recorded *r, const diff_side *side, octreel_error *error)
 {
     *r = (recorded){.side = side};
     describe_recorded_renderer(side->path, r->drawn_by, sizeof r->drawn_by);
-    if (!replay_read(&r->replay, side->path, error))
+    if (!replay_read(&r->replay, side->path, side->max_ticks, error))
         return false;
     r->view = (cause_view){r->replay.film.view, r->replay.film.every};
     check_session(r);

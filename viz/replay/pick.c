@@ -50,10 +50,8 @@ static bool check_beside(const pick *p, const char *folder, octreel_error *error
 }
 
 /* Replay to the frame's tick, compose its scene, and check that its digest is that of the frame. */
-static bool compose_scene_again(pick *p, replay *r, const char *folder, octreel_error *error)
+static bool compose_scene_again(pick *p, replay *r, octreel_error *error)
 {
-    if (!replay_open(r, folder, error))
-        return false;
     r->playback.history.changes.tracked = true;
     if (p->tick >= r->ticks)
         return error_set(error, "%s: shows tick %" PRIu64 ", but the session in its folder ends with tick %" PRIu64,
@@ -198,7 +196,8 @@ bool pick_frame(const char *path, const pick_options *options, pick *found, octr
     char *folder = path_parent_folder(path);
     const bool ok = (folder || error_no_memory(error)) && read_picture(found, &frame, error) &&
                     frame_read_tick(path, &found->tick, error) && check_beside(found, folder, error) &&
-                    compose_scene_again(found, &r, folder, error) && pick_pixel(found, &r, options, error);
+                    replay_open(&r, folder, options->max_ticks, error) && compose_scene_again(found, &r, error) &&
+                    pick_pixel(found, &r, options, error);
     if (ok)
         found->color = image_color_at(&frame, found->pixel[0], found->pixel[1]);
     replay_close(&r);

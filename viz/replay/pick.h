@@ -17,6 +17,7 @@ typedef struct pick_options {
     int x, y;
     int radius; /* if nothing is drawn at (x, y), describe the nearest drawn pixel up to `radius` pixels away */
     renderer_choice renderer;
+    uint64_t max_ticks; /* a longer session is refused; 0: SESSION_MOST_PLAYED */
 } pick_options;
 
 /* An element at a pixel. `touch` describes which samples of the pixel it covers. */

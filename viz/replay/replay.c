@@ -6,7 +6,7 @@
 
 #include <inttypes.h>
 
-bool replay_read(replay *r, const char *folder, octreel_error *error)
+bool replay_read(replay *r, const char *folder, uint64_t max_ticks, octreel_error *error)
 {
     *r = (replay){.film.folder = folder};
     if (folder_contains(folder, "session.json.live") && !folder_contains(folder, "session.json"))
@@ -15,7 +15,8 @@ bool replay_read(replay *r, const char *folder, octreel_error *error)
                          "recording",
                          folder);
     if (!recording_read(folder, &r->film.view, &r->film.every, error) ||
-        !read_session_file(folder, &r->session, &r->session_digest, error))
+        !read_session_file(folder, &r->session, &r->session_digest, error) ||
+        !session_check_length(&r->session.session, max_ticks, error))
         return false;
     r->ticks = octree_session_length(&r->session.session) + 1;
     return true;
@@ -27,9 +28,9 @@ static bool start_playback(replay *r, octreel_error *error)
     return playback_open(&r->playback, &r->session.session, &r->session.values, &r->film.view, error);
 }
 
-bool replay_open(replay *r, const char *folder, octreel_error *error)
+bool replay_open(replay *r, const char *folder, uint64_t max_ticks, octreel_error *error)
 {
-    return replay_read(r, folder, error) && start_playback(r, error);
+    return replay_read(r, folder, max_ticks, error) && start_playback(r, error);
 }
 
 void replay_close(replay *r)

@@ -2,7 +2,8 @@
 /* replay.h - opens a recording and replays it to any tick, with the game and the scene of that tick.
  *
  *   replay r;
- *   if (replay_open(&r, "frames", &error) && replay_to(&r, 41, &error) && playback_compose_scene(&r.playback, &error))
+ *   if (replay_open(&r, "frames", 0, &error) && replay_to(&r, 41, &error) && playback_compose_scene(&r.playback,
+ * &error))
  *       ... octree_game_tick(r.playback.game), r.playback.scene ...
  *   replay_close(&r);
  */
@@ -21,12 +22,12 @@ typedef struct replay {
     playback playback;       /* has a game and a scene after replay_open(), and a renderer after replay_renderer() */
 } replay;
 
-/* Read session.json and recording.json of a folder without playing the session. Call replay_close() after a failure
- * too. */
-bool replay_read(replay *r, const char *folder, octreel_error *error);
+/* Read session.json and recording.json of a folder without playing the session. A session with more than `max_ticks`
+ * ticks is refused; 0: SESSION_MOST_PLAYED. Call replay_close() after a failure too. */
+bool replay_read(replay *r, const char *folder, uint64_t max_ticks, octreel_error *error);
 
 /* Call replay_read() and play tick 0. `r` must not move in memory until it is closed. */
-bool replay_open(replay *r, const char *folder, octreel_error *error);
+bool replay_open(replay *r, const char *folder, uint64_t max_ticks, octreel_error *error);
 void replay_close(replay *r);
 
 /* Play to a tick. To reach a tick before the current one, the session is played from the start again. Returns false

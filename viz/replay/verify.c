@@ -296,9 +296,7 @@ static bool replay_ticks(verifying *v, octreel_error *error)
 
 static bool verify_all(verifying *v, octreel_error *error)
 {
-    if (!replay_read(&v->replay, v->folder, error) ||
-        !session_check_length(&v->replay.session.session, v->options->max_ticks, error) ||
-        !lines_open(&v->lines, v->folder, error))
+    if (!replay_read(&v->replay, v->folder, v->options->max_ticks, error) || !lines_open(&v->lines, v->folder, error))
         return false;
     v->filmed_session = v->replay.session_digest;
     v->report->has_frames = v->replay.film.every > 0;

@@ -21,6 +21,7 @@ static const char *const lines[] = {
     "%1$s play %3$s/s.json %2$s -o %3$s/new",
     "%1$s audit %3$s/s.json %2$s",
     "%1$s verify %3$s/film %2$s",
+    "%1$s pick %3$s/film/frame_000001.png 32 18 --json %2$s",
 };
 
 enum { LINES = sizeof lines / sizeof lines[0] };
@@ -35,7 +36,7 @@ static place make_folder(void **state)
     const place folder = place_in(*state, "given");
     command_result result =
         run_script("mkdir %1$s && printf '%%s' '" HEADER ",\"ticks\":20}" ANSWER "' >%1$s/s.json && "
-                   "%2$s record %1$s/s.json --no-frames --quiet -o %1$s/film",
+                   "%2$s record %1$s/s.json --size 64x36 --quiet -o %1$s/film",
                    folder.path, octreel_program());
     assert_done(&result);
     command_release(&result);
@@ -78,6 +79,27 @@ static void max_ticks_sets_the_limit(void **state)
     }
 }
 
+/* The pixels are compared in any case. */
+static void diff_explains_nothing_beyond_the_limit(void **state)
+{
+    const place folder = make_folder(state);
+    for (int most = 19; most <= 20; most++) {
+        command_result result =
+            run_script("cd %1$s && %2$s record s.json --keys w --size 64x36 --quiet --replace -o other "
+                       "&& %2$s diff film other --max-ticks %3$d",
+                       folder.path, octreel_program(), most);
+        assert_int_equal(result.status, most == 19 ? 2 : 1);
+        assert_non_null(strstr(result.out, " pixels differ"));
+        if (most == 19)
+            assert_non_null(strstr(result.err,
+                                   "the session has 20 ticks, more than the limit of 19; --max-ticks 20 plays "
+                                   "it anyway; --causes 0 skips the explanation\n"));
+        else
+            assert_string_equal(result.err, "");
+        command_release(&result);
+    }
+}
+
 /* The number of ticks of a stream is not known before they arrive. */
 static void stream_ends_at_the_limit(void **state)
 {
@@ -100,6 +122,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         IN_FOLDER(a_billion_ticks_are_refused_at_once),
         IN_FOLDER(max_ticks_sets_the_limit),
+        IN_FOLDER(diff_explains_nothing_beyond_the_limit),
         IN_FOLDER(stream_ends_at_the_limit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

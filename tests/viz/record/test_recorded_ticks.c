@@ -12,7 +12,7 @@
 static void open_it(replay *r, const place *folder)
 {
     octreel_error error = {""};
-    if (!replay_open(r, folder->path, &error))
+    if (!replay_open(r, folder->path, 0, &error))
         fail_msg("%s", error.text);
 }
 
@@ -93,7 +93,7 @@ static void folder_without_a_recording_is_refused(void **state)
     const place folder = place_in(*state, "nothing");
     octreel_error error = {""};
     replay r;
-    assert_false(replay_open(&r, folder.path, &error));
+    assert_false(replay_open(&r, folder.path, 0, &error));
     assert_non_null(strstr(error.text, "recording.json"));
     replay_close(&r);
 }
