@@ -42,6 +42,7 @@ typedef struct batch {
     /* true: the batch only inserts points, so that an empty tree may be built with a grid */
     bool inserts;
     bool remakes;               /* true: so many points move that the tree is rebuilt; `valid` is then empty at first */
+    bool moves_singly;          /* true: a point moves at once if no node but its old and new leaf changes */
     bool settled;               /* true: the statuses of the moves are final, and no move meets a full leaf */
     bool may_be_stored;         /* true: an arriving point may already be stored, so each point must be checked */
     bool duplicate;             /* true: an arriving point is already stored */

@@ -135,7 +135,7 @@ static void play_round(uint64_t seed, octree_box world, size_t capacity, size_t 
     p.ids = random_below(&p.random, 2) ? 4 : 100000;
     p.batched = make_tree(world, capacity, depth, full_leaf);
     p.stepped = make_tree(world, capacity, depth, full_leaf);
-    for (size_t i = random_below(&p.random, 120); i > 0; i--) {
+    for (size_t i = random_below(&p.random, seed % 3 ? 120 : 800); i > 0; i--) { /* 12 moves are few among 800 points */
         const octree_point point = any_point(&p);
         assert_int_equal(octree_insert(p.batched, point.position, point.id),
                          octree_insert(p.stepped, point.position, point.id));
@@ -223,6 +223,41 @@ static void every_share_moves_the_same(void **state)
             octree_destroy(batched);
             octree_destroy(stepped);
         }
+}
+
+/* Few neighbours move through one another's leaves, which fill, split and merge. Each id is stored twice, and some
+ * points move to where the other point of their id was. */
+static void few_moves_of_neighbours_equal_single_moves(void **state)
+{
+    (void)state;
+    enum { IDS = 500, FEW = 30 };
+    static moves m;
+    static double at[2][IDS][3];
+    static octree_neighbor near[FEW];
+    for (uint64_t seed = 0; seed < 200; seed++) {
+        uint64_t random = seed;
+        const octree_full_leaf full_leaf = seed % 2 ? OCTREE_GROW : OCTREE_REFUSE;
+        octree *batched = make_tree(cube(-1, 1), 2 + seed % 12, seed % 3 ? 3 : 21, full_leaf);
+        octree *stepped = make_tree(cube(-1, 1), 2 + seed % 12, seed % 3 ? 3 : 21, full_leaf);
+        for (uint64_t i = 0; i < (uint64_t)2 * IDS; i++) {
+            double *position = at[i % 2][i / 2];
+            drift(&random, &(octree_point){.id = 0}, 1, position);
+            assert_int_equal(octree_insert(batched, position, i / 2), octree_insert(stepped, position, i / 2));
+        }
+        for (int tick = 0; tick < 8; tick++) {
+            drift(&random, &(octree_point){.id = 0}, 1, m.to[0]);
+            assert_int_equal(octree_nearest_k(batched, m.to[0], FEW, NULL, near, &m.count), OCTREE_OK);
+            for (size_t i = 0; i < m.count; i++) {
+                m.points[i] = near[i].point;
+                drift(&random, &m.points[i], 0.3, m.to[i]);
+                if (random_below(&random, 40) == 0)
+                    memcpy(m.to[i], at[random_below(&random, 2)][m.points[i].id], sizeof m.to[i]);
+            }
+            move_both(batched, stepped, &m);
+        }
+        octree_destroy(batched);
+        octree_destroy(stepped);
+    }
 }
 
 /* Ids that are dense or far apart, in any order; every seventh is stored at a second place, which stays or where its
@@ -355,7 +390,8 @@ static void null_and_oversized_arrays_are_refused(void **state)
 
 /* Let the n-th allocation of a batch fail. Returns whether there was one. One that only looks whether moves depend on
  * each other is not needed. */
-static bool fails_without_a_trace(size_t n, octree_full_leaf full_leaf, size_t capacity, uint64_t ids, double step)
+static bool fails_without_a_trace(size_t n, octree_full_leaf full_leaf, size_t capacity, uint64_t ids, double step,
+                                  size_t count)
 {
     static moves m;
     counting_allocator counts = {0};
@@ -371,7 +407,7 @@ static bool fails_without_a_trace(size_t n, octree_full_leaf full_leaf, size_t c
     brute before = points_of(tree);
     const uint64_t digest = octree_digest(tree), version = octree_version(tree);
     counting_allocator_fail_at(&counts, n);
-    const octree_status status = octree_move_many(tree, m.points, (const double(*)[3])m.to, MOST, NULL, NULL);
+    const octree_status status = octree_move_many(tree, m.points, (const double(*)[3])m.to, count, NULL, NULL);
     const bool failed = counts.calls > counts.fail_from;
     counting_allocator_stop_failing(&counts);
     assert_true(status == OCTREE_OK || (failed && status == OCTREE_NO_MEMORY));
@@ -380,7 +416,7 @@ static bool fails_without_a_trace(size_t n, octree_full_leaf full_leaf, size_t c
         octree *stepped = make_tree(cube(-1, 1), capacity, 6, full_leaf);
         for (size_t i = 0; i < MOST; i++)
             octree_insert(stepped, m.points[i].position, m.points[i].id);
-        for (size_t i = 0; i < MOST; i++)
+        for (size_t i = 0; i < count; i++)
             octree_move(stepped, m.points[i].position, m.points[i].id, m.to[i]);
         assert_trees_equal(tree, stepped);
         octree_destroy(stepped);
@@ -431,11 +467,13 @@ static void moves_survive_the_failure_of_each_allocation(void **state)
         for (int ids = 0; ids < 2; ids++)
             for (int far = 0; far < 2; far++)
                 for (size_t capacity = 2; capacity <= 128; capacity *= 4) {
-                    size_t n = 0;
-                    while (fails_without_a_trace(n, grow ? OCTREE_GROW : OCTREE_REFUSE, capacity, ids ? 50 : MOST,
-                                                 far ? 1 : 0.1))
+                    const octree_full_leaf full_leaf = grow ? OCTREE_GROW : OCTREE_REFUSE;
+                    size_t n = 0, few = 0;
+                    while (fails_without_a_trace(n, full_leaf, capacity, ids ? 50 : MOST, far ? 1 : 0.1, MOST))
                         n++;
-                    assert_true(n > 2);
+                    while (fails_without_a_trace(few, full_leaf, capacity, ids ? 50 : MOST, far ? 1 : 0.1, MOST / 21))
+                        few++;
+                    assert_true(n > 2 && few > 1);
                 }
 }
 
@@ -445,6 +483,7 @@ int main(void)
         cmocka_unit_test(batched_moves_equal_single_moves),
         cmocka_unit_test(batched_moves_equal_single_moves_in_extreme_worlds),
         cmocka_unit_test(every_share_moves_the_same),
+        cmocka_unit_test(few_moves_of_neighbours_equal_single_moves),
         cmocka_unit_test(many_moves_find_their_own_among_points_of_one_id),
         cmocka_unit_test(batched_moves_meet_full_leaves_in_the_given_order),
         cmocka_unit_test(a_leaf_is_full_of_what_moves_within_it_later),
