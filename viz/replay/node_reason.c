@@ -26,8 +26,7 @@ bool node_reason_find(node_reason *r, const octree_game *game, const node_change
                        .capacity = octree_definition(octree_game_tree(game)).leaf_capacity,
                        .split = !node->leaf,
                        .maker = node_changes_find_maker(changes, node->address)};
-    return node_changes_list_points(changes, game, node->address, true, &r->arrived) &&
-           node_changes_list_points(changes, game, node->address, false, &r->left);
+    return node_changes_list_points(changes, game, node, &r->arrived, &r->left);
 }
 
 void node_reason_release(node_reason *r)

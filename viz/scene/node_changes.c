@@ -107,28 +107,26 @@ node_change node_changes_find_maker(const node_changes *c, octree_address node)
     return parent && parent->split ? *parent : (node_change){0};
 }
 
-static bool is_inside(const octree_game *game, const double position[3], octree_address node)
+static bool is_inside(const octree_game *game, const double position[3], const octree_node *node)
 {
     octree_node leaf;
+    for (int i = 0; i < 3; i++) /* avoids octree_locate() for most points */
+        if (position[i] < node->box.min[i] || position[i] > node->box.max[i])
+            return false;
     return octree_locate(octree_game_tree(game), position, &leaf) == OCTREE_OK &&
-           is_descendant_or_self(leaf.address, node);
+           is_descendant_or_self(leaf.address, node->address);
 }
 
-bool node_changes_list_points(const node_changes *c, const octree_game *game, octree_address node, bool arrived,
-                              id_list *ids)
+static bool add_id(id_list *ids, uint64_t id)
 {
-    *ids = (id_list){0};
-    for (size_t i = 0; i < c->before.count; i++) {
-        octree_point now;
-        const earlier_point *then = &c->before.items[i];
-        const bool was = then->existed && is_inside(game, then->position, node);
-        const bool is = octree_game_find(game, then->id, &now) && is_inside(game, now.position, node);
-        if (was == is || is != arrived)
-            continue;
-        if (!ARRAY_GROW(ids, 1))
-            return false;
-        ids->items[ids->count++] = then->id;
-    }
+    if (!ARRAY_GROW(ids, 1))
+        return false;
+    ids->items[ids->count++] = id;
+    return true;
+}
+
+static void sort_ids(id_list *ids)
+{
     size_t kept = 0;
     if (ids->count > 0)
         qsort(ids->items, ids->count, sizeof *ids->items, compare_uint64);
@@ -136,5 +134,21 @@ bool node_changes_list_points(const node_changes *c, const octree_game *game, oc
         if (i == 0 || ids->items[i] != ids->items[kept - 1])
             ids->items[kept++] = ids->items[i];
     ids->count = kept;
-    return true;
+}
+
+bool node_changes_list_points(const node_changes *c, const octree_game *game, const octree_node *node, id_list *arrived,
+                              id_list *left)
+{
+    bool ok = true;
+    *arrived = *left = (id_list){0};
+    for (size_t i = 0; ok && i < c->before.count; i++) {
+        octree_point now;
+        const earlier_point *then = &c->before.items[i];
+        const bool was = then->existed && is_inside(game, then->position, node);
+        const bool is = octree_game_find(game, then->id, &now) && is_inside(game, now.position, node);
+        ok = was == is || add_id(is ? arrived : left, then->id);
+    }
+    sort_ids(arrived);
+    sort_ids(left);
+    return ok;
 }

@@ -59,10 +59,10 @@ bool node_changes_end_tick(node_changes *c, const octree_game *game);
  * own children. All members are 0 if the cell exists since tick 0. */
 node_change node_changes_find_maker(const node_changes *c, octree_address node);
 
-/* List the ids, in ascending order, of the points that arrived in a node at the game's last tick or, if `arrived` is
- * false, that left the node. The caller frees ids->items. Returns false if memory runs out. */
-bool node_changes_list_points(const node_changes *c, const octree_game *game, octree_address node, bool arrived,
-                              id_list *ids);
+/* List the ids, in ascending order, of the points that arrived in a node of the game's last tick, and of those that
+ * left it. The caller frees the items of both lists. Returns false if memory runs out. */
+bool node_changes_list_points(const node_changes *c, const octree_game *game, const octree_node *node, id_list *arrived,
+                              id_list *left);
 
 /* Returns whether `address` is the address `node` or the address of one of its descendants. */
 bool is_descendant_or_self(octree_address address, octree_address node);

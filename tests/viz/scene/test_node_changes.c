@@ -68,22 +68,19 @@ static bool holds(const tree_copy *c, const octree_box *world, octree_address no
     return false;
 }
 
-static void check_points(const node_changes *c, const octree_game *game, octree_address node, bool arrived)
+/* The test fails unless the ids are those of the points that a node holds in one tree and not in the other. */
+static void check_ids(const octree_box *world, octree_address node, const tree_copy *to, const tree_copy *from,
+                      id_list *ids)
 {
-    const octree_box *world = &octree_game_session(game)->tree.world;
-    const uint64_t tick = octree_game_tick(game)->number;
-    const tree_copy *from = &copies[arrived ? tick - 1 : tick], *to = &copies[arrived ? tick : tick - 1];
     size_t expected = 0;
-    id_list ids;
-    assert_true(node_changes_list_points(c, game, node, arrived, &ids));
     for (size_t i = 0; i < to->count; i++)
         expected += holds(to, world, node, to->points[i].id) && !holds(from, world, node, to->points[i].id);
-    assert_int_equal(ids.count, expected);
-    for (size_t i = 0; i < ids.count; i++) {
-        assert_true(holds(to, world, node, ids.items[i]) && !holds(from, world, node, ids.items[i]));
-        assert_true(i == 0 || ids.items[i - 1] < ids.items[i]);
+    assert_int_equal(ids->count, expected);
+    for (size_t i = 0; i < ids->count; i++) {
+        assert_true(holds(to, world, node, ids->items[i]) && !holds(from, world, node, ids->items[i]));
+        assert_true(i == 0 || ids->items[i - 1] < ids->items[i]);
     }
-    free(ids.items);
+    free(ids->items);
 }
 
 /* Returns 1 if the maker is a split, 2 if it is a merge, 0 if there is none. */
@@ -113,8 +110,11 @@ static octree_walk_order check_node(const octree_node *node, void *context)
 {
     checking *c = context;
     const uint64_t tick = octree_game_tick(c->game)->number;
-    check_points(c->changes, c->game, node->address, true);
-    check_points(c->changes, c->game, node->address, false);
+    const octree_box *world = &octree_game_session(c->game)->tree.world;
+    id_list arrived, left;
+    assert_true(node_changes_list_points(c->changes, c->game, node, &arrived, &left));
+    check_ids(world, node->address, &copies[tick], &copies[tick - 1], &arrived);
+    check_ids(world, node->address, &copies[tick - 1], &copies[tick], &left);
     if (node->leaf)
         c->makers[check_maker(c->changes, tick, node->address)]++;
     return OCTREE_WALK_ON;
