@@ -66,33 +66,39 @@ static bool refuse_file(const output_file *output, const char *is, const char *o
                   is, of, end);
 }
 
-/* Returns whether a command may read an entry of an input folder: a file of a recording, a picture or, if the folder
- * holds no recording, a subfolder that is neither hidden nor a link. */
-static bool is_read_in_folder(const char *folder, const char *name, const char *path)
-{
-    struct stat status;
-    return folder_is_recording_file(name) || file_has_ending(name, ".png") ||
-           (name[0] != '.' && lstat(path, &status) == 0 && S_ISDIR(status.st_mode) &&
-            !folder_contains(folder, "recording.json"));
-}
-
-/* Checks that an output, whose status is given, is not an input. */
-static bool check_input(const output_file *output, const struct stat *status, const char *input)
+/* Checks that an output, whose status is given, is not an input file. */
+static bool check_input_file(const output_file *output, const struct stat *status, const char *input)
 {
     struct stat other;
+    return stat(input, &other) != 0 || !is_same_file(status, &other) ||
+           refuse_file(output, "the same file as ", input, ", which is read");
+}
+
+/* Checks that an output is not read in an input folder: it is neither a picture nor a file of a recording there or in a
+ * subfolder. Links to folders are not followed, because they could lead back to the folder. */
+static bool check_input_folder(const output_file *output, const struct stat *status, const char *folder)
+{
     octreel_error error;
-    char path[PATH_MAX];
-    bool ok = true;
-    if (file_is_standard_stream(input) || stat(input, &other) != 0)
-        return true;
-    if (!S_ISDIR(other.st_mode))
-        return !is_same_file(status, &other) || refuse_file(output, "the same file as ", input, ", which is read");
-    char **names = folder_names(input, &error);
-    for (size_t i = 0; ok && names && names[i]; i++)
-        if (path_print(input, names[i], path) && is_read_in_folder(input, names[i], path))
-            ok = check_input(output, status, path);
+    char **names = folder_names(folder, &error);
+    bool ok = names || refuse("%s", error.text);
+    for (size_t i = 0; ok && names[i]; i++) {
+        struct stat entry;
+        char *path = path_join(folder, names[i]);
+        ok = path || refuse("out of memory");
+        if (ok && lstat(path, &entry) == 0 && S_ISDIR(entry.st_mode))
+            ok = names[i][0] == '.' || check_input_folder(output, status, path);
+        else if (ok && (folder_is_recording_file(names[i]) || file_has_ending(names[i], ".png")))
+            ok = check_input_file(output, status, path);
+        free(path);
+    }
     free(names);
-    return names ? ok : refuse("%s", error.text);
+    return ok;
+}
+
+static bool check_input(const output_file *output, const struct stat *status, const char *input)
+{
+    return file_is_standard_stream(input) ||
+           (is_folder(input) ? check_input_folder : check_input_file)(output, status, input);
 }
 
 /* Checks that a path is not the name of a file in a recording. */

@@ -106,6 +106,17 @@ static void reports_overwrite_no_compared_file(void **state)
     free(before);
 }
 
+/* Following two links that lead back doubles the work at each of forty levels. */
+static void links_to_folders_are_not_searched_for_inputs(void **state)
+{
+    gallery_make(*state, "a", "1.png");
+    for (int i = 0; i < 2; i++)
+        assert_int_equal(symlink(".", place_in(*state, i ? "a/frame_1" : "a/frame_2").path), 0);
+    file_write_text(place_in(*state, "report").path, "old");
+    do_in(state, "diff a a --junit report >said");
+    assert_has_text(state, "report", "<testsuite", true);
+}
+
 static void two_reports_must_be_different_files(void **state)
 {
     gallery_make(*state, "a", "1.png 2.png");
@@ -261,6 +272,7 @@ int main(void)
         IN_FOLDER(two_outputs_of_inspect_must_be_different_files),
         IN_FOLDER(recording_files_are_not_overwritten),
         IN_FOLDER(reports_overwrite_no_compared_file),
+        IN_FOLDER(links_to_folders_are_not_searched_for_inputs),
         IN_FOLDER(two_reports_must_be_different_files),
         IN_FOLDER(valuable_files_are_not_replaced),
         IN_FOLDER(force_replaces_valuable_files),
