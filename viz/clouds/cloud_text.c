@@ -19,6 +19,9 @@
 #include <stdio.h>
 #include <string.h>
 
+/* The two possible ranges of colour channels, as bits: integers from 0 to 255, and fractions from 0 to 1. */
+enum { BYTES = 1, FRACTIONS = 2 };
+
 /* The columns of a file from the fourth on, and the state of a guess of their meaning. */
 typedef struct text_columns {
     struct {
@@ -29,8 +32,8 @@ typedef struct text_columns {
     bool counted;     /* a line with the number of points was read */
     bool unnamed;     /* the file has more than three columns and no column names */
     bool guessed;     /* the channels are guessed; the members below describe the lines that were read so far */
-    bool ranges[2];   /* for BYTES and FRACTIONS: all colour channels were within this range */
-    bool shifted[2];  /* for BYTES and FRACTIONS: the column before the colour was within this range, too */
+    int ranges;       /* the ranges that all colour channels were within */
+    int shifted;      /* the ranges that the column before the colour was always within */
     bool no_normals;  /* at least one colour is not a vector of length 1 */
     double brightest; /* the largest channel of all colours */
 } text_columns;
@@ -213,9 +216,6 @@ static size_t parse_values(cloud_span line, char separator, const text_columns *
 
 /* ---- Columns without names ---------------------------------------------------------------------------------- */
 
-/* The two possible ranges of colour channels: integers from 0 to 255, and fractions from 0 to 1. */
-enum { BYTES, FRACTIONS };
-
 /* Finds the meaning of further columns from the first line of numbers, and whether it is declared or guessed. */
 static void find_columns(cloud_file *file, cloud_span rest, char separator, text_columns *columns)
 {
@@ -242,15 +242,16 @@ static void find_columns(cloud_file *file, cloud_span rest, char separator, text
             continue;
         read_column_names(file, (cloud_span){names, names + strlen(names)}, rows[i].counted ? 255 : 1, columns);
         columns->unnamed = columns->guessed = !ending;
-        columns->ranges[BYTES] = columns->ranges[FRACTIONS] = true;
-        columns->shifted[BYTES] = columns->shifted[FRACTIONS] = count == 4;
+        columns->ranges = BYTES | FRACTIONS;
+        columns->shifted = count == 4 ? BYTES | FRACTIONS : 0;
         return;
     }
 }
 
-static bool is_in_range(double number, int range)
+static int find_ranges(double number)
 {
-    return range == BYTES ? number >= 0 && number <= 255 && number == floor(number) : number >= 0 && number <= 1;
+    return (number >= 0 && number <= 255 && number == floor(number) ? BYTES : 0) |
+           (number >= 0 && number <= 1 ? FRACTIONS : 0);
 }
 
 static void discard_guess(cloud_file *file, text_columns *columns)
@@ -264,20 +265,15 @@ static void discard_guess(cloud_file *file, text_columns *columns)
 /* Compares the guess with the numbers of a line. If the numbers contradict the guess, discards it. */
 static void check_guess(cloud_file *file, text_columns *columns, size_t count, const double *numbers)
 {
-    bool fits = false;
     double square = 0;
-    for (int range = 0; range < 2; range++) {
-        for (int i = 0; i < 3; i++)
-            columns->ranges[range] = columns->ranges[range] && is_in_range(numbers[CLOUD_RED + i], range);
-        columns->shifted[range] = columns->shifted[range] && is_in_range(numbers[CLOUD_INTENSITY], range);
-        fits = fits || columns->ranges[range];
-    }
+    columns->shifted &= find_ranges(numbers[CLOUD_INTENSITY]);
     for (int i = 0; i < 3; i++) {
+        columns->ranges &= find_ranges(numbers[CLOUD_RED + i]);
         square += numbers[CLOUD_RED + i] * numbers[CLOUD_RED + i];
         columns->brightest = fmax(columns->brightest, numbers[CLOUD_RED + i]);
     }
     columns->no_normals |= fabs(square - 1) > 0.01;
-    if (!fits || count != columns->place_count || (count == 4 && isnan(numbers[CLOUD_INTENSITY])))
+    if (!columns->ranges || count != columns->place_count || (count == 4 && isnan(numbers[CLOUD_INTENSITY])))
         discard_guess(file, columns);
 }
 
@@ -286,9 +282,9 @@ static void check_guess(cloud_file *file, text_columns *columns, size_t count, c
  * number outside the range of colour channels; otherwise the first three could be the colour. */
 static void decide_guess(cloud_file *file, text_columns *columns)
 {
-    const int range = columns->ranges[BYTES] ? BYTES : FRACTIONS;
+    const int range = columns->ranges & BYTES ? BYTES : FRACTIONS;
     const bool bright = range == BYTES ? columns->brightest >= 128 : columns->brightest >= 0.5 && columns->no_normals;
-    const bool four = columns->place_count == 4, read = columns->guessed && bright && !columns->shifted[range];
+    const bool four = columns->place_count == 4, read = columns->guessed && bright && !(columns->shifted & range);
     char *note = file->out->column_note;
     const size_t size = sizeof file->out->column_note;
     if (read)
