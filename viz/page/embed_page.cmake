@@ -51,6 +51,8 @@ macro(inline element regex)
     string(REGEX REPLACE "([(,;{])\n" "\\1" text "${text}")
     if("${element}" STREQUAL "style")
       string(REPLACE ": " ":" text "${text}")
+      string(REGEX REPLACE "([{;,}])[ \n]+" "\\1" text "${text}") # no string in CSS here has a blank there
+      string(REPLACE ";}" "}" text "${text}")
     endif()
     string(APPEND texts "${text}")
     list(GET tags -1 last)
