@@ -27,8 +27,11 @@ static const struct {
 
 static size_t count_numbers_of_type(octree_member_type type)
 {
-    static const size_t numbers[] = {
-        [OCTREE_MEMBER_BOX] = 6, [OCTREE_MEMBER_POSITION] = 3, [OCTREE_MEMBER_COUNT] = 1, [OCTREE_MEMBER_LENGTH] = 1};
+    static const size_t numbers[] = {[OCTREE_MEMBER_BOX] = 6,
+                                     [OCTREE_MEMBER_POSITION] = 3,
+                                     [OCTREE_MEMBER_COUNT] = 1,
+                                     [OCTREE_MEMBER_LENGTH] = 1,
+                                     [OCTREE_MEMBER_BOUNDS] = 0}; /* always closed */
     return numbers[type];
 }
 

@@ -131,15 +131,21 @@ static bool has_epsilon(const void *structure)
 
 JSON_NAMES(query_name, octree_query_name, octree_query_kind)
 
+JSON_NAMES(bounds_name, octree_bounds_name, octree_bounds)
+
 /* Make the table row for a member of a query. A target may be a position or "player". */
 static json_member make_query_member(const octree_query_member_traits *member)
 {
-    static const json_codec *const codecs[] = {[OCTREE_MEMBER_BOX] = &json_box,
-                                               [OCTREE_MEMBER_POSITION] = &json_vector,
-                                               [OCTREE_MEMBER_COUNT] = &json_size,
-                                               [OCTREE_MEMBER_LENGTH] = &json_nonnegative};
+    static const json_member rows[] = {
+        [OCTREE_MEMBER_BOX] = {.codec = &json_box, .required = true},
+        [OCTREE_MEMBER_POSITION] = {.codec = &json_vector, .required = true},
+        [OCTREE_MEMBER_COUNT] = {.codec = &json_size, .required = true, .max = UINT32_MAX},
+        [OCTREE_MEMBER_LENGTH] = {.codec = &json_nonnegative, .required = true},
+        [OCTREE_MEMBER_BOUNDS] = {.codec = &json_choice, .names = bounds_name, .nonzero_size = sizeof(octree_bounds)}};
     static const json_codec target = {read_target, write_target};
-    json_member row = {member->key, codecs[member->type], member->in_query, .required = true, .max = UINT32_MAX};
+    json_member row = rows[member->type];
+    row.name = member->key;
+    row.offset = row.nonzero = member->in_query;
     if (member->bit == OCTREE_QUERY_HAS_TARGET) {
         row.codec = &target;
         row.offset = 0;

@@ -20,6 +20,7 @@ char *digest_print(uint64_t digest, char text[DIGEST_TEXT])
 #define WRITE(how) JSON_CODEC(NULL, how)
 
 JSON_NAMES(precision_name, octree_precision_name, octree_precision)
+JSON_NAMES(bounds_name, octree_bounds_name, octree_bounds)
 JSON_NAMES(status_name, octree_status_name, octree_status)
 JSON_NAMES(wrong_name, octree_wrong_name, octree_wrong_kind)
 JSON_NAMES(wrong_node_name, octree_wrong_node_name, octree_wrong_node_kind)
@@ -157,16 +158,20 @@ static void write_result(json_writer *w, const octree_answer *answer, const octr
 
 void tick_write_query_parameters(json_writer *w, const octree_answer *answer)
 {
-    static const json_codec *const codecs[] = {[OCTREE_MEMBER_BOX] = &json_vector,
-                                               [OCTREE_MEMBER_POSITION] = &json_vector,
-                                               [OCTREE_MEMBER_COUNT] = &json_size,
-                                               [OCTREE_MEMBER_LENGTH] = &json_number};
+    static const json_member rows[] = {
+        [OCTREE_MEMBER_BOX] = {.codec = &json_vector},
+        [OCTREE_MEMBER_POSITION] = {.codec = &json_vector},
+        [OCTREE_MEMBER_COUNT] = {.codec = &json_size},
+        [OCTREE_MEMBER_LENGTH] = {.codec = &json_number},
+        [OCTREE_MEMBER_BOUNDS] = {.codec = &json_choice, .names = bounds_name, .nonzero_size = sizeof(octree_bounds)}};
     const octree_query_traits *about = octree_query_about(answer->kind);
     for (size_t i = 0; i < OCTREE_QUERY_MEMBERS; i++) {
         const octree_query_member_traits *member = octree_query_member_at(i);
-        json_member table[] = {{member->key, codecs[member->type], .offset = member->in_answer}, {0}, {0}};
+        json_member table[] = {rows[member->type], {0}, {0}};
         if (!(about->members & member->bit))
             continue;
+        table[0].name = member->key;
+        table[0].offset = table[0].nonzero = member->in_answer;
         if (member->bit == OCTREE_QUERY_HAS_TARGET)
             table[0].name = about->neighbors ? "target" : "center";
         if (member->type == OCTREE_MEMBER_BOX) {

@@ -15,10 +15,11 @@
 
 /* ---- Asking ------------------------------------------------------------------------------------------------- */
 
-/* Returns true if the query is a ball: it has a target and a radius and nothing else. */
+/* Returns true if the query is a ball: it has a target, a radius and bounds, and nothing else. */
 static bool is_ball(octree_query_kind kind)
 {
-    return octree_query_about(kind)->members == (OCTREE_QUERY_HAS_TARGET | OCTREE_QUERY_HAS_RADIUS);
+    return octree_query_about(kind)->members ==
+           (OCTREE_QUERY_HAS_TARGET | OCTREE_QUERY_HAS_RADIUS | OCTREE_QUERY_HAS_BOUNDS);
 }
 
 /* Find the distances of the `count` points in a ball. A radius query returns no distances, so the `count` nearest
@@ -144,6 +145,10 @@ static void print_member(const shown_answer *shown, const octree_query_member_tr
         break;
     case OCTREE_MEMBER_LENGTH:
         inspect_print_numbers((const double *)value, 1, out);
+        break;
+    case OCTREE_MEMBER_BOUNDS:
+        if (*(const octree_bounds *)value != OCTREE_BOUNDS_CLOSED)
+            fprintf(out, ", %s bounds", octree_bounds_name(*(const octree_bounds *)value));
         break;
     case OCTREE_MEMBER_COUNT: /* the count was printed before the name */
         break;

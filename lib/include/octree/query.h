@@ -23,7 +23,23 @@ typedef enum octree_member_type {
     OCTREE_MEMBER_POSITION, /* double[3]: three finite numbers */
     OCTREE_MEMBER_COUNT,    /* size_t: any number */
     OCTREE_MEMBER_LENGTH,   /* double: finite, >= 0 */
+    OCTREE_MEMBER_BOUNDS,   /* octree_bounds; session files may leave it out, which means closed */
 } octree_member_type;
+
+/* Whether the points exactly on the boundary of a region belong to the answer. Real numbers decide, not rounded
+ * distances.
+ *
+ * CLOSED: they do. OPEN: they do not, as in an index that tests `distance < radius`. EITHER: the answer of a foreign
+ * index may contain any of them; the exact answer contains all. */
+typedef enum octree_bounds {
+    OCTREE_BOUNDS_CLOSED,
+    OCTREE_BOUNDS_OPEN,
+    OCTREE_BOUNDS_EITHER,
+    OCTREE_BOUNDS_KINDS
+} octree_bounds;
+
+/* The name of bounds in session files: "closed", "open" or "either". Null for bounds >= OCTREE_BOUNDS_KINDS. */
+const char *octree_bounds_name(octree_bounds bounds);
 
 /* The members of octree_query and octree_answer that only some kinds of query read. A row has the member, the member's
  * type, and its key in session files. Answers list their members in this order. To add a member, add a row here and a
@@ -32,7 +48,8 @@ typedef enum octree_member_type {
     X(BOX, box, BOX, "box")                                                                                            \
     X(TARGET, target, POSITION, "at")                                                                                  \
     X(K, k, COUNT, "k")                                                                                                \
-    X(RADIUS, radius, LENGTH, "radius")
+    X(RADIUS, radius, LENGTH, "radius")                                                                                \
+    X(BOUNDS, bounds, BOUNDS, "bounds")
 
 enum {
 #define OCTREE_QUERY_MEMBER_INDEX(member, ...) OCTREE_QUERY_MEMBER_##member,
@@ -66,16 +83,17 @@ const octree_query_member_traits *octree_query_member_at(size_t index);
  * result; the kind's meaning in a few words; a noun for the searched region.
  *
  * To add a kind: a row here; a file lib/src/query/kind_NAME.c, which defines ask_NAME() and, for POINTS,
- * contains_NAME() and bound_NAME(); a row of viz/scene/query_looks.h; a layer_NAME in viz/layers; a test. If one of
+ * compare_NAME() and bound_NAME(); a row of viz/scene/query_looks.h; a layer_NAME in viz/layers; a test. If one of
  * these is missing, the program does not compile or link. */
 #define OCTREE_QUERY_MAP(X)                                                                                            \
-    X(RANGE, range, OCTREE_QUERY_HAS_BOX, OCTREE_QUERY_HAS_BOX, POINTS, "the points in a box", "box")                  \
+    X(RANGE, range, OCTREE_QUERY_HAS_BOX | OCTREE_QUERY_HAS_BOUNDS, OCTREE_QUERY_HAS_BOX, POINTS,                      \
+      "the points in a box", "box")                                                                                    \
     X(NEAREST, nearest, OCTREE_QUERY_HAS_TARGET, OCTREE_QUERY_HAS_TARGET, NEIGHBORS, "the point nearest to a place",   \
       "space")                                                                                                         \
     X(KNEAREST, knearest, OCTREE_QUERY_HAS_TARGET | OCTREE_QUERY_HAS_K, OCTREE_QUERY_HAS_K, NEIGHBORS,                 \
       "the k points nearest to a place", "space")                                                                      \
-    X(RADIUS, radius, OCTREE_QUERY_HAS_TARGET | OCTREE_QUERY_HAS_RADIUS, OCTREE_QUERY_HAS_RADIUS, POINTS,              \
-      "the points in a ball", "ball")
+    X(RADIUS, radius, OCTREE_QUERY_HAS_TARGET | OCTREE_QUERY_HAS_RADIUS | OCTREE_QUERY_HAS_BOUNDS,                     \
+      OCTREE_QUERY_HAS_RADIUS, POINTS, "the points in a ball", "ball")
 
 typedef enum octree_query_kind {
 #define OCTREE_QUERY_ENUM(kind, ...) OCTREE_QUERY_##kind,
@@ -112,11 +130,12 @@ typedef struct octree_query {
     uint64_t tick; /* the number of the tick at which the query is asked, or OCTREE_EVERY_TICK */
     octree_query_kind kind;
     bool at_player; /* true: the player's position is the target, and `box` is relative to this position */
-    octree_box box; /* the closed box of a range query */
+    octree_box box; /* the box of a range query */
     /* the position whose neighbours are searched, or the center of the ball. Not read if at_player is true */
     double target[3];
-    size_t k;      /* the number of neighbours to find; if the tree has fewer points, all points are found */
-    double radius; /* the radius of the closed ball, >= 0 */
+    size_t k;             /* the number of neighbours to find; if the tree has fewer points, all points are found */
+    double radius;        /* the radius of the ball, >= 0 */
+    octree_bounds bounds; /* read for boxes and balls: whether the boundary belongs to the answer */
     /* the points that no answer may contain. NONE skips only the game's player, and only in queries for neighbours.
      * COINCIDENT skips points at the target, and is an error in a query without a target */
     octree_skip skip;
@@ -137,9 +156,9 @@ typedef struct octree_query {
 } octree_query;
 
 /* Check whether a query can be asked. The member `tick` is not read. Errors: NULL_ARGUMENT (an array of ids may be null
- * only if its count is 0); BAD_OPTION (kind, precision or skip is invalid, or COINCIDENT without a target); NOT_FINITE,
- * BAD_RANGE, BAD_SIZE (epsilon, or a member that the kind reads); BAD_SIZE (the id of a foreign node is not below
- * OCTREE_NODE_ID_LIMIT). */
+ * only if its count is 0); BAD_OPTION (kind, bounds, precision or skip is invalid, or COINCIDENT without a target);
+ * NOT_FINITE, BAD_RANGE, BAD_SIZE (epsilon, or a member that the kind reads); BAD_SIZE (the id of a foreign node is not
+ * below OCTREE_NODE_ID_LIMIT). */
 octree_status octree_query_check(const octree_query *query);
 
 /* ---- Answers ------------------------------------------------------------------------------------------------ */
@@ -156,8 +175,10 @@ typedef enum octree_wrong_kind {
     OCTREE_WRONG_COUNT,
     /* only for neighbours: at some rank, the neighbour is farther than the exact neighbour of this rank */
     OCTREE_WRONG_FARTHER,
-    OCTREE_WRONG_MISSING, /* only for regions: a point in the region is not in the answer */
-    OCTREE_WRONG_EXTRA,   /* only for regions: a point of the answer is outside the region */
+    /* only for regions: a point in the region is not in the answer. The query's bounds decide about points on the
+     * boundary, here and for EXTRA */
+    OCTREE_WRONG_MISSING,
+    OCTREE_WRONG_EXTRA, /* only for regions: a point of the answer is outside the region */
     OCTREE_WRONG_KINDS
 } octree_wrong_kind;
 
@@ -187,6 +208,10 @@ typedef struct octree_judgement {
      * points are not in this list */
     const octree_point *extra;
     size_t extra_count;
+    /* only for regions: MISSING or EXTRA if there are such points and all of them lie exactly on the boundary of the
+     * region; else NONE */
+    octree_wrong_kind on_boundary;
+    octree_bounds accepting; /* read if on_boundary is not NONE: the bounds with which these points are right */
     /* only for neighbours: the first rank at which the neighbour is wrong. The nearest neighbour has rank 1; 0: no rank
      * is wrong */
     size_t rank;
@@ -202,6 +227,7 @@ typedef struct octree_answer {
     double target[3];
     size_t k; /* the number of neighbours that the query asked for; 1 for a query of kind nearest */
     double radius;
+    octree_bounds bounds;
     octree_skip skip; /* skip, skip_id and epsilon of the query; skip is NONE if only the player is skipped */
     uint64_t skip_id;
     double epsilon;

@@ -3,13 +3,14 @@
  *
  * The problem: an index may promise exact answers, answers that are exact for positions rounded to floats, or answers
  * within epsilon; and where several neighbours are equally far, any of them is right. So a comparison of two lists of
- * ids would report right answers as wrong.
+ * ids would report right answers as wrong. Some indexes also leave out the boundary of a region.
  *
  * The idea: make two lists of points, the foreign answer and the exact one. Both have exact or rounded positions, as
  * the index promises. For regions the lists are compared as sets, sorted by id: a missing point is wrong, and an extra
- * point is wrong unless it lies within epsilon of the region. For neighbours the distances are compared rank by rank,
- * so that ties need no rule. Squared distances in doubles decide if they differ by more than their error; otherwise
- * exact arithmetic decides (metric.h).
+ * point is wrong unless it lies within epsilon of the region. The query's bounds decide about points exactly on the
+ * boundary, and exact arithmetic decides which points those are. For neighbours the distances are compared rank by
+ * rank, so that ties need no rule. Squared distances in doubles decide if they differ by more than their error;
+ * otherwise exact arithmetic decides (metric.h).
  *
  * If the index promises floats, the exact answer is made again for rounded positions. Rounding moves a point by at most
  * a share of the world's largest coordinate. So all points in a region enlarged by this share are collected, and their
@@ -20,13 +21,6 @@
 #include "../query/kind.h"
 #include "../query/search.h"
 
-const char *octree_wrong_name(octree_wrong_kind wrong)
-{
-    static const char *const names[OCTREE_WRONG_KINDS] = {"none",  "unknown", "duplicate", "skipped",
-                                                          "count", "farther", "missing",   "extra"};
-    return (unsigned)wrong < OCTREE_WRONG_KINDS ? names[wrong] : NULL;
-}
-
 typedef struct judge_state {
     judge *judge;
     const judged_query *about;
@@ -35,6 +29,7 @@ typedef struct judge_state {
     bool rounds;
     metric metric;
     list *collected; /* the list to which a search appends the points that it finds */
+    size_t boundary; /* the number of points on the region's boundary that a search found */
     bool failed;     /* true: there was no memory */
 } judge_state;
 
@@ -180,7 +175,8 @@ static bool collect_judged_point(const octree_point *point, void *context)
     judge_state *s = context;
     judged_point p = judge_point(s, point);
     const query_rules *rules = query_rules_of(s->asked.kind);
-    if (!is_skipped(s, &p) && (!rules->contains || rules->contains(&s->asked, p.at, 0)))
+    const int outside = s->asked.bounds == OCTREE_BOUNDS_OPEN ? 0 : 1;
+    if (!is_skipped(s, &p) && (!rules->compare || rules->compare(&s->asked, p.at, 0) < outside))
         append_judged_point(s, s->collected, &p);
     return !s->failed;
 }
@@ -222,19 +218,28 @@ static void collect_nearest(judge_state *s, double slack)
     exact->count = exact->count < k ? exact->count : k;
 }
 
+/* A distance that no point of the world exceeds when it is rounded. Rounding moves a point in space by up to sqrt(3)
+ * times the largest rounding along one axis. */
+static double rounding_slack(const judge_state *s)
+{
+    return s->rounds ? 2 * largest_rounding(s->about->points->tree) : 0;
+}
+
+/* Visit the points whose judged positions may be in the region. The box is valid, so that the search cannot fail. */
+static void search_region(judge_state *s, octree_point_visitor visit)
+{
+    const octree_box bound = query_rules_of(s->asked.kind)->bound(&s->asked, rounding_slack(s));
+    octree_range(s->about->points->tree, &bound, visit, s);
+}
+
 /* List the exact answer for positions rounded to floats. */
 static void list_rounded_exact_answer(judge_state *s)
 {
-    const octree *tree = s->about->points->tree;
-    /* rounding moves a point in space by up to sqrt(3) times the largest rounding along one axis */
-    const double slack = 2 * largest_rounding(tree);
     s->collected = &s->judge->exact;
-    if (finds_neighbors(s)) {
-        collect_nearest(s, slack);
-    } else {
-        const octree_box bound = query_rules_of(s->asked.kind)->bound(&s->asked, slack);
-        octree_range(tree, &bound, collect_judged_point, s);
-    }
+    if (finds_neighbors(s))
+        collect_nearest(s, rounding_slack(s));
+    else
+        search_region(s, collect_judged_point);
 }
 
 static void find_exact_answer(judge_state *s)
@@ -254,31 +259,63 @@ static void list_wrong_point(judge_state *s, const judged_point *p, size_t *coun
     ++*count;
 }
 
-/* List as wrong the points of `from` that are not in `without`. Both lists are sorted by id. If `slack` is above 0,
- * points within this distance of the region are not wrong. */
-static void list_difference(judge_state *s, const list *from, const list *without, double slack, size_t *count)
+/* Whether an answer is right with the point and without it. If `slack` is above 0, it is so for points within this
+ * distance of the region that are not in the exact answer. */
+static bool is_optional(const judge_state *s, const judged_point *p, double slack)
+{
+    return (slack > 0 && query_rules_of(s->asked.kind)->compare(&s->asked, p->at, slack) <= 0) ||
+           (s->asked.bounds == OCTREE_BOUNDS_EITHER && is_on_boundary(&s->asked, p->at));
+}
+
+/* An octree_point_visitor: count a point if it is on the boundary of the region. */
+static bool count_boundary_point(const octree_point *point, void *context)
+{
+    judge_state *s = context;
+    const judged_point p = judge_point(s, point);
+    s->boundary += !is_skipped(s, &p) && is_on_boundary(&s->asked, p.at);
+    return true;
+}
+
+/* Record that all `count` wrong points of this kind lie on the boundary, and the bounds with which they are right. If
+ * the boundary has more points, the answer contains only a part of them. */
+static void record_boundary(judge_state *s, octree_wrong_kind wrong, size_t count)
+{
+    s->boundary = 0;
+    search_region(s, count_boundary_point);
+    s->made->on_boundary = wrong;
+    s->made->accepting = count < s->boundary             ? OCTREE_BOUNDS_EITHER
+                         : wrong == OCTREE_WRONG_MISSING ? OCTREE_BOUNDS_OPEN
+                                                         : OCTREE_BOUNDS_CLOSED;
+}
+
+/* List as wrong the points of `from` that are not in `without`, unless they are optional. Both lists are sorted by id.
+ * `wrong` is the kind of such points, MISSING or EXTRA. */
+static void judge_difference(judge_state *s, octree_wrong_kind wrong, const list *from, const list *without,
+                             double slack, size_t *count)
 {
     const judged_point *items = from->items, *others = without->items;
-    const query_rules *rules = query_rules_of(s->asked.kind);
+    bool on_boundary = true;
     for (size_t i = 0, j = 0; !s->failed && i < from->count; i++) {
         while (j < without->count && compare_ids(&others[j], &items[i]) < 0)
             j++;
         const bool lacks = j == without->count || compare_ids(&others[j], &items[i]) > 0;
-        if (lacks && !(slack > 0 && rules->contains(&s->asked, items[i].at, slack)))
-            list_wrong_point(s, &items[i], count);
+        if (!lacks || is_optional(s, &items[i], slack))
+            continue;
+        list_wrong_point(s, &items[i], count);
+        on_boundary = on_boundary && is_on_boundary(&s->asked, items[i].at);
     }
+    if (*count > 0)
+        record_wrong(s, wrong, 0);
+    if (*count > 0 && on_boundary)
+        record_boundary(s, wrong, *count);
 }
 
 static void judge_region(judge_state *s)
 {
     judge *j = s->judge;
     list_sort(&j->exact, sizeof(judged_point), compare_ids);
-    list_difference(s, &j->exact, &j->foreign, 0, &s->made->missing_count);
-    list_difference(s, &j->foreign, &j->exact, s->asked.epsilon, &s->made->extra_count);
-    if (s->made->missing_count)
-        record_wrong(s, OCTREE_WRONG_MISSING, 0);
-    if (s->made->extra_count)
-        record_wrong(s, OCTREE_WRONG_EXTRA, 0);
+    judge_difference(s, OCTREE_WRONG_MISSING, &j->exact, &j->foreign, 0, &s->made->missing_count);
+    judge_difference(s, OCTREE_WRONG_EXTRA, &j->foreign, &j->exact, s->asked.epsilon, &s->made->extra_count);
 }
 
 /* ---- Neighbours --------------------------------------------------------------------------------------------- */
@@ -395,7 +432,7 @@ static void list_possible_neighbors(judge_state *s)
     s->collected = &s->judge->foreign;
     s->collected->count = 0;
     collect_ball(s, distance < DBL_MAX / factor ? distance * factor : DBL_MAX,
-                 s->rounds ? 2 * largest_rounding(s->about->points->tree) : 0x1p-1000);
+                 s->rounds ? rounding_slack(s) : 0x1p-1000);
 }
 
 /* Make the best answer that has none of the lost points: the nearest other points, or all other points of the

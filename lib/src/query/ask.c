@@ -35,9 +35,22 @@ const char *octree_query_name(octree_query_kind kind)
     return about ? about->name : NULL;
 }
 
+const char *octree_bounds_name(octree_bounds bounds)
+{
+    static const char *const names[OCTREE_BOUNDS_KINDS] = {"closed", "open", "either"};
+    return (unsigned)bounds < OCTREE_BOUNDS_KINDS ? names[bounds] : NULL;
+}
+
+const char *octree_wrong_name(octree_wrong_kind wrong)
+{
+    static const char *const names[OCTREE_WRONG_KINDS] = {"none",  "unknown", "duplicate", "skipped",
+                                                          "count", "farther", "missing",   "extra"};
+    return (unsigned)wrong < OCTREE_WRONG_KINDS ? names[wrong] : NULL;
+}
+
 const query_rules *query_rules_of(octree_query_kind kind)
 {
-#define RULES_POINTS(name) {ask_##name, contains_##name, bound_##name},
+#define RULES_POINTS(name) {ask_##name, compare_##name, bound_##name},
 #define RULES_NEIGHBORS(name) {ask_##name, NULL, NULL},
 #define RULES(kind, name, members, named_by, result, ...) RULES_##result(name)
     static const query_rules table[] = {OCTREE_QUERY_MAP(RULES)};
@@ -57,6 +70,8 @@ static octree_status check_member(const octree_query *query, const octree_query_
         return member->bit == OCTREE_QUERY_HAS_TARGET && query->at_player ? OCTREE_OK : check_finite_position(value);
     case OCTREE_MEMBER_LENGTH:
         return check_length(*(const double *)value);
+    case OCTREE_MEMBER_BOUNDS:
+        return octree_bounds_name(*(const octree_bounds *)value) ? OCTREE_OK : OCTREE_BAD_OPTION;
     case OCTREE_MEMBER_COUNT:
         break;
     }
@@ -115,19 +130,20 @@ bool collect_unless_skipped(const octree_point *point, void *context)
     query_run *run = context;
     const octree_answer *asked = run->asked;
     const bool skipped = (asked->skip == OCTREE_SKIP_ID && point->id == asked->skip_id) ||
-                         (asked->skip == OCTREE_SKIP_COINCIDENT && same_position(point->position, asked->target));
+                         (asked->skip == OCTREE_SKIP_COINCIDENT && same_position(point->position, asked->target)) ||
+                         (asked->bounds == OCTREE_BOUNDS_OPEN && is_on_boundary(asked, point->position));
     run->failed = !skipped && !list_push(run->memory, run->points, point, sizeof *point);
     return !run->failed;
 }
 
-static size_t size_of_member(octree_member_type type)
-{
-    static const size_t sizes[] = {[OCTREE_MEMBER_BOX] = sizeof(octree_box),
-                                   [OCTREE_MEMBER_POSITION] = sizeof(double[3]),
-                                   [OCTREE_MEMBER_COUNT] = sizeof(size_t),
-                                   [OCTREE_MEMBER_LENGTH] = sizeof(double)};
-    return sizes[type];
-}
+/* The size of a member in bytes, and the number of doubles in it. */
+static const struct {
+    size_t size, doubles;
+} member_sizes[] = {[OCTREE_MEMBER_BOX] = {sizeof(octree_box), 6},
+                    [OCTREE_MEMBER_POSITION] = {sizeof(double[3]), 3},
+                    [OCTREE_MEMBER_COUNT] = {sizeof(size_t), 0},
+                    [OCTREE_MEMBER_LENGTH] = {sizeof(double), 1},
+                    [OCTREE_MEMBER_BOUNDS] = {sizeof(octree_bounds), 0}};
 
 octree_answer query_to_answer(const octree_query *query, const double player[3])
 {
@@ -139,7 +155,7 @@ octree_answer query_to_answer(const octree_query *query, const double player[3])
     for (size_t i = 0; i < OCTREE_QUERY_MEMBERS; i++) {
         const octree_query_member_traits *member = octree_query_member_at(i);
         memcpy((char *)&answer + member->in_answer, (const char *)query + member->in_query,
-               size_of_member(member->type));
+               member_sizes[member->type].size);
     }
     if (!query->at_player)
         return answer;
@@ -156,8 +172,7 @@ void round_answer(octree_answer *answer)
     for (size_t i = 0; i < OCTREE_QUERY_MEMBERS; i++) {
         const octree_query_member_traits *member = octree_query_member_at(i);
         double *numbers = (double *)((char *)answer + member->in_answer);
-        const size_t count = member->type == OCTREE_MEMBER_COUNT ? 0 : size_of_member(member->type) / sizeof *numbers;
-        for (size_t j = 0; j < count; j++)
+        for (size_t j = 0; j < member_sizes[member->type].doubles; j++)
             numbers[j] = round_to_float(numbers[j]);
     }
 }

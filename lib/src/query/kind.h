@@ -25,10 +25,10 @@ typedef struct query_run {
 bool collect_unless_skipped(const octree_point *point, void *context);
 
 /* Each kind defines a function ask_NAME in kind_NAME.c, which asks the tree and appends the result. A kind whose result
- * is points also defines contains_NAME and bound_NAME. */
+ * is points also defines compare_NAME and bound_NAME. */
 #define QUERY_RULE_TYPES(kind, name, ...)                                                                              \
     octree_status ask_##name(query_run *run, octree_answer *answer);                                                   \
-    bool contains_##name(const octree_answer *asked, const double position[3], double slack);                          \
+    int compare_##name(const octree_answer *asked, const double position[3], double slack);                            \
     octree_box bound_##name(const octree_answer *asked, double slack);
 OCTREE_QUERY_MAP(QUERY_RULE_TYPES)
 #undef QUERY_RULE_TYPES
@@ -36,10 +36,10 @@ OCTREE_QUERY_MAP(QUERY_RULE_TYPES)
 typedef struct query_rules {
     octree_status (*ask)(query_run *run, octree_answer *answer);
 
-    /* Whether a position is in the region, or within a distance `slack` >= 0 of it. Real numbers decide, whatever the
-     * sizes of the world and the region; if slack > 0 the limit may be rounded up. The pointer is null if the result is
-     * neighbours. */
-    bool (*contains)(const octree_answer *asked, const double position[3], double slack);
+    /* Compare a position with the region, enlarged by a distance `slack` >= 0: -1 inside, 0 on the boundary, 1 outside.
+     * Real numbers decide, whatever the sizes of the world and the region; if slack > 0 the boundary may be rounded
+     * outwards. The pointer is null if the result is neighbours. */
+    int (*compare)(const octree_answer *asked, const double position[3], double slack);
 
     /* A closed box that contains the region and all positions within `slack` >= 0 of it. The pointer is null if the
      * result is neighbours. */
@@ -47,6 +47,12 @@ typedef struct query_rules {
 } query_rules;
 
 const query_rules *query_rules_of(octree_query_kind kind);
+
+/* Whether a position is exactly on the boundary of a region. The result of the kind must be points. */
+static inline bool is_on_boundary(const octree_answer *asked, const double position[3])
+{
+    return query_rules_of(asked->kind)->compare(asked, position, 0) == 0;
+}
 
 /* Whether the query has a foreign answer or pruned foreign nodes, which the exact answer must judge. */
 static inline bool query_is_judged(const octree_query *query)

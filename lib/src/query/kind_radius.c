@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* kind_radius.c - the kind "radius": the points in a closed ball. */
+/* kind_radius.c - the kind "radius": the points in a ball. */
 #include "../exact/exact.h"
 #include "kind.h"
 #include "search.h"
@@ -9,10 +9,10 @@ octree_status ask_radius(query_run *run, octree_answer *answer)
     return octree_radius(run->tree, answer->target, answer->radius, &run->how, collect_unless_skipped, run);
 }
 
-bool contains_radius(const octree_answer *asked, const double position[3], double slack)
+int compare_radius(const octree_answer *asked, const double position[3], double slack)
 {
     const double reach = slack > 0 ? exact_add_up(asked->radius, slack) : asked->radius;
-    return isinf(reach) || metric_compare_radius(asked->target, position, reach) <= 0;
+    return isinf(reach) ? -1 : metric_compare_radius(asked->target, position, reach);
 }
 
 octree_box bound_radius(const octree_answer *asked, double slack)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* kind_range.c - the kind "range": the points in a closed box. */
+/* kind_range.c - the kind "range": the points in a box. */
 #include "../exact/exact.h"
 #include "kind.h"
 #include "search.h"
@@ -9,23 +9,24 @@ octree_status ask_range(query_run *run, octree_answer *answer)
     return octree_range_search(run->tree, &answer->box, &run->how, collect_unless_skipped, run);
 }
 
-/* Whether a - b <= length in real numbers; a and b may be infinite. */
-static bool is_within_gap(double a, double b, double length)
+/* The sign of a - b - length in real numbers; a or b may be infinite. */
+static int compare_gap(double a, double b, double length)
 {
-    if (isinf(a) || isinf(b))
-        return a <= b;
-    return exact_sign_of_sum((double[]){a, -b, -length}, 3) <= 0;
+    if (!(length > 0) || isinf(a) || isinf(b))
+        return (a > b) - (a < b);
+    return exact_sign_of_sum((double[]){a, -b, -length}, 3);
 }
 
-bool contains_range(const octree_answer *asked, const double position[3], double slack)
+int compare_range(const octree_answer *asked, const double position[3], double slack)
 {
-    if (!(slack > 0))
-        return box_contains(&asked->box, position);
-    bool inside = true;
-    for (int i = 0; i < 3; i++)
-        inside &= is_within_gap(asked->box.min[i], position[i], slack) &&
-                  is_within_gap(position[i], asked->box.max[i], slack);
-    return inside;
+    int sign = -1;
+    for (int i = 0; i < 3; i++) {
+        const int below = compare_gap(asked->box.min[i], position[i], slack);
+        const int above = compare_gap(position[i], asked->box.max[i], slack);
+        sign = below > sign ? below : sign;
+        sign = above > sign ? above : sign;
+    }
+    return sign;
 }
 
 octree_box bound_range(const octree_answer *asked, double slack)

@@ -435,6 +435,26 @@ static void a_node_that_was_pruned_with_a_point_of_the_answer_is_found(void **st
     assert_faultless(right_tick(ASK(NEAR(1, 1), .epsilon = DBL_MAX, PRUNED(60)))); /* any other is allowed */
 }
 
+/* Points 2 and 3 lie on the boundary. */
+static void a_node_may_be_pruned_whose_points_lie_on_an_open_boundary(void **state)
+{
+    const octree_query asked[] = {{.kind = OCTREE_QUERY_RADIUS, .radius = 2, PRUNED(60)},
+                                  {.kind = OCTREE_QUERY_RANGE, .box = {{-3, -1, -1}, {2, 1, 1}}, PRUNED(60)}};
+    (void)state;
+    for (size_t i = 0; i < sizeof asked / sizeof asked[0]; i++) {
+        octree_query q = asked[i];
+        assert_fault(right_tick(&q), OCTREE_NODE_PRUNED_POINT, 60, 3);
+        q.bounds = OCTREE_BOUNDS_OPEN;
+        assert_faultless(right_tick(&q));
+        q.bounds = OCTREE_BOUNDS_EITHER;
+        assert_faultless(right_tick(&q));
+        q.precision = OCTREE_FLOATS;
+        assert_faultless(right_tick(&q));
+        q.target[0] = q.box.max[0] = 2.5; /* now point 3 is inside */
+        assert_fault(right_tick(&q), OCTREE_NODE_PRUNED_POINT, 60, 3);
+    }
+}
+
 static void a_point_that_is_held_elsewhere_too_may_be_pruned(void **state)
 {
     (void)state;
@@ -560,6 +580,7 @@ int main(void)
         cmocka_unit_test(boxes_of_floats_are_compared_in_floats),
         cmocka_unit_test(how_queries_met_nodes_is_told),
         cmocka_unit_test(a_node_that_was_pruned_with_a_point_of_the_answer_is_found),
+        cmocka_unit_test(a_node_may_be_pruned_whose_points_lie_on_an_open_boundary),
         cmocka_unit_test(a_point_that_is_held_elsewhere_too_may_be_pruned),
         cmocka_unit_test(the_player_is_held_against_nobody),
         cmocka_unit_test(a_point_that_moves_is_judged_where_it_is),

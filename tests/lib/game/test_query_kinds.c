@@ -45,6 +45,9 @@ static octree_query random_query(octree_query_kind kind, uint64_t *random)
         case OCTREE_MEMBER_LENGTH:
             memcpy(value, &length, sizeof length);
             break;
+        case OCTREE_MEMBER_BOUNDS:
+            *(octree_bounds *)value = (octree_bounds)(octree_random(random) % OCTREE_BOUNDS_KINDS);
+            break;
         }
     }
     return query;

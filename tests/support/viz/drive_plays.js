@@ -28,6 +28,15 @@ async function sayAnswers()
     interaction.ask({radius: 100, at: [700, 700, 700]});
     const {answers} = JSON.parse(player().engine.facts());
     say("answer", JSON.stringify(answers.at(-1).radius.ids));
+    for (const bounds of ["closed", "open"]) {
+        const {form} = interaction;
+        form.kind.value = "radius";
+        Object.entries({at: "750,750,700", radius: "50", bounds}).forEach(
+            ([name, value]) => form.inputs[name].input.value = value);
+        interaction.ask(form.query());
+        const answer = JSON.parse(player().engine.facts()).answers.at(-1).radius;
+        say(`${bounds} ball`, JSON.stringify([answer.ids, answer.bounds]));
+    }
     interaction.ask({range: {min: [1, 1, 1], max: [0, 0, 0]}});
     say("refused", byId("status").textContent);
     interaction.ask();

@@ -122,6 +122,9 @@ static void each_query_is_described(void **state)
     assert_told("{\"queries\": [{\"nearest\": [1, 2, 3]}]}",
                 "{\"queries\": [{\"nearest\": [1, 2, 3], \"epsilon\": 0.5}]}",
                 "another query at every tick (nearest (1, 2, 3), epsilon 0.5, was none)");
+    assert_told("{\"queries\": [{\"radius\": 1, \"at\": \"player\"}]}",
+                "{\"queries\": [{\"radius\": 1, \"at\": \"player\", \"bounds\": \"open\"}]}",
+                "another query at every tick (radius 1, at \"player\", bounds \"open\", was none)");
 }
 
 #define BALL(r, x, ids) "{\"radius\": {\"center\": [" #x ", 0, 0], \"radius\": " #r ", \"ids\": [" ids "]}}"

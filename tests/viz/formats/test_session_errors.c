@@ -372,6 +372,10 @@ static void bad_ticks_are_refused(void **state)
          "2: queries[0].at: expected three numbers [x, y, z], found a list of 2"},
         {HEADER "\"queries\":[{\"radius\":5,\"at\":\"player\",\"k\":1}]}",
          "2: queries[0]: unknown member \"k\"; known: radius, at"},
+        {HEADER "\"queries\":[{\"radius\":5,\"at\":\"player\",\"bounds\":\"half\"}]}",
+         "2: queries[0].bounds: expected one of closed, open, either, found \"half\""},
+        {HEADER "\"queries\":[{\"nearest\":\"player\",\"bounds\":\"open\"}]}",
+         "2: queries[0]: unknown member \"bounds\"; known: nearest"},
     };
     (void)state;
     assert_refuses_each(rows, sizeof rows / sizeof *rows);

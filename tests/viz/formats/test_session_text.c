@@ -83,6 +83,9 @@ static void session_text_names_every_member_and_kind(void **state)
     assert_names(text, "epsilon");
     assert_names(text, "answer");
     assert_names(text, "mode");
+    assert_names(text, "bounds");
+    for (int bounds = 0; bounds < OCTREE_BOUNDS_KINDS; bounds++)
+        assert_names(text, octree_bounds_name((octree_bounds)bounds));
     for (int precision = 0; precision < OCTREE_PRECISIONS; precision++)
         assert_names(text, octree_precision_name((octree_precision)precision));
     for (int kind = 0; kind < OCTREE_SHAPE_KINDS; kind++)

@@ -68,6 +68,7 @@ static void assert_same_query(const octree_query *a, const octree_query *b)
         assert_int_equal(a->k, b->k);
     if (a->kind == OCTREE_QUERY_RADIUS)
         assert_memory_equal(&a->radius, &b->radius, sizeof a->radius);
+    assert_int_equal(a->bounds, b->bounds);
     assert_int_equal(a->skip, b->skip);
     if (a->skip == OCTREE_SKIP_ID)
         assert_int_equal(a->skip_id, b->skip_id);
@@ -131,6 +132,26 @@ static void skips_and_epsilons_survive_the_round_trip(void **state)
     session.queries = queries;
     session.query_count = sizeof queries / sizeof queries[0];
     assert_round_trip(&session);
+}
+
+/* Closed bounds are the default. Sessions without the member have the same bytes as before it existed. */
+static void bounds_survive_the_round_trip_and_closed_ones_are_not_written(void **state)
+{
+    static const octree_query queries[] = {
+        {.kind = OCTREE_QUERY_RADIUS, .radius = 2, .bounds = OCTREE_BOUNDS_OPEN},
+        {.kind = OCTREE_QUERY_RANGE, .at_player = true, .bounds = OCTREE_BOUNDS_EITHER},
+        {.kind = OCTREE_QUERY_RADIUS, .radius = 2},
+    };
+    octree_session session = octree_session_default();
+    (void)state;
+    session.queries = queries;
+    session.query_count = sizeof queries / sizeof queries[0];
+    assert_round_trip(&session);
+    char *text = text_of_session(&session, NULL);
+    assert_contains(text, "\"radius\": 2, \"at\": [0, 0, 0], \"bounds\": \"open\"}");
+    assert_contains(text, "\"bounds\": \"either\", \"at\": \"player\"}");
+    assert_contains(text, "\"radius\": 2, \"at\": [0, 0, 0]}");
+    free(text);
 }
 
 static void answers_survive_the_round_trip(void **state)
@@ -424,6 +445,7 @@ int main(void)
         cmocka_unit_test(number_of_neighbours_is_written_clamped),
         cmocka_unit_test(default_session_survives_the_round_trip),
         cmocka_unit_test(skips_and_epsilons_survive_the_round_trip),
+        cmocka_unit_test(bounds_survive_the_round_trip_and_closed_ones_are_not_written),
         cmocka_unit_test(answers_survive_the_round_trip),
         cmocka_unit_test(shapes_survive_the_round_trip),
         cmocka_unit_test(players_of_every_kind_survive_the_round_trip),

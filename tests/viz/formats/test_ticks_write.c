@@ -77,7 +77,8 @@ static void line_of_a_known_tick_has_the_expected_bytes(void **state)
         "{\"knearest\": {\"target\": [4, 5, 6], \"k\": 8, \"skip\": 7, "
         "\"neighbors\": [{\"id\": 9, \"position\": [4, 5, 7], \"distance\": 1}], "
         "\"cost\": {\"nodes\": 0, \"leaves\": 0, \"points\": 0, \"pruned\": 0}}}, "
-        "{\"radius\": {\"center\": [7, 8, 9], \"radius\": 0.5, \"skip\": \"coincident\", \"epsilon\": 0.25, \"ids\": "
+        "{\"radius\": {\"center\": [7, 8, 9], \"radius\": 0.5, \"bounds\": \"either\", \"skip\": \"coincident\", "
+        "\"epsilon\": 0.25, \"ids\": "
         "[], "
         "\"cost\": {\"nodes\": 0, \"leaves\": 0, \"points\": 0, \"pruned\": 18446744073709551615}}}], "
         "\"visits\": {\"visited\": 10, \"taken\": 12, \"pruned\": 11, \"hit\": 13}, "
@@ -100,6 +101,7 @@ static void line_of_a_known_tick_has_the_expected_bytes(void **state)
         {.kind = OCTREE_QUERY_RADIUS,
          .target = {7, 8, 9},
          .radius = 0.5,
+         .bounds = OCTREE_BOUNDS_EITHER,
          .cost = {.pruned = UINT64_MAX},
          .skip = OCTREE_SKIP_COINCIDENT,
          .epsilon = 0.25},

@@ -22,13 +22,16 @@ static void write_color(json_writer *w, theme_role role)
     json_write_text_member(w, "color", text);
 }
 
+JSON_NAMES(bounds_name, octree_bounds_name, octree_bounds)
+
 /* Write the members of queries of one kind. The member that gives the kind its name comes first. */
 static void write_query_members(json_writer *w, const octree_query_traits *about)
 {
     static const char *const types[] = {[OCTREE_MEMBER_BOX] = "box",
                                         [OCTREE_MEMBER_POSITION] = "position",
                                         [OCTREE_MEMBER_COUNT] = "number",
-                                        [OCTREE_MEMBER_LENGTH] = "number"};
+                                        [OCTREE_MEMBER_LENGTH] = "number",
+                                        [OCTREE_MEMBER_BOUNDS] = "choice"};
     json_begin_array_member(w, "members");
     for (int pass = 0; pass < 2; pass++)
         for (size_t i = 0; i < OCTREE_QUERY_MEMBERS; i++) {
@@ -38,6 +41,8 @@ static void write_query_members(json_writer *w, const octree_query_traits *about
             json_write_begin_object(w);
             json_write_text_member(w, "name", member->key);
             json_write_text_member(w, "type", types[member->type]);
+            if (member->type == OCTREE_MEMBER_BOUNDS)
+                write_names(w, "choices", bounds_name);
             json_write_end_object(w);
         }
     json_write_end_array(w);

@@ -9,6 +9,7 @@ const QUERY_INPUTS = {
     radius: ["radius", "100"],
     at: ["position", "0,0,0"],
     box: ["box (two corners)", "-100,-100,-100,100,100,100"],
+    bounds: ["boundary"],
 };
 const INPUT_VALUES = {position: "0,0,0", number: "1", box: "-100,-100,-100,100,100,100"};
 
@@ -21,8 +22,10 @@ class AskForm {
         for (const {name, words} of kinds)
             this.kind.append(new Option(words, name));
         this.inputs = {};
-        for (const {name, type} of kinds.flatMap(({members}) => members))
-            this.inputs[name] ??= this.input(...(QUERY_INPUTS[name] ?? [name, INPUT_VALUES[type]]));
+        for (const {name, type, choices} of kinds.flatMap(({members}) => members)) {
+            const [label, value] = QUERY_INPUTS[name] ?? [name, INPUT_VALUES[type]];
+            this.inputs[name] ??= this.input(label, value, choices);
+        }
         const button = element("button", "Run query", {type: "submit"});
         const reset = element("button", "Clear", {type: "button"});
         root.append(this.kind, ...Object.values(this.inputs).map(({label}) => label), button, reset);
@@ -35,9 +38,11 @@ class AskForm {
         this.showInputs();
     }
 
-    input(name, value)
+    /* A text input, or a list from which one of the choices is selected, at first the first one. */
+    input(name, value, choices)
     {
-        const input = element("input", "", {type: "text", value});
+        const input = choices ? element("select") : element("input", "", {type: "text", value});
+        input.append(...(choices ?? []).map(choice => new Option(choice)));
         const label = element("label", element("span", name));
         label.append(input);
         return {label, input};
@@ -65,7 +70,10 @@ class AskForm {
 
     value({name, type})
     {
-        const numbers = numbersOf(this.inputs[name].input.value);
+        const {value} = this.inputs[name].input;
+        if (type === "choice")
+            return value;
+        const numbers = numbersOf(value);
         if (type === "box")
             return {min: numbers.slice(0, 3), max: numbers.slice(3)};
         return type === "position" ? numbers : numbers[0];
