@@ -161,8 +161,10 @@ const command command_audit = {
         "the exact one. For each kind of query this prints the number of answers and of wrong answers; their recall, "
         "the share of the true points that were named; the ratio of a neighbour's distance to that of the true "
         "neighbour of the same rank, at worst and for 99 of 100 answers; the first tick with a wrong answer; the three "
-        "worst cases with their numbers; and the wrong foreign nodes. Nothing is drawn and no file is changed. SESSION "
-        "may be -, standard input; octreel help session shows how a query carries an answer.\n",
+        "worst cases with their numbers; and the wrong foreign nodes. If all missing or all extra points of an answer "
+        "lie exactly on the boundary of a box or a ball, the report names the \"bounds\" that accept these points. "
+        "Nothing is drawn and no file is changed. SESSION may be -, standard input; octreel help session shows how a "
+        "query carries an answer.\n",
     .more = "One of --html FILE, --junit FILE and --json may write to standard output; FILE is then -.\n",
     .statuses = {"all answers are right or within --allow", "wrong answers",
                  "error, also when no query carries an answer"},

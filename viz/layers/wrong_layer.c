@@ -168,7 +168,11 @@ static void append_wrong_answer(description *d, uint64_t place)
     append_text(d, "the foreign answer to the %s query", octree_query_name(tick->answers[place].kind));
     if (tick->answer_count > 1)
         append_text(d, " (answer %zu of %zu)", place + 1, tick->answer_count);
-    append_text(d, ", which is wrong: %s", judgement_text(&tick->answers[place].judgement, words));
+    const octree_answer *answer = &tick->answers[place];
+    append_text(d, ", which is wrong: %s", judgement_text(&answer->judgement, words));
+    if (answer->judgement.on_boundary)
+        append_text(d, "; all its %s points lie on the boundary of the %s",
+                    octree_wrong_name(answer->judgement.on_boundary), octree_query_about(answer->kind)->region);
 }
 
 static void describe_mark(description *d, const described_element *element)

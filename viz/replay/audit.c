@@ -129,11 +129,18 @@ static bool count_in_tick(audit_kind *kind, uint64_t tick, const octree_judgemen
     return true;
 }
 
+/* True if the answer is wrong, but right with other bounds of the query. */
+static bool is_wrong_only_on_boundary(const octree_judgement *made)
+{
+    return made->on_boundary && made->wrong == made->on_boundary && !(made->missing_count && made->extra_count);
+}
+
 /* Count one wrong answer. Returns false if memory runs out. */
 static bool count_wrong(audit_kind *kind, audit_case c, const octree_answer *answer)
 {
     if (kind->wrong++ == 0)
         kind->first_wrong = c.tick;
+    kind->on_boundary += is_wrong_only_on_boundary(&c.made);
     kind->beyond += !c.allowed;
     return keep_worst(kind, c, answer);
 }

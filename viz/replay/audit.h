@@ -48,6 +48,7 @@ typedef struct audit_kind {
     uint64_t extra;
     /* Number of wrong answers by kind; an answer with several errors counts under its first. */
     uint64_t wrong_by_kind[OCTREE_WRONG_KINDS];
+    uint64_t on_boundary; /* wrong answers that other bounds of the query would make right */
     uint64_t beyond;      /* wrong answers that violate the limits when judged alone */
     uint64_t first_wrong; /* the first tick with a wrong answer; set if `wrong` is not 0 */
     double *ratios;       /* the ratio of each answer to a neighbour query, ascending */

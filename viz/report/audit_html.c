@@ -265,12 +265,12 @@ static void write_links(const page *p, uint64_t tick)
 }
 
 /* Print a wrong answer: first as a sentence, then as the JSON of ticks.jsonl with all digits. */
-static void write_worst(const page *p, const audit_case *c, bool neighbors)
+static void write_worst(const page *p, const audit_case *c, const octree_query_traits *about)
 {
     fprintf(p->out, "<li>tick %" PRIu64, c->tick);
     write_links(p, c->tick);
     fputs(", ", p->out);
-    audit_print_case(p->out, c, neighbors);
+    audit_print_case(p->out, c, about);
     fputs("<details><summary>as in ticks.jsonl</summary><pre>", p->out);
     write_escaped(p->out, c->answer, escape_xml_text);
     fputs("</pre></details></li>\n", p->out);
@@ -306,7 +306,7 @@ static void write_kind(const page *p, int of)
         write_chart(p, kind, true);
     fputs(kind->worst_count ? "<h3>The worst</h3>\n<ol>\n" : "", p->out);
     for (size_t i = 0; i < kind->worst_count; i++)
-        write_worst(p, &kind->worst[i], about->neighbors);
+        write_worst(p, &kind->worst[i], about);
     fputs(kind->worst_count ? "</ol>\n</section>\n" : "</section>\n", p->out);
 }
 

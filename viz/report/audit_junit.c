@@ -28,7 +28,7 @@ static void write_case(FILE *out, const audit_verdict *v, int kind, bool passes)
     for (size_t i = 0; kind < OCTREE_QUERY_KINDS && i < v->report->kinds[kind].worst_count; i++) {
         const audit_case *worst = &v->report->kinds[kind].worst[i];
         fprintf(out, "\ntick %" PRIu64 ", ", worst->tick);
-        audit_print_case(out, worst, octree_query_about((octree_query_kind)kind)->neighbors);
+        audit_print_case(out, worst, octree_query_about((octree_query_kind)kind));
         putc('\n', out);
         write_escaped(out, worst->answer, escape_xml_text);
     }

@@ -56,7 +56,28 @@ static void print_points(FILE *out, const char *what, const octree_point *points
         fprintf(out, " and %zu more", count - printed);
 }
 
-void audit_print_case(FILE *out, const audit_case *c, bool neighbors)
+/* If all missing or all extra points lie on the boundary of the region, print so, and how to ask for such an index. */
+static void print_boundary(FILE *out, const octree_judgement *made, const char *region)
+{
+    static const char *const habits[OCTREE_BOUNDS_KINDS] = {
+        [OCTREE_BOUNDS_CLOSED] = "includes it",
+        [OCTREE_BOUNDS_OPEN] = "excludes it",
+        [OCTREE_BOUNDS_EITHER] = "includes only a part of it",
+    };
+    const bool missing = made->on_boundary == OCTREE_WRONG_MISSING;
+    const size_t count = missing ? made->missing_count : made->extra_count;
+    if (!made->on_boundary)
+        return;
+    if (count == 1)
+        fprintf(out, "; the %s point lies", octree_wrong_name(made->on_boundary));
+    else
+        fprintf(out, "; all %zu %s points lie", count, octree_wrong_name(made->on_boundary));
+    fprintf(out, " on the boundary of the %s; if the index %s, ask with \"%s\": \"%s\"", region,
+            habits[made->accepting], octree_query_member_at(OCTREE_QUERY_MEMBER_BOUNDS)->key,
+            octree_bounds_name(made->accepting));
+}
+
+void audit_print_case(FILE *out, const audit_case *c, const octree_query_traits *about)
 {
     char text[AUDIT_RATIO_TEXT];
     fprintf(out, "answers[%zu]: %s", c->place, reason_words(c->made.wrong));
@@ -66,11 +87,12 @@ void audit_print_case(FILE *out, const audit_case *c, bool neighbors)
         fprintf(out, " (%zu named, %zu expected)", c->made.given_count, c->made.expected);
     if (c->made.rank)
         fprintf(out, "; wrong from rank %zu on", c->made.rank);
-    if (neighbors)
+    if (about->neighbors)
         fprintf(out, "; ratio of distances %s", audit_ratio_text(c->made.ratio, text));
     fprintf(out, "; %zu missing, %zu extra", c->made.missing_count, c->made.extra_count);
     print_points(out, "; missing", c->missing, c->made.missing_count);
     print_points(out, "; extra", c->extra, c->made.extra_count);
+    print_boundary(out, &c->made, about->region);
 }
 
 static bool has_limits(const audit_limits *limits)
@@ -136,6 +158,9 @@ void audit_print_kind(FILE *out, const audit_verdict *v, int of)
         if (kind->wrong_by_kind[i])
             fprintf(out, "; %" PRIu64 " time%s: %s", kind->wrong_by_kind[i], plural_ending(kind->wrong_by_kind[i]),
                     reason_words((octree_wrong_kind)i));
+    if (kind->on_boundary)
+        fprintf(out, "; %" PRIu64 " time%s: only the boundary of the %s is wrong", kind->on_boundary,
+                plural_ending(kind->on_boundary), about->region);
 }
 
 void audit_print_nodes_head(FILE *out, const audit_nodes *nodes)
@@ -188,7 +213,7 @@ void audit_print_text(FILE *out, const audit_verdict *v)
         for (size_t j = 0; j < kind->worst_count; j++) {
             const audit_case *c = &kind->worst[j];
             fprintf(out, "  tick %" PRIu64 ", ", c->tick);
-            audit_print_case(out, c, octree_query_about((octree_query_kind)i)->neighbors);
+            audit_print_case(out, c, octree_query_about((octree_query_kind)i));
             fprintf(out, "\n    %s\n", c->answer);
         }
     }
@@ -230,6 +255,10 @@ static void write_case(json_writer *w, const audit_case *c, bool neighbors)
     json_write_integer_member(w, "extra", c->made.extra_count);
     write_points(w, "missing_points", c->missing, c->made.missing_count);
     write_points(w, "extra_points", c->extra, c->made.extra_count);
+    if (c->made.on_boundary) {
+        json_write_text_member(w, "on_boundary", octree_wrong_name(c->made.on_boundary));
+        json_write_text_member(w, "accepting_bounds", octree_bounds_name(c->made.accepting));
+    }
     json_write_key(w, "answer");
     fputs(c->answer, w->out);
     w->comma = true;
@@ -253,6 +282,8 @@ static void write_kind(json_writer *w, const audit_verdict *v, int of)
     }
     if (kind->wrong)
         json_write_integer_member(w, "first_wrong_tick", kind->first_wrong);
+    if (kind->on_boundary)
+        json_write_integer_member(w, "on_boundary", kind->on_boundary);
     json_begin_object_member(w, "faults");
     for (int i = OCTREE_WRONG_NONE + 1; i < OCTREE_WRONG_KINDS; i++)
         if (kind->wrong_by_kind[i])

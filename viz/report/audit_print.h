@@ -33,7 +33,8 @@ bool audit_print_page(FILE *out, const audit_verdict *verdict, const char *from)
 
 /* ---- For this folder ------------------------------------------------------------------------------------------
  *
- * The printed sentences contain no "<", "&" or double quote, so they need no escape in XML and HTML.
+ * The printed sentences contain no "<" and no "&", so they need no escape in XML and HTML. Only audit_print_case()
+ * prints double quotes; its sentence is not for attributes.
  */
 
 /* Print a ratio, "1.7" or "infinite", into `text`. Return `text`. */
@@ -53,7 +54,8 @@ void audit_print_limits(FILE *out, const char *before, const audit_limits *limit
 void audit_print_nodes_head(FILE *out, const audit_nodes *nodes);
 void audit_print_wrong_nodes(FILE *out, const audit_nodes *nodes, octree_wrong_node_kind kind);
 
-/* Print a wrong answer: its index among the answers of its tick, why it is wrong, and its missing and extra points. */
-void audit_print_case(FILE *out, const audit_case *c, bool neighbors);
+/* Print a wrong answer to a query of the kind `about`: its index among the answers of its tick, why it is wrong, its
+ * missing and extra points, and the bounds that would make it right. */
+void audit_print_case(FILE *out, const audit_case *c, const octree_query_traits *about);
 
 #endif

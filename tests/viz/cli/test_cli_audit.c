@@ -64,7 +64,8 @@ static void wrong_answers_are_counted_and_exit_status_is_1(void **state)
         "radius: 2 asked, 1 wrong, recall 0.8, 1 missing, 0 extra; first wrong at tick 2; 1 time: names an id "
         "that no point "
         "has\n"
-        "  tick 2, answers[1]: names an id that no point has (2); 1 missing, 0 extra; missing 3 at (0, 3, 0)\n"));
+        "  tick 2, answers[1]: names an id that no point has (2); 1 missing, 0 extra; missing 3 at (0, 3, 0); the "
+        "missing point lies on the boundary of the ball; if the index excludes it, ask with \"bounds\": \"open\"\n"));
     command_release(&result);
 }
 
@@ -80,6 +81,80 @@ static void json_output_is_one_object(void **state)
     const json_t *worst = json_array_get(json_object_get(radius, "worst"), 0);
     assert_string_equal(json_string_value(json_object_get(worst, "wrong")), "unknown");
     assert_non_null(json_object_get(json_object_get(json_object_get(worst, "answer"), "radius"), "judged"));
+    json_decref(all);
+    command_release(&result);
+}
+
+/* ---- The boundary --------------------------------------------------------------------------------------------- */
+
+/* The answer of an index that tests "distance < 3", and of one that excludes only a part of the boundary. Points 3, 4
+ * and 5 lie on the boundary of the ball; point 5 lies on the boundary of the box, and point 2 inside it. */
+#define BOUNDARY(bounds)                                                                                               \
+    "{\"octreel\":\"session\",\"version\":2,\"player\":null,\"points\":[[1,0,0,1],[2,0,0,2],[0,3,0,3],[0,0,-3,4],"     \
+    "[2,2,1,5]],\"ticks\":1,\"queries\":[{\"radius\":3,\"at\":[0,0,0]," bounds "\"answer\":[1,2]}]}\n"                 \
+    "{\"tick\":1,\"queries\":[{\"radius\":3,\"at\":[0,0,0]," bounds "\"answer\":[1,2,4]},"                             \
+    "{\"range\":{\"min\":[1.5,-9,-9],\"max\":[9,9,1]}," bounds "\"answer\":[2]}]}\n"
+
+static const char boundary_closed[] = BOUNDARY(""), boundary_open[] = BOUNDARY("\"bounds\":\"open\","),
+                  boundary_either[] = BOUNDARY("\"bounds\":\"either\",");
+
+static void answers_with_their_bounds_are_right(void **state)
+{
+    place session = write_session_text(state, boundary_either);
+    command_result result = run_octreel(NULL, "audit %s", session.path);
+    assert_done(&result);
+    assert_contains(result.out, ": 4 answers in 2 ticks, all right\n");
+    command_release(&result);
+    session = write_session_text(state, boundary_open);
+    result = run_octreel(NULL, "audit %s", session.path);
+    assert_int_equal(result.status, 1);
+    assert_contains(result.out, ": 4 answers in 2 ticks, 1 wrong\n");
+    assert_contains(result.out,
+                    "; the extra point lies on the boundary of the ball; if the index includes only a part of "
+                    "it, ask with \"bounds\": \"either\"");
+    command_release(&result);
+}
+
+static void wrong_answers_that_differ_at_the_boundary_name_their_bounds(void **state)
+{
+    const place session = write_session_text(state, boundary_closed), xml = place_in(*state, "a.xml"),
+                page = place_in(*state, "a.html");
+    static const char open_ball[] = "; all 3 missing points lie on the boundary of the ball; if the index excludes it, "
+                                    "ask with \"bounds\": \"open\"",
+                      mixed_ball[] = "; all 2 missing points lie on the boundary of the ball; if the index includes "
+                                     "only a part of it, ask with \"bounds\": \"either\"",
+                      open_box[] = "; the missing point lies on the boundary of the box; if the index excludes it, ask "
+                                   "with \"bounds\": \"open\"";
+    command_result result = run_octreel(NULL, "audit %s --junit %s --html %s", session.path, xml.path, page.path);
+    assert_int_equal(result.status, 1);
+    char *junit = file_read(xml.path, NULL), *html = file_read(page.path, NULL);
+    const char *const reports[] = {result.out, junit, html};
+    for (int i = 0; i < 3; i++) {
+        assert_contains(reports[i], open_ball);
+        assert_contains(reports[i], mixed_ball);
+        assert_contains(reports[i], open_box);
+        assert_contains(reports[i], "; 3 times: only the boundary of the ball is wrong");
+    }
+    assert_xml_count(junit, "failure", 2);
+    free(junit);
+    free(html);
+    command_release(&result);
+}
+
+static void json_output_names_the_accepting_bounds(void **state)
+{
+    const place session = write_session_text(state, boundary_closed);
+    command_result result = run_octreel(NULL, "audit %s --json", session.path);
+    json_t *all = json_read(result.out);
+    const json_t *radius = json_object_get(json_object_get(all, "kinds"), "radius");
+    const json_t *worst = json_object_get(radius, "worst");
+    static const char *const accepting[] = {"open", "open", "either"};
+    assert_int_equal(json_number_value(json_object_get(radius, "on_boundary")), 3);
+    for (size_t i = 0; i < 3; i++) {
+        const json_t *c = json_array_get(worst, i);
+        assert_string_equal(json_string_value(json_object_get(c, "on_boundary")), "missing");
+        assert_string_equal(json_string_value(json_object_get(c, "accepting_bounds")), accepting[i]);
+    }
     json_decref(all);
     command_release(&result);
 }
@@ -479,6 +554,9 @@ int main(void)
         IN_FOLDER(exit_status_is_0_if_all_answers_are_right),
         IN_FOLDER(wrong_answers_are_counted_and_exit_status_is_1),
         IN_FOLDER(json_output_is_one_object),
+        IN_FOLDER(answers_with_their_bounds_are_right),
+        IN_FOLDER(wrong_answers_that_differ_at_the_boundary_name_their_bounds),
+        IN_FOLDER(json_output_names_the_accepting_bounds),
         IN_FOLDER(errors_within_limits_pass_and_are_reported),
         IN_FOLDER(invalid_limits_are_refused),
         IN_FOLDER(junit_has_a_case_for_each_query_kind),

@@ -234,12 +234,41 @@ static void descriptions_of_a_node_and_a_point_are_exact(void **state)
     octree_game_destroy(game);
 }
 
+/* Point 2 lies exactly on the boundary of the ball. */
+static void marks_of_an_answer_that_differs_at_the_boundary_say_so(void **state)
+{
+    static const octree_body bodies[] = {{.id = 2, .position = {200, 0, 0}}};
+    const octree_query ball = {.kind = OCTREE_QUERY_RADIUS, .radius = 200, .answered = true};
+    const view v = view_of(320, 180, CAMERA_ISO, VIEW_ALL_LAYERS);
+    octree_session session = octree_session_default();
+    octree_game *game;
+    scene s = {0};
+    size_t told = 0;
+    (void)state;
+    session.player.kind = OCTREE_PLAYER_NONE;
+    session.bodies = bodies;
+    session.body_count = 1;
+    session.queries = &ball;
+    session.query_count = 1;
+    assert_int_equal(octree_game_create(&session, &game), OCTREE_OK);
+    build_tick(&s, &v, game);
+    for (size_t i = 0; i < s.markers.count; i++)
+        told += s.markers.items[i].style.layer == LAYER_WRONG &&
+                strstr(describe_element(game, NULL, &s, (scene_element){.kind = SCENE_MARKER, .index = i}).text,
+                       "the foreign answer to the radius query, which is wrong: 1 missing; all its missing points lie "
+                       "on the boundary of the ball") != NULL;
+    assert_int_equal(told, 2); /* the ring and the point */
+    scene_release(&s);
+    octree_game_destroy(game);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_element_of_every_layer_is_described),
         cmocka_unit_test(every_element_of_the_golden_frames_is_described_in_a_phrase),
         cmocka_unit_test(descriptions_of_a_node_and_a_point_are_exact),
+        cmocka_unit_test(marks_of_an_answer_that_differs_at_the_boundary_say_so),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
