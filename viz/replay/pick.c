@@ -368,7 +368,7 @@ static void write_element(json_writer *w, const pick_element *e)
     json_write_end_object(w);
 }
 
-static void print_json(FILE *out, const pick *p)
+void pick_print_json(FILE *out, const pick *p)
 {
     json_writer writer = {.out = out}, *w = &writer;
     char color[COLOR_TEXT];
@@ -396,5 +396,5 @@ static void print_json(FILE *out, const pick *p)
 
 void pick_print(FILE *out, const pick *p, bool json)
 {
-    (json ? print_json : print_text)(out, p);
+    (json ? pick_print_json : print_text)(out, p);
 }

@@ -60,4 +60,7 @@ bool pick_scene(pick *p, const playback *from, renderer *r, octreel_error *error
 /* Print the pick as text, or as one JSON object on one line. */
 void pick_print(FILE *out, const pick *p, bool json);
 
+/* Print the pick as JSON. The page calls this function, so that its module does not contain the text. */
+void pick_print_json(FILE *out, const pick *p);
+
 #endif

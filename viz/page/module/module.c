@@ -372,7 +372,7 @@ static bool write_pick(FILE *out)
     const bool ok = pick_scene(&found, p, p->picture.renderer, &page.error);
     found.color = image_color_at(&p->picture.frame, found.pixel[0], found.pixel[1]);
     if (ok)
-        pick_print(out, &found, true);
+        pick_print_json(out, &found);
     pick_release(&found);
     return ok;
 }
