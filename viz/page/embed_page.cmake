@@ -49,6 +49,7 @@ macro(inline element regex)
     strip(text)
     string(REGEX REPLACE "[ \n]*([{}])" "\\1" text "${text}") # no string of JavaScript or CSS here has a blank there
     string(REGEX REPLACE "([(,;{])\n" "\\1" text "${text}")
+    string(REPLACE " = " "=" text "${text}") # no string here has this
     if("${element}" STREQUAL "style")
       string(REPLACE ": " ":" text "${text}")
       string(REGEX REPLACE "([{;,}])[ \n]+" "\\1" text "${text}") # no string in CSS here has a blank there
