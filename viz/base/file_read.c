@@ -79,7 +79,7 @@ static bool read_stream(reading *r, char reason[FILE_REASON])
     if (has_memory)
         set_reason(reason, "cannot be read");
     else
-        snprintf(reason, FILE_REASON, "out of memory for its %ju bytes",
+        snprintf(reason, FILE_REASON, "out of memory for the file's %ju bytes",
                  (uintmax_t)(r->total > r->size ? r->total : r->size));
     free(r->bytes);
     return false;
@@ -93,7 +93,7 @@ static bool read_standard_input(file_progress *progress, void *context, char **b
     const bool regular = fstat(fileno(stdin), &status) == 0 && S_ISREG(status.st_mode);
     reading r = {stdin, regular ? (uint64_t)status.st_size : 0, progress, context, NULL, 0, 0};
     if (standard.read) {
-        snprintf(reason, FILE_REASON, "can be read only once, but another input has read it already");
+        snprintf(reason, FILE_REASON, "can be read only once, and has already been read as another input");
         return false;
     }
     standard.read = true;
@@ -127,7 +127,7 @@ static bool copy_stored_input(char **bytes, size_t *size, char reason[FILE_REASO
     *size = standard.size;
     *bytes = malloc(standard.size + 1);
     if (!*bytes) {
-        snprintf(reason, FILE_REASON, "out of memory for its %zu bytes", standard.size);
+        snprintf(reason, FILE_REASON, "out of memory for the file's %zu bytes", standard.size);
         return false;
     }
     memcpy(*bytes, standard.bytes, standard.size);

@@ -75,7 +75,7 @@ static bool scan_character(json_scan *s, char c)
 
 #define BLOCK ((size_t)1 << 16)
 
-static const char no_room[] = "out of memory for an object of the stream%s";
+static const char no_room[] = "out of memory while reading an object%s";
 
 static json_stream_state report_broken(json_reader *r, const char *format, const char *reason)
 {
@@ -174,7 +174,7 @@ json_stream_state json_stream_read_object(json_stream *s, json_reader *r)
         if (found || (s->ended && s->scan.bare))
             return JSON_STREAM_OBJECT;
         if (s->ended && s->scanned > 0)
-            return report_broken(r, "the text stops in the middle of the object that begins here%s", "");
+            return report_broken(r, "the text ends inside the object that begins in this line%s", "");
         if (s->ended)
             return JSON_STREAM_END;
         const json_stream_state state = read_more(s, r);

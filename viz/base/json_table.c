@@ -288,9 +288,9 @@ static bool read_label(json_reader *r, json_t *value, const json_place *at, void
         return json_fail_expected(r, value, at, "a text");
     for (size_t i = 0; i < length; i++)
         if (text[i] < ' ' || text[i] > '~')
-            return json_fail(r, at, "%s must be printable ASCII, and byte %zu is not", what, i + 1);
+            return json_fail(r, at, "%s must be printable ASCII, but byte %zu is not", what, i + 1);
     if (length > most)
-        return json_fail(r, at, "%s has at most %zu characters, not %zu", what, most, length);
+        return json_fail(r, at, "%s may have at most %zu characters, but has %zu", what, most, length);
     memcpy(into, text, length + 1);
     return true;
 }
@@ -345,7 +345,7 @@ static bool read_version(json_reader *r, json_t *value, const json_place *at, vo
     if (version > own)
         return json_fail(r, at,
                          "%s version %" PRIu64 " is newer than version %" PRIu64
-                         ", which this Octreel reads; use a newer Octreel",
+                         ", the newest that this Octreel reads; use a newer Octreel",
                          (const char *)r->row->about, version, own);
     const char *advice = r->row->advice ? r->row->advice : "record it again with this Octreel";
     return version == own || json_fail(r, at, "%s version %" PRIu64 " is not supported; %s",
@@ -537,7 +537,7 @@ static bool read_box(json_reader *r, json_t *value, const json_place *at, void *
         return false;
     for (int i = 0; i < 3; i++)
         if (box->min[i] > box->max[i])
-            return json_fail(r, at, "min is above max on %c", "xyz"[i]);
+            return json_fail(r, at, "min is above max on axis %c", "xyz"[i]);
     return true;
 }
 

@@ -26,12 +26,12 @@ typedef struct arguments {
 static bool read_limits(const command_option *option, const char *text, void *into)
 {
     octreel_error error;
-    return audit_limits_parse(text, into, &error) || refuse("--%s: %s", option->name, error.text);
+    return audit_limits_parse(text, into, &error) || print_refusal("--%s: %s", option->name, error.text);
 }
 
 /* Returns whether the value of --html is the name of an HTML page. Otherwise it is the folder into which the page is
  * written. */
-static bool is_page(const char *path)
+static bool is_page_path(const char *path)
 {
     const char *dot = strrchr(path, '.');
     return file_is_standard_stream(path) || (!is_folder(path) && dot && strcasecmp(dot, ".html") == 0);
@@ -40,10 +40,10 @@ static bool is_page(const char *path)
 /* Reads the value of --html. As with the options of other commands, a name without a file ending is a folder. */
 static bool read_page(const command_option *option, const char *text, void *into)
 {
-    if (is_page(text) || is_folder(text) || output_kind_of_name(text) == NAME_OPEN)
+    if (is_page_path(text) || is_folder(text) || output_kind_of_name(text) == NAME_OPEN)
         return read_name(option, text, into);
-    return refuse("--%s takes the name of an HTML file, such as report.html, or of a folder, not \"%s\"", option->name,
-                  text);
+    return print_refusal("--%s takes the name of an HTML file, such as report.html, or of a folder, not \"%s\"",
+                         option->name, text);
 }
 
 static const command_option options[] = {
@@ -121,7 +121,7 @@ static bool write_audit(const arguments *a, const char *path, audit_report *repo
     return true;
 }
 
-static int audit(const arguments *a, const char *path)
+static int audit_and_report(const arguments *a, const char *path)
 {
     audit_report report = {0};
     octreel_error error;
@@ -138,14 +138,14 @@ static int run(int argc, char **argv)
     int status = command_read_arguments(&command_audit, &a, argc, argv);
     if (status != COMMAND_GO_ON)
         return status;
-    if (html->path && !is_page(html->path)) {
+    if (html->path && !is_page_path(html->path)) {
         html->folder = html->path;
         html->path = page = path_join(html->folder, AUDIT_PAGE);
     }
     if (html->folder && !page)
         return print_error("out of memory");
-    status =
-        check_outputs(a.outputs, OUTPUTS, argv + optind, 1, a.json, a.force) ? audit(&a, argv[optind]) : EXIT_TROUBLE;
+    status = check_outputs(a.outputs, OUTPUTS, argv + optind, 1, a.json, a.force) ? audit_and_report(&a, argv[optind])
+                                                                                  : EXIT_TROUBLE;
     free(page);
     return status;
 }

@@ -49,12 +49,13 @@ static bool read_rectangle(const command_option *option, const char *text, void 
     for (int i = 0; ok && i < 4; i++, at++)
         ok = whole_number_parse(&at, INT32_MAX, &values[i]) && *at == (i < 3 ? ',' : 0);
     if (!ok || values[2] == 0 || values[3] == 0)
-        return refuse("--%s takes left, top, width and height in pixels, such as 10,20,300,40, each at most %d and the "
-                      "last two at least 1, not \"%s\"",
-                      option->name, INT32_MAX, text);
+        return print_refusal(
+            "--%s takes left, top, width and height in pixels, such as 10,20,300,40, each at most %d and the "
+            "last two at least 1, not \"%s\"",
+            option->name, INT32_MAX, text);
     image_rectangle *grown = realloc(a->ignored, (t->ignored_count + 1) * sizeof *grown);
     if (!grown)
-        return refuse("out of memory for the rectangles of --%s", option->name);
+        return print_refusal("out of memory for the rectangles of --%s", option->name);
     grown[t->ignored_count++] = (image_rectangle){(int)values[0], (int)values[1], (int)values[2], (int)values[3]};
     t->ignored = a->ignored = grown;
     return true;
@@ -67,8 +68,8 @@ static bool refuse_layer(const command_option *option, const char *bad)
     hint h = hint_create(bad, length);
     for (int i = 0; view_layer_name(i); i++)
         hint_add_candidate(&h, view_layer_name(i));
-    return refuse("--%s: unknown layer \"%.*s\"%s%s record --help lists them", option->name, (int)length, bad,
-                  hint_format(&h, "", meant), hint_program_name());
+    return print_refusal("--%s: unknown layer \"%.*s\"%s%s record --help lists them", option->name, (int)length, bad,
+                         hint_format(&h, "", meant), hint_program_name());
 }
 
 static bool read_layers(const command_option *option, const char *text, void *into)
@@ -76,7 +77,7 @@ static bool read_layers(const command_option *option, const char *text, void *in
     arguments *a = into;
     const char *bad;
     if (a->options.mask)
-        return refuse("--%s can be given once; separate the names of several layers by commas", option->name);
+        return print_refusal("--%s can be given once; separate the names of several layers by commas", option->name);
     if (!view_layers_parse(text, &a->layers, &bad))
         return refuse_layer(option, bad);
     a->options.mask = ignore_layers;
@@ -234,7 +235,7 @@ static bool open_sides(const arguments *a, const char *paths[2], diff_side sides
     return true;
 }
 
-static int compare(const arguments *a, const char *paths[2])
+static int compare_folders(const arguments *a, const char *paths[2])
 {
     diff_side sides[2] = {{0}, {0}};
     diff_result result = {0};
@@ -277,7 +278,7 @@ static int run(int argc, char **argv)
         status = print_error("out of memory");
     else if (status == COMMAND_GO_ON)
         status = check_outputs(a.outputs, OUTPUTS, argv + optind, 2, a.json, a.force)
-                     ? compare(&a, (const char *[]){argv[optind], argv[optind + 1]})
+                     ? compare_folders(&a, (const char *[]){argv[optind], argv[optind + 1]})
                      : EXIT_TROUBLE;
     free(path);
     free(a.ignored);

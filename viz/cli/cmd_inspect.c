@@ -43,7 +43,7 @@ typedef struct arguments {
 static bool read_depth(const command_option *option, const char *text, void *into)
 {
     if (strchr(text, ':'))
-        return refuse(
+        return print_refusal(
             "--depth takes one number, the deepest level of the tree; to draw only some levels, use --depths %s", text);
     return read_whole(option, text, into);
 }
@@ -73,8 +73,8 @@ static bool read_world(const command_option *option, const char *text, void *int
         world->min[i] = corners[i];
         world->max[i] = corners[i + 3];
         if (world->min[i] >= world->max[i])
-            return refuse("--%s: the first corner must be below the second on every axis; found \"%s\"", option->name,
-                          text);
+            return print_refusal("--%s: the first corner must be below the second on every axis; found \"%s\"",
+                                 option->name, text);
     }
     return true;
 }
@@ -82,7 +82,7 @@ static bool read_world(const command_option *option, const char *text, void *int
 static bool read_node(const command_option *option, const char *text, void *into)
 {
     const char **node = into;
-    return *node ? refuse("--node can be given only once; found %s and %s", *node, text)
+    return *node ? print_refusal("--node can be given only once; found %s and %s", *node, text)
                  : read_text(option, text, into);
 }
 
@@ -145,17 +145,17 @@ static bool draw_picture(const report *r, octreel_error *error)
     if (!ok)
         return false;
     if (*drawn.checks.reason.text)
-        note("%s was not checked: %s", picture, drawn.checks.reason.text);
+        print_note("%s was not checked: %s", picture, drawn.checks.reason.text);
     if (point_scale_missing_value(&r->view, &r->made->values))
-        note("no point has %s: --color-points %s shows all points alike",
-             point_scale_missing_value(&r->view, &r->made->values), view_point_color_name(r->view.point_color));
+        print_note("no point has %s: --color-points %s shows all points alike",
+                   point_scale_missing_value(&r->view, &r->made->values), view_point_color_name(r->view.point_color));
     if (drawn.over_budget)
-        note("%s leaves out %s beyond --budget", picture, film_left_out_text(drawn.beyond, left_out));
+        print_note("%s leaves out %s beyond --budget", picture, film_left_out_text(drawn.beyond, left_out));
     if (drawn.below_lod && !view_shows_layer(&a->view, LAYER_TEXT)) /* the text layer would contain this note */
-        note("%s leaves out %s smaller than --lod", picture, film_left_out_text(drawn.small, left_out));
+        print_note("%s leaves out %s smaller than --lod", picture, film_left_out_text(drawn.small, left_out));
     if (drawn.left_out)
-        note("%" PRIu64 " element%s too far away to be drawn in %s", drawn.left_out, plural_ending(drawn.left_out),
-             picture);
+        print_note("%" PRIu64 " element%s too far away to be drawn in %s", drawn.left_out,
+                   plural_ending(drawn.left_out), picture);
     return true;
 }
 
@@ -249,11 +249,11 @@ static bool build_tree(const arguments *a, inspection *made, octreel_error *erro
     }
     progress_end(&r.bar);
     if (*left_out)
-        note("%s", left_out);
+        print_note("%s", left_out);
     return ok;
 }
 
-static int inspect(const arguments *a)
+static int inspect_and_report(const arguments *a)
 {
     inspection made;
     octreel_error error;
@@ -277,7 +277,7 @@ static bool check_picture(const arguments *a)
         first = a->renderer.any_renderer ? "any-renderer" : a->renderer.context != DRAW_AUTO ? "context" : NULL;
     if (a->outputs[PICTURE].path || !first)
         return true;
-    return refuse("--%s changes the picture, but no picture is drawn: add -o FILE.png", first);
+    return print_refusal("--%s changes the picture, but no picture is drawn: add -o FILE.png", first);
 }
 
 static int run(int argc, char **argv)
@@ -293,7 +293,7 @@ static int run(int argc, char **argv)
     a.cloud = argv[optind];
     const bool ok = check_renderer(&a.renderer) && check_picture(&a) && read_view(&a.view_options, &a.view) &&
                     check_outputs(a.outputs, OUTPUTS, argv + optind, 1, a.json, a.force);
-    return ok ? inspect(&a) : EXIT_TROUBLE;
+    return ok ? inspect_and_report(&a) : EXIT_TROUBLE;
 }
 
 const command command_inspect = {

@@ -7,7 +7,7 @@
 
 #include <stdio.h>
 
-static int join(const char *folder, bool json)
+static int join_and_report(const char *folder, bool json)
 {
     progress p = progress_start("ticks");
     film_options film = {.folder = folder, .watch = {progress_show, has_no_stop_signal, &p}};
@@ -39,7 +39,7 @@ static int run(int argc, char **argv)
 {
     arguments a = {.json = false};
     const int status = command_read_arguments(&command_join, &a, argc, argv);
-    return status == COMMAND_GO_ON ? join(argv[optind], a.json) : status;
+    return status == COMMAND_GO_ON ? join_and_report(argv[optind], a.json) : status;
 }
 
 const command command_join = {

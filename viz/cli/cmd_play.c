@@ -58,9 +58,9 @@ static bool check_page(const arguments *a)
         return false;
     return a->force || file_is_standard_stream(a->page) || stat(a->page, &status) != 0 || !S_ISREG(status.st_mode) ||
            status.st_size == 0 || file_kind_of(a->page) == KIND_PAGE ||
-           refuse("%s: exists and was not written by octreel play: name another file with -o, or add --force to "
-                  "overwrite it",
-                  a->page);
+           print_refusal("%s: exists and was not written by octreel play: name another file with -o, or add --force to "
+                         "overwrite it",
+                         a->page);
 }
 
 /* Prints a path as a part of a URL (RFC 3986): characters that a URL cannot contain become %XX. */
@@ -105,7 +105,7 @@ static bool write_file(const arguments *a, const octree_session *session, film_s
                                                                : file_writer_discard(&file);
 }
 
-static int make_page(arguments *a, const octree_session *session)
+static int play_into_page(arguments *a, const octree_session *session)
 {
     progress p = progress_start("ticks");
     film_summary summary;
@@ -133,8 +133,8 @@ static int play_session(arguments *a)
                     (!a->keys || session_set_keys(&file, a->keys, &error));
     a->film.values = &file.values;
     if (ok && *file.note)
-        note("%s", file.note);
-    const int status = ok ? make_page(a, &file.session) : print_error("%s", error.text);
+        print_note("%s", file.note);
+    const int status = ok ? play_into_page(a, &file.session) : print_error("%s", error.text);
     session_release(&file);
     return status;
 }

@@ -152,7 +152,7 @@ static int film_standard_input(arguments *a)
     const film_stream_end how = film_stream(stream, a->keys, &a->film, &summary, &error);
     progress_end(&p);
     if (*session_stream_note(stream))
-        note("%s", session_stream_note(stream));
+        print_note("%s", session_stream_note(stream));
     a->film.values = session_stream_point_values(stream);
     if (how == FILM_STREAM_WHOLE && !is_quiet())
         film_report_notes(stderr, &summary, &a->film, session_stream_first_session(stream));
@@ -182,11 +182,11 @@ static bool complete_film_options(arguments *a)
     const bool has_view = folder_contains(folder, "recording.json");
     const bool has_options = a->session || a->keys || a->every || a->no_frames || find_first_view_option(&a->view);
     if (a->film.resume && !has_options && (!has_view || !find_stored_session(folder)))
-        return refuse(
+        return print_refusal(
             "%s: holds no recording that can be resumed: %s is missing; leave out --resume to start a new one", folder,
             has_view ? "session.json" : "recording.json");
     if (a->film.resume && has_view && !recording_read(folder, &a->film.view, &every, &error))
-        return refuse("%s", error.text);
+        return print_refusal("%s", error.text);
     a->film.every = a->no_frames ? 0 : a->every ? a->every : every;
     return read_view(&a->view, &a->film.view);
 }
@@ -211,7 +211,7 @@ static int film_session_file(arguments *a)
     const bool ok = read_session(a, &file, &error) && (!a->keys || session_set_keys(&file, a->keys, &error));
     a->film.values = &file.values;
     if (ok && *file.note)
-        note("%s", file.note);
+        print_note("%s", file.note);
     const int status = ok ? film_to_folder(a, &file.session) : print_error("%s", error.text);
     session_release(&file);
     return status;

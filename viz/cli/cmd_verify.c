@@ -19,7 +19,7 @@ static const command_option options[] = {
     {0},
 };
 
-static int verify(const char *folder, const arguments *a)
+static int verify_and_report(const char *folder, const arguments *a)
 {
     progress p = progress_start("ticks");
     const verify_options options = {
@@ -31,7 +31,8 @@ static int verify(const char *folder, const arguments *a)
     if (!ok)
         return print_error("%s", error.text);
     if (*report.no_gl.text)
-        note("the integer rasterizer drew the frames again, because OpenGL cannot be loaded: %s", report.no_gl.text);
+        print_note("the integer rasterizer drew the frames again, because OpenGL cannot be loaded: %s",
+                   report.no_gl.text);
     verify_print(stdout, folder, &report, a->json);
     return report.count ? EXIT_FINDING : EXIT_DONE;
 }
@@ -42,7 +43,7 @@ static int run(int argc, char **argv)
     const int status = command_read_arguments(&command_verify, &a, argc, argv);
     if (status != COMMAND_GO_ON)
         return status;
-    return check_renderer(&a.renderer) ? verify(argv[optind], &a) : EXIT_TROUBLE;
+    return check_renderer(&a.renderer) ? verify_and_report(argv[optind], &a) : EXIT_TROUBLE;
 }
 
 const command command_verify = {

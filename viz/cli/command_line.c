@@ -212,8 +212,8 @@ static bool check_standard_input(const command *c, file_kinds taken)
 {
     const file_kinds files = FILE_KIND(SESSION) | FILE_KIND(CLOUD) | FILE_KIND(PNG) | FILE_KIND(BASELINE);
     return (taken & files && !(taken & FILE_KIND(MISSING)) && !c->refuses_standard_input) ||
-           refuse("\"-\" is standard input, but %s takes %s; for a file or folder named -, write ./-", c->name,
-                  c->takes);
+           print_refusal("\"-\" is standard input, but %s takes %s; for a file or folder named -, write ./-", c->name,
+                         c->takes);
 }
 
 static bool check_input(const command *c, const char *path, file_kinds taken)
@@ -225,18 +225,18 @@ static bool check_input(const command *c, const char *path, file_kinds taken)
     if (kind == KIND_UNKNOWN || taken >> kind & 1)
         return true;
     if (kind == KIND_MISSING)
-        return refuse("%s: no such file or folder", path);
+        return print_refusal("%s: no such file or folder", path);
     if (taken == FILE_KIND(RECORDING) && kind != KIND_FOLDER && refuse_recording_part(c, path, kind))
         return false;
-    return refuse("%s is %s, but %s takes %s; %s%s%s%s%s", path, row->name, c->name, c->takes,
-                  row->command ? hint_program_name() : "", row->command ? " " : "", row->command ? row->command : "",
-                  row->command ? " " : "", row->use);
+    return print_refusal("%s is %s, but %s takes %s; %s%s%s%s%s", path, row->name, c->name, c->takes,
+                         row->command ? hint_program_name() : "", row->command ? " " : "",
+                         row->command ? row->command : "", row->command ? " " : "", row->use);
 }
 
 static bool check_inputs(const command *c, char **paths, int count)
 {
     if (count > 1 && c->inputs[1] && file_is_standard_stream(paths[0]) && file_is_standard_stream(paths[1]))
-        return refuse("\"-\" is given twice, but standard input can be read only once");
+        return print_refusal("\"-\" is given twice, but standard input can be read only once");
     for (int i = 0; i < count && i < 2; i++)
         if (c->inputs[i] && !check_input(c, paths[i], c->inputs[i]))
             return false;

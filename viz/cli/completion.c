@@ -341,7 +341,7 @@ static void put_template(const script *s, const char *template)
             putc(*at, s->out);
 }
 
-static void put_command(script s)
+static void put_command_completions(script s)
 {
     put_template(&s, s.shell->command);
     for (size_t n = 0; command_option_at(s.command, n, &s.option); n++)
@@ -350,14 +350,14 @@ static void put_command(script s)
     put_template(&s, takes_files(s.command) ? s.shell->files : s.shell->folders);
 }
 
-static void put_script(script s)
+static void put_whole_script(script s)
 {
     put_template(&s, s.shell->head);
     for (size_t i = 0; (s.command = command_at(i)); i++)
         put_template(&s, s.shell->summary);
     put_template(&s, s.shell->middle);
     for (size_t i = 0; (s.command = command_at(i)); i++)
-        put_command(s);
+        put_command_completions(s);
     put_template(&s, s.shell->tail);
 }
 
@@ -370,6 +370,6 @@ bool completion_write(FILE *out, const char *shell)
 {
     const int found = json_find_name(completion_shell, shell);
     if (found >= 0)
-        put_script((script){.out = out, .shell = &shells[found]});
+        put_whole_script((script){.out = out, .shell = &shells[found]});
     return found >= 0;
 }

@@ -154,7 +154,7 @@ static int run(int argc, char **argv)
 
 static void report_context_fallback(const char *name, const char *instead_of, const char *why)
 {
-    note("drawing with %s, because %s does not work: %s", name, instead_of, why);
+    print_note("drawing with %s, because %s does not work: %s", name, instead_of, why);
 }
 
 /* If standard output cannot be written completely, the program fails, even if the command succeeded. */

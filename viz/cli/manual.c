@@ -58,7 +58,7 @@ static size_t option_length(const char *word, size_t length)
 
 enum { WORD = 512 }; /* room for a word in roff notation, in bytes */
 
-static void append(char set[WORD], const char *text)
+static void append_to_word(char set[WORD], const char *text)
 {
     strncat(set, text, WORD - 1 - strlen(set));
 }
@@ -72,13 +72,13 @@ static void format_word(char set[WORD], const char *word, size_t length, bool *c
     for (size_t i = 0; i < length; i++) {
         const bool plain = word[i] == '\'' || (word[i] == '-' && i > 0 && isalpha((unsigned char)word[i - 1]));
         if (option && i == quoted)
-            append(set, "\\fB");
+            append_to_word(set, "\\fB");
         if (i >= rest && word[i] == '`')
-            append(set, (*code = !*code) ? "\\fB" : "\\fR");
+            append_to_word(set, (*code = !*code) ? "\\fB" : "\\fR");
         else
-            append(set, i >= rest && !*code && plain ? (char[]){word[i], 0} : escape_literal(word[i]).text);
+            append_to_word(set, i >= rest && !*code && plain ? (char[]){word[i], 0} : escape_literal(word[i]).text);
         if (option && i + 1 == rest)
-            append(set, "\\fR");
+            append_to_word(set, "\\fR");
     }
 }
 
@@ -260,7 +260,7 @@ static void put_statuses(FILE *out, const command *c)
 }
 
 /* Returns whether the help texts of a command contain some words, such as "octreel join". */
-static bool mentions(const command *c, const char *words)
+static bool mentions_words(const command *c, const char *words)
 {
     const char *const texts[] = {c->about, c->more, c->examples, c->files};
     command_option o;
@@ -295,7 +295,7 @@ static void put_see_also(FILE *out, const command *c, const help_topic *topic)
     put_reference(out, command_octreel.name, 1, own, &begun);
     for (size_t i = 0; command_at(i); i++) {
         snprintf(words, sizeof words, "octreel %s", command_at(i)->name);
-        if (c == &command_octreel || (c ? mentions(c, words) : strstr(topic->text, words) != NULL))
+        if (c == &command_octreel || (c ? mentions_words(c, words) : strstr(topic->text, words) != NULL))
             put_reference(out, command_at(i)->name, 1, own, &begun);
     }
     for (size_t i = 0; help_topic_at(i); i++)

@@ -35,7 +35,7 @@ bool is_quiet(void)
     return quiet;
 }
 
-void note(const char *format, ...)
+void print_note(const char *format, ...)
 {
     va_list arguments;
     if (quiet)
@@ -54,7 +54,7 @@ int print_error(const char *format, ...)
     return EXIT_TROUBLE;
 }
 
-bool refuse(const char *format, ...)
+bool print_refusal(const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
@@ -65,12 +65,12 @@ bool refuse(const char *format, ...)
 
 bool refuse_value(const command_option *option, const char *takes, const char *text)
 {
-    return refuse("--%s takes %s, not \"%s\"", option->name, takes, text);
+    return print_refusal("--%s takes %s, not \"%s\"", option->name, takes, text);
 }
 
 static bool check_name(const char *option, const char *name)
 {
-    return *name || refuse("%s: the name is empty", option);
+    return *name || print_refusal("%s: the name is empty", option);
 }
 
 bool check_names_not_empty(const char *command, char *const *names, int count)
@@ -88,7 +88,7 @@ bool read_count(const char *name, const char *text, uint64_t min, uint64_t max, 
     const char *at = text;
     if (whole_number_parse(&at, max, value) && *at == 0 && *value >= min)
         return true;
-    return refuse("%s takes a whole number from %" PRIu64 " to %" PRIu64 ", not \"%s\"", name, min, max, text);
+    return print_refusal("%s takes a whole number from %" PRIu64 " to %" PRIu64 ", not \"%s\"", name, min, max, text);
 }
 
 char option_letter(const char *name)
@@ -130,8 +130,8 @@ bool read_choice(const command_option *option, const char *text, void *into)
     }
     for (int i = 0; option->names(i); i++)
         hint_add_candidate(&h, option->names(i));
-    return refuse("--%s: unknown value \"%s\"%schoose from %s", option->name, text, hint_format(&h, "", meant),
-                  json_list_names(option->names, known, sizeof known));
+    return print_refusal("--%s: unknown value \"%s\"%schoose from %s", option->name, text, hint_format(&h, "", meant),
+                         json_list_names(option->names, known, sizeof known));
 }
 
 bool read_quiet(const command_option *option, const char *text, void *into)
@@ -168,33 +168,33 @@ bool read_folder(const command_option *option, const char *text, void *into)
 {
     const output_kind kind = output_kind_of_name(text);
     if (file_is_standard_stream(text))
-        return refuse("%s needs a folder, but \"-\" is standard output; for a folder named -, write ./-",
-                      option_as_typed(option).text);
+        return print_refusal("%s needs a folder, but \"-\" is standard output; for a folder named -, write ./-",
+                             option_as_typed(option).text);
     if (!read_name(option, text, into) || kind == NAME_OPEN || is_folder(text))
         return **(const char **)into != 0;
-    return refuse("%s needs a folder, but \"%s\" names a %s%s", option_as_typed(option).text, text,
-                  kind == NAME_FILE   ? "file"
-                  : kind == NAME_FILM ? "film"
-                                      : "picture",
-                  kind == NAME_FILM ? ": record into a folder, then make a film of its frames with ffmpeg" : "");
+    return print_refusal("%s needs a folder, but \"%s\" names a %s%s", option_as_typed(option).text, text,
+                         kind == NAME_FILE   ? "file"
+                         : kind == NAME_FILM ? "film"
+                                             : "picture",
+                         kind == NAME_FILM ? ": record into a folder, then make a film of its frames with ffmpeg" : "");
 }
 
 static bool read_file_name(const command_option *option, const char *text, void *into)
 {
     return read_name(option, text, into) &&
            (file_is_standard_stream(text) || !is_folder(text) ||
-            refuse("%s needs a file, but \"%s\" is a folder", option_as_typed(option).text, text));
+            print_refusal("%s needs a file, but \"%s\" is a folder", option_as_typed(option).text, text));
 }
 
 bool read_picture(const command_option *option, const char *text, void *into)
 {
     const output_kind kind = output_kind_of_name(text);
     if (file_is_standard_stream(text) && isatty(STDOUT_FILENO))
-        return refuse("%s - would print a PNG on the terminal: name a file, or redirect the output with | or >",
-                      option_as_typed(option).text);
+        return print_refusal("%s - would print a PNG on the terminal: name a file, or redirect the output with | or >",
+                             option_as_typed(option).text);
     return read_file_name(option, text, into) &&
            (kind == NAME_OPEN || kind == NAME_PNG ||
-            refuse("%s needs the name of a PNG file, not \"%s\"", option_as_typed(option).text, text));
+            print_refusal("%s needs the name of a PNG file, not \"%s\"", option_as_typed(option).text, text));
 }
 
 bool read_file(const command_option *option, const char *text, void *into)
@@ -202,7 +202,7 @@ bool read_file(const command_option *option, const char *text, void *into)
     const output_kind kind = output_kind_of_name(text);
     return read_file_name(option, text, into) &&
            (kind == NAME_OPEN || kind == NAME_FILE ||
-            refuse("%s writes text, but \"%s\" names a picture", option_as_typed(option).text, text));
+            print_refusal("%s writes text, but \"%s\" names a picture", option_as_typed(option).text, text));
 }
 
 bool read_whole(const command_option *option, const char *text, void *into)
@@ -287,7 +287,7 @@ bool read_view(const view_options *given, view *v)
     const view_option *option;
     for (size_t i = 0; (option = view_option_at(i)); i++)
         if (given->values[i] && !option->parse(option, given->values[i], v, &error))
-            return refuse("%s", error.text);
+            return print_refusal("%s", error.text);
     return true;
 }
 
@@ -320,8 +320,9 @@ bool renderer_option_row(size_t n, command_option *option)
 bool check_renderer(const renderer_choice *choice)
 {
     if (choice->fill == DRAW_FILL_INTEGERS && choice->context != DRAW_AUTO && !choice->any_renderer)
-        return refuse("--context has no effect with --fill integers, which loads no OpenGL: leave out one of them");
+        return print_refusal(
+            "--context has no effect with --fill integers, which loads no OpenGL: leave out one of them");
     if (!choice->any_renderer || choice->context == DRAW_EGL)
         return true;
-    return refuse("--any-renderer works only with --context egl: add that option");
+    return print_refusal("--any-renderer works only with --context egl: add that option");
 }

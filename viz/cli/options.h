@@ -26,7 +26,7 @@ enum { EXIT_DONE = 0, EXIT_FINDING = 1, EXIT_TROUBLE = 2 };
 int print_error(const char *format, ...);
 
 /* Prints "octreel: " and a sentence on standard error. Returns false, for functions that return bool. */
-bool refuse(const char *format, ...);
+bool print_refusal(const char *format, ...);
 
 /* Prints that the option does not take the value `text`. `takes` describes the values that it takes: "a colour such
  * as ff8000". Returns false. */
@@ -36,7 +36,7 @@ bool refuse_value(const command_option *option, const char *takes, const char *t
 bool is_quiet(void);
 
 /* Prints "octreel: " and a note on standard error. A note is not an error: with --quiet it is not printed. */
-void note(const char *format, ...);
+void print_note(const char *format, ...);
 
 /* Reads the value of an option from `text` into `into`. If the value is invalid, prints an error and returns false. */
 typedef bool command_option_reader(const command_option *option, const char *text, void *into);

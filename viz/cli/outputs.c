@@ -52,8 +52,8 @@ static bool check_outputs_differ(const output_file *outputs, size_t count)
     for (size_t i = 0; i < count; i++)
         for (size_t j = 0; j < i; j++)
             if (outputs[i].path && outputs[j].path && is_same_path(outputs[i].path, outputs[j].path))
-                return refuse("%s %s is the same file as %s %s", outputs[i].option, outputs[i].path, outputs[j].option,
-                              outputs[j].path);
+                return print_refusal("%s %s is the same file as %s %s", outputs[i].option, outputs[i].path,
+                                     outputs[j].option, outputs[j].path);
     return true;
 }
 
@@ -62,8 +62,8 @@ static bool check_outputs_differ(const output_file *outputs, size_t count)
 /* Reports that an output would replace a file: "-o p.png" and then what the file is. Returns false. */
 static bool refuse_file(const output_file *output, const char *is, const char *of, const char *end)
 {
-    return refuse("%s %s is %s%s%s: name another file, or add --force to overwrite it", output->option, output->path,
-                  is, of, end);
+    return print_refusal("%s %s is %s%s%s: name another file, or add --force to overwrite it", output->option,
+                         output->path, is, of, end);
 }
 
 /* Checks that an output, whose status is given, is not an input file. */
@@ -80,11 +80,11 @@ static bool check_input_folder(const output_file *output, const struct stat *sta
 {
     octreel_error error;
     char **names = folder_names(folder, &error);
-    bool ok = names || refuse("%s", error.text);
+    bool ok = names || print_refusal("%s", error.text);
     for (size_t i = 0; ok && names[i]; i++) {
         struct stat entry;
         char *path = path_join(folder, names[i]);
-        ok = path || refuse("out of memory");
+        ok = path || print_refusal("out of memory");
         if (ok && lstat(path, &entry) == 0 && S_ISDIR(entry.st_mode))
             ok = names[i][0] == '.' || check_input_folder(output, status, path);
         else if (ok && (folder_is_recording_file(names[i]) || file_has_ending(names[i], ".png")))
@@ -107,7 +107,7 @@ static bool check_not_in_recording(const output_file *output, const char *path)
     const char *name = path_base_name(path);
     char *folder = path_parent_folder(path);
     const bool ok =
-        (folder || refuse("out of memory")) &&
+        (folder || print_refusal("out of memory")) &&
         ((!folder_is_recording_file(name) && !folder_is_unfinished_file(name)) ||
          !folder_contains(folder, "recording.json") || refuse_file(output, "a file of the recording in ", folder, ""));
     free(folder);
@@ -166,16 +166,17 @@ static bool check_folder(const output_file *output)
 {
     return !output->folder || !contains_current_folder(output->folder) ||
            file_kind_of(output->folder) == KIND_RECORDING ||
-           refuse("%s needs a folder of its own, but \"%s\" is or contains the current folder: name a new folder, or "
-                  "add --force to write into this one",
-                  output->option, output->folder);
+           print_refusal(
+               "%s needs a folder of its own, but \"%s\" is or contains the current folder: name a new folder, or "
+               "add --force to write into this one",
+               output->option, output->folder);
 }
 
 bool check_outputs(const output_file *outputs, size_t count, char *const *inputs, int input_count, bool json,
                    bool force)
 {
     bool ok = count_standard_outputs(outputs, count) + json <= 1 ||
-              refuse("only one output can go to standard output; name files for the others");
+              print_refusal("only one output can go to standard output; name files for the others");
     ok = ok && check_outputs_differ(outputs, count);
     for (size_t i = 0; ok && !force && i < count; i++)
         ok = check_folder(&outputs[i]) && check_file(&outputs[i], inputs, input_count);

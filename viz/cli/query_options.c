@@ -71,18 +71,18 @@ static bool read_query(const command_option *option, const char *text, void *int
     octree_query query = {.kind = rows[row].kind};
     double values[MOST_NUMBERS];
     if (queries->count == MOST_QUERIES)
-        return refuse("at most %d queries can be given", MOST_QUERIES);
+        return print_refusal("at most %d queries can be given", MOST_QUERIES);
     if (!numbers_parse(text, values, count_numbers_of_kind(query.kind))) {
         query.kind = rows[row].with_more;
         if (!numbers_parse(text, values, count_numbers_of_kind(query.kind)))
             return refuse_value(option, rows[row].takes, text);
     }
     if (!set_members(&query, values))
-        return refuse("--%s: the number of neighbours must be a whole number from 1 to %.0f; found \"%s\"", name,
-                      0x1p53 - 1, text);
+        return print_refusal("--%s: the number of neighbours must be a whole number from 1 to %.0f; found \"%s\"", name,
+                             0x1p53 - 1, text);
     const octree_status status = octree_query_check(&query);
     if (status != OCTREE_OK)
-        return refuse("--%s: %s in \"%s\"", name, octree_status_text(status), text);
+        return print_refusal("--%s: %s in \"%s\"", name, octree_status_text(status), text);
     queries->items[queries->count++] = query;
     return true;
 }

@@ -49,7 +49,7 @@ bool cloud_is_recognised(const unsigned char *bytes, size_t size)
 
 /* ---- Reading ------------------------------------------------------------------------------------------------ */
 
-static bool parse_nonempty(cloud_file *file)
+static bool parse_file_with_content(cloud_file *file)
 {
     if (file->size > 0 && !choose_format(file)->parse(file))
         return false;
@@ -61,10 +61,10 @@ static bool parse_nonempty(cloud_file *file)
     return cloud_fail(file, "holds no points");
 }
 
-static bool parse(cloud_file *file)
+static bool parse_cloud_file(cloud_file *file)
 {
     *file->out = (cloud){0};
-    bool parsed = parse_nonempty(file);
+    bool parsed = parse_file_with_content(file);
     if (!parsed)
         cloud_release(file->out);
     return parsed;
@@ -72,7 +72,7 @@ static bool parse(cloud_file *file)
 
 bool cloud_parse(const char *name, const unsigned char *bytes, size_t size, cloud *out, octreel_error *error)
 {
-    return parse(&(cloud_file){.name = name, .bytes = bytes, .size = size, .out = out, .error = error});
+    return parse_cloud_file(&(cloud_file){.name = name, .bytes = bytes, .size = size, .out = out, .error = error});
 }
 
 size_t cloud_row_number(const cloud *c, size_t index)
@@ -95,12 +95,12 @@ bool cloud_read(const char *path, const cloud_watch *watch, cloud *out, octreel_
     *out = (cloud){0};
     if (!file_read_with_progress(path, watch ? watch->read : NULL, watch ? watch->context : NULL, &bytes, &size, error))
         return false;
-    const bool done = parse(&(cloud_file){.name = file_display_name(path),
-                                          .bytes = (const unsigned char *)bytes,
-                                          .size = size,
-                                          .out = out,
-                                          .error = error,
-                                          .watch = watch});
+    const bool done = parse_cloud_file(&(cloud_file){.name = file_display_name(path),
+                                                     .bytes = (const unsigned char *)bytes,
+                                                     .size = size,
+                                                     .out = out,
+                                                     .error = error,
+                                                     .watch = watch});
     free(bytes);
     return done;
 }

@@ -19,7 +19,7 @@
 
 /* Return a box in the world that contains everything that the close-up can show. The box becomes part of the view's
  * filter, so that branches of the tree outside the box are skipped. */
-static octree_box visible_box(const camera *c, const view *v)
+static octree_box find_visible_box(const camera *c, const view *v)
 {
     octree_box box;
     const double pixel = camera_world_length_of_pixel(c),
@@ -65,7 +65,7 @@ bool closeup_begin(scene *s, const layer_source *in, const double place[3], doub
     c->view.budget = s->view.budget && budget < 1 ? 1 : (uint64_t)budget;
     c->view.layers &= ~(1u << LAYER_WORLD | 1u << LAYER_TEXT);
     c->camera = camera_make_close_up(&s->camera, (camera_window){0, 0, w.width, w.height}, place, times);
-    const octree_box region = visible_box(&c->camera, &c->view);
+    const octree_box region = find_visible_box(&c->camera, &c->view);
     narrow_region(&c->view.filter, &region);
     *close = *in;
     close->view = &c->view;
@@ -140,7 +140,7 @@ static void add_frame(scene *s)
 
 /* Return the largest length of the form 1, 2 or 5 times a power of ten that is not above `limit`. Return 0 if that
  * length is too small for a double. */
-static double round_length(double limit)
+static double round_down_scale_length(double limit)
 {
     double power = 1;
     while (power > limit)
@@ -174,7 +174,8 @@ static void drop_covered_labels(scene *s, const int corner[2], const int size[2]
 static void add_scale(scene *s)
 {
     const int unit = s->unit, margin = 6 * unit;
-    const double pixel = camera_world_length_of_pixel(&s->camera), length = round_length(s->view.width / 3.0 * pixel);
+    const double pixel = camera_world_length_of_pixel(&s->camera),
+                 length = round_down_scale_length(s->view.width / 3.0 * pixel);
     const double x = margin + 0.5, y = s->view.height - margin + 0.5, end = x + floor(length / pixel), rise = 3 * unit;
     char number[NUMBER_TEXT], times[NUMBER_TEXT];
     if (!(length > 0) || !isfinite(end))

@@ -119,7 +119,7 @@ static view_scale make_view_scale(const layer_source *in)
     return (view_scale){view_height_at_16_9(in->view), camera_world_length_of_pixel(&c)};
 }
 
-static double part_of_height(const view_scale *m, double reach)
+static double find_part_of_height(const view_scale *m, double reach)
 {
     return 2 * reach / m->pixel / m->height;
 }
@@ -148,7 +148,7 @@ static double round_down(double limit)
 }
 
 /* Return the height of the area that a close-up enlarges `times` times, as a part of the picture's height. */
-static double visible_part(const layer_source *in, const view_scale *m, double times)
+static double find_visible_part(const layer_source *in, const view_scale *m, double times)
 {
     const camera_window w = layout_closeup_area(in->view);
     return fmin(w.width, w.height) / m->height / times;
@@ -158,8 +158,8 @@ static double visible_part(const layer_source *in, const view_scale *m, double t
  * large enough already. Without a game the subject may fill more of the close-up. */
 static double magnification_for(double reach, const layer_source *in, const view_scale *m)
 {
-    const double part = part_of_height(m, reach),
-                 wanted = in->game ? WANTED : fmax(WANTED, STILL * visible_part(in, m, 1));
+    const double part = find_part_of_height(m, reach),
+                 wanted = in->game ? WANTED : fmax(WANTED, STILL * find_visible_part(in, m, 1));
     return part > 0 && part < SMALL ? round_down(fmin(wanted / part, MAX_MAGNIFICATION)) : 0;
 }
 
@@ -202,14 +202,14 @@ static void add_to_group(group_search *g, const octree_box *more, bool is_sized)
     for (int i = 0; i < 3; i++)
         if (!(more->min[i] <= world->max[i] && more->max[i] >= world->min[i]))
             return;
-    if (!(part_of_height(&g->m, half_extent(more)) < g->size_limit))
+    if (!(find_part_of_height(&g->m, half_extent(more)) < g->size_limit))
         return;
     const double own =
         is_sized && half_extent(more) > 0 ? half_extent(more) : half_extent_with_leaf(g->in, more, &g->m);
     const double reach = g->reach > 0 ? g->reach : own;
     const double times = magnification_for(reach, g->in, &g->m);
     widen(&both, more->min, more->max);
-    if (!(times > 0 && part_of_height(&g->m, half_extent(&both)) < visible_part(g->in, &g->m, times)))
+    if (!(times > 0 && find_part_of_height(&g->m, half_extent(&both)) < find_visible_part(g->in, &g->m, times)))
         return;
     g->reach = reach;
     g->group = both;
@@ -248,7 +248,8 @@ static bool shows_group(const group_search *g, const double place[3])
     double reach = 0;
     for (int i = 0; i < 3; i++)
         reach = fmax(reach, fmax(g->group.max[i] - place[i], place[i] - g->group.min[i]));
-    return part_of_height(&g->m, reach) < visible_part(g->in, &g->m, magnification_for(g->reach, g->in, &g->m));
+    return find_part_of_height(&g->m, reach) <
+           find_visible_part(g->in, &g->m, magnification_for(g->reach, g->in, &g->m));
 }
 
 /* Move the close-up to the queries of the tick. If the tick has no queries, move the close-up to the tick's changes,

@@ -118,7 +118,7 @@ static bool is_on_path(const diagram *d, octree_address node, unsigned depth)
 }
 
 /* Return the y of the middle of a row, in pixels. */
-static double row_middle(const diagram *d, unsigned depth)
+static double find_row_middle(const diagram *d, unsigned depth)
 {
     return d->top + (depth + 0.5) * d->pitch;
 }
@@ -127,12 +127,13 @@ static double row_middle(const diagram *d, unsigned depth)
  * pixels. */
 static anchor anchor_at(const diagram *d, unsigned depth, double middle, double height)
 {
-    const double y = row_middle(d, depth);
+    const double y = find_row_middle(d, depth);
     return (anchor){d->left + d->width * middle, y - height / 2, y + height / 2};
 }
 
 /* Fill a rectangle centred at a pixel, at least one pixel wide and high. */
-static void fill_centered(const diagram *d, uint64_t id, double x, double y, double width, double height, unsigned role)
+static void fill_centered_rectangle(const diagram *d, uint64_t id, double x, double y, double width, double height,
+                                    unsigned role)
 {
     const int across = width < 1 ? 1 : (int)width, along = height < 1 ? 1 : (int)height;
     scene_add_rectangle(d->scene, id, (int[]){(int)floor(x - across / 2.0 + 0.5), (int)floor(y - along / 2.0 + 0.5)},
@@ -178,7 +179,7 @@ static void measure_node(const diagram *d, const diagram_node *node, double size
     size[1] = fmax(fmin(largest, d->pitch - 2 * unit), 1);
 }
 
-static unsigned role_of(const diagram *d, const diagram_node *node)
+static unsigned choose_node_role(const diagram *d, const diagram_node *node)
 {
     const octree_node asked = {.depth = node->depth, .leaf = node->leaf, .box = node->box};
     return filter_shows_node(&d->scene->view.filter, &d->in->world, &asked)
@@ -195,11 +196,11 @@ static void add_line(const diagram *d, octree_address child, const anchor *from,
 /* Draw a ring around a node on the path, with a dark gap between the node and the ring. */
 static void add_ring(const diagram *d, unsigned depth, double x, const double size[2])
 {
-    const double y = row_middle(d, depth);
+    const double y = find_row_middle(d, depth);
     for (int dark = 0; dark < 2; dark++) {
         const double more = (dark ? RING : 2 * RING) * d->scene->unit;
-        fill_centered(d, PATH_ID | (dark ? 32 : 0) | depth, x, y, size[0] + more, size[1] + more,
-                      dark ? ROLE_BACKGROUND : ROLE_PLAYER);
+        fill_centered_rectangle(d, PATH_ID | (dark ? 32 : 0) | depth, x, y, size[0] + more, size[1] + more,
+                                dark ? ROLE_BACKGROUND : ROLE_PLAYER);
     }
 }
 
@@ -212,7 +213,7 @@ static void add_nodes(diagram *d, bool on_path)
     anchor anchors[OCTREE_MAX_DEPTH + 1];
     for (size_t i = 0; i < d->slots.count; i++) {
         const diagram_node *node = &d->slots.nodes[i];
-        const unsigned depth = node->depth, role = role_of(d, node);
+        const unsigned depth = node->depth, role = choose_node_role(d, node);
         double size[2];
         measure_node(d, node, size);
         anchors[depth] = anchor_at(d, depth, (node->left + node->right) / 2, size[1]);
@@ -224,7 +225,7 @@ static void add_nodes(diagram *d, bool on_path)
             add_line(d, node->address, &anchors[depth - 1], &anchors[depth], edge_style(d, node->address, role));
         if (on_path)
             add_ring(d, depth, anchors[depth].x, size);
-        fill_centered(d, node->address, anchors[depth].x, row_middle(d, depth), size[0], size[1], role);
+        fill_centered_rectangle(d, node->address, anchors[depth].x, find_row_middle(d, depth), size[0], size[1], role);
         d->scene->tally.drawn++;
     }
 }
@@ -239,8 +240,8 @@ static void add_path(const diagram *d)
             add_line(d, d->path >> 3 * (deep - depth), at - 1, at,
                      make_role_style(LAYER_DIAGRAM, ROLE_PLAYER, STROKE_SOLID, 2));
         if (depth > d->slots.deepest)
-            fill_centered(d, PATH_ID | depth, at->x, row_middle(d, depth), RING * d->scene->unit, at->foot - at->head,
-                          ROLE_PLAYER);
+            fill_centered_rectangle(d, PATH_ID | depth, at->x, find_row_middle(d, depth), RING * d->scene->unit,
+                                    at->foot - at->head, ROLE_PLAYER);
         d->scene->tally.path++;
     }
 }
@@ -292,8 +293,9 @@ static void add_bar(const folding *f, unsigned depth, size_t column, const bar *
     const double height = fmax(floor((d->pitch - 2 * unit) * bar_steps(b->nodes) / BAR_STEPS), 1);
     const double x = d->left + ((double)column + 0.5) * width;
     const node_traits look = {depth, b->leaves ? b->points / b->leaves : 0, d->capacity, b->leaves > 0};
-    fill_centered(d, BAR_ID | (uint64_t)depth << 32 | (uint64_t)column, x, row_middle(d, depth),
-                  fmax(width - unit / 2, 1), height, b->shown ? node_role(&d->scene->view, look) : ROLE_WORLD);
+    fill_centered_rectangle(d, BAR_ID | (uint64_t)depth << 32 | (uint64_t)column, x, find_row_middle(d, depth),
+                            fmax(width - unit / 2, 1), height,
+                            b->shown ? node_role(&d->scene->view, look) : ROLE_WORLD);
     d->scene->tally.folded += b->nodes;
 }
 
@@ -342,10 +344,10 @@ static void write_rows(diagram *d)
     /* If rows are lower than a line of text, only every n-th row has text. */
     const unsigned row_step = (unsigned)ceil(s->text.height / d->pitch);
     /* The diagram always shows Octreel's own tree. The heading says so if the space view shows foreign nodes. */
-    add_text(d, left, top, ROLE_FAINT, shows_own_tree(d->in) ? "depth" : "Octreel's depth");
+    add_text(d, left, top, ROLE_FAINT, shows_octreel_nodes(d->in) ? "depth" : "Octreel's depth");
     add_text(d, right_aligned_x(d, "nodes"), top, ROLE_FAINT, "nodes");
     for (unsigned depth = 0; depth <= d->slots.stats.depth; depth += row_step) {
-        const double y = row_middle(d, depth) - s->text.height / 2;
+        const double y = find_row_middle(d, depth) - s->text.height / 2;
         char number[NUMBER_TEXT];
         snprintf(number, sizeof number, "%u", depth);
         add_text(d, left, y, ROLE_FAINT, number);

@@ -23,7 +23,7 @@
 
 /* Return the deepest level that can fit if shares are not rounded up. The shares are counted as if the tree ended at
  * this level: one for each leaf and, if `empty` is 1, one for each empty octant. */
-static unsigned deepest_possible(const octree_stats *stats, unsigned empty, size_t room)
+static unsigned find_deepest_possible_level(const octree_stats *stats, unsigned empty, size_t room)
 {
     size_t leaves = 0, inner = 0; /* number of leaves and of inner nodes at the levels from the root down to `depth` */
     unsigned depth = 0;
@@ -56,7 +56,7 @@ static octree_walk_order append_node(const octree_node *node, void *context)
     return node->depth < slots->deepest ? OCTREE_WALK_ON : OCTREE_WALK_SKIP;
 }
 
-static void drop_level(diagram_slots *slots)
+static void drop_deepest_level(diagram_slots *slots)
 {
     size_t kept = 0;
     for (size_t i = 0; i < slots->count; i++)
@@ -69,7 +69,7 @@ static void drop_level(diagram_slots *slots)
 /* ---- Shares ------------------------------------------------------------------------------------------------- */
 
 /* Round up to the next number of the series 1, 2, 3, 4, 6, 8, 12, 16, 24 ... */
-static uint64_t round_up(uint64_t shares)
+static uint64_t round_up_shares(uint64_t shares)
 {
     uint64_t step = 1;
     while (step * 2 < shares)
@@ -82,12 +82,12 @@ static bool is_expanded(const diagram_slots *slots, const diagram_node *node)
     return !node->leaf && node->depth < slots->deepest;
 }
 
-static uint64_t share_of(const diagram_slots *slots, const diagram_node *node)
+static uint64_t find_node_share(const diagram_slots *slots, const diagram_node *node)
 {
-    return is_expanded(slots, node) ? round_up(node->child_shares) : 1;
+    return is_expanded(slots, node) ? round_up_shares(node->child_shares) : 1;
 }
 
-static unsigned empty_octants(const diagram_node *node)
+static unsigned count_empty_octants(const diagram_node *node)
 {
     unsigned empty = OCTANTS;
     for (unsigned octants = node->octants; octants; octants &= octants - 1)
@@ -103,9 +103,9 @@ static uint64_t add_shares(diagram_slots *slots)
     for (size_t i = slots->count; i-- > 0;) {
         diagram_node *node = &slots->nodes[i];
         const unsigned depth = node->depth;
-        node->child_shares = is_expanded(slots, node) ? below[depth + 1] + slots->empty * empty_octants(node) : 1;
+        node->child_shares = is_expanded(slots, node) ? below[depth + 1] + slots->empty * count_empty_octants(node) : 1;
         below[depth + 1] = 0;
-        below[depth] += share_of(slots, node);
+        below[depth] += find_node_share(slots, node);
     }
     return slots->nodes[0].child_shares;
 }
@@ -141,7 +141,7 @@ static void place_nodes(diagram_slots *slots)
         node->right = 1;
         if (depth)
             assign_slot(&progress[depth - 1], slots->empty, octree_address_octant(node->address, depth - 1),
-                        share_of(slots, node), node);
+                        find_node_share(slots, node), node);
         progress[depth] = (slot_progress){.node = node};
     }
 }
@@ -150,14 +150,14 @@ static void place_nodes(diagram_slots *slots)
 static bool arrange_levels(diagram_slots *slots, const octree *tree, unsigned empty, size_t room)
 {
     slots->empty = empty;
-    slots->deepest = deepest_possible(&slots->stats, empty, room);
+    slots->deepest = find_deepest_possible_level(&slots->stats, empty, room);
     slots->count = 0;
     slots->nodes = malloc(count_nodes_down_to(&slots->stats, slots->deepest) * sizeof *slots->nodes);
     if (!slots->nodes)
         return false;
     octree_walk(tree, append_node, slots);
     while (add_shares(slots) > room && slots->deepest > 0)
-        drop_level(slots);
+        drop_deepest_level(slots);
     return true;
 }
 

@@ -32,7 +32,7 @@
 
 /* Return the number of decimals that a number needs. The result is greater than MOST_DECIMALS if the number needs an
  * exponent. */
-static int decimals_of(double value)
+static int count_decimals(double value)
 {
     char text[NUMBER_TEXT];
     const char *point = strchr(number_format(value, MOST_DECIMALS, text), '.');
@@ -43,14 +43,14 @@ static int decimals_of(double value)
  * their place. If key presses move the player, the decimals suit every position that key presses can reach; the result
  * is greater than MOST_DECIMALS if such a position needs an exponent. For any other player, the world's largest
  * coordinate gets six digits. */
-static int decimals_of_player(const layer_source *in)
+static int count_player_decimals(const layer_source *in)
 {
     const octree_player *player = &in->session->player;
     int decimals = 0;
     if (player->kind == OCTREE_PLAYER_KEYS) {
         const double numbers[] = {player->step, player->position[0], player->position[1], player->position[2]};
         for (int i = 0; i < 4; i++)
-            decimals = decimals_of(numbers[i]) > decimals ? decimals_of(numbers[i]) : decimals;
+            decimals = count_decimals(numbers[i]) > decimals ? count_decimals(numbers[i]) : decimals;
         return decimals;
     }
     double largest = 0;
@@ -97,12 +97,12 @@ static void write_statistics(pen *p, const layer_source *in, const octree_stats 
 {
     const octree_def definition = octree_definition(in->tree);
     write_row(p, "points", "", "%zu", stats->points);
-    if (shows_foreign_tree(in)) {
+    if (shows_foreign_nodes(in)) {
         write_row(p, "foreign nodes", "", "%zu", in->tick->foreign.node_count);
         write_row(p, "foreign leaves", "", "%zu", in->tick->foreign.leaf_count);
         write_row(p, "foreign depth", "", "%u", in->tick->foreign.depth);
     }
-    if (!shows_own_tree(in))
+    if (!shows_octreel_nodes(in))
         return;
     write_row(p, "nodes", "", "%zu", stats->nodes);
     write_row(p, "leaves", "", "%zu", stats->leaves);
@@ -138,7 +138,7 @@ static const char *no_event_text(const layer_source *in)
 static void write_events(pen *p, const layer_source *in)
 {
     const octree_tick *tick = in->tick;
-    const unsigned events = tick->events & ~(shows_own_tree(in) ? 0u : OCTREE_EVENT_SPLIT | OCTREE_EVENT_MERGED);
+    const unsigned events = tick->events & ~(shows_octreel_nodes(in) ? 0u : OCTREE_EVENT_SPLIT | OCTREE_EVENT_MERGED);
     char words[SCENE_TEXT] = "";
     for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++) {
         if (events >> i & 1) {
@@ -182,7 +182,7 @@ static void write_wrong_answers(pen *p, const layer_source *in)
 static void write_wrong_nodes(pen *p, const layer_source *in)
 {
     char text[WRONG_NODE_TEXT];
-    if (!shows_foreign_tree(in) || in->tick->foreign.wrong_count == 0)
+    if (!shows_foreign_nodes(in) || in->tick->foreign.wrong_count == 0)
         return;
     p->name = ROLE_WRONG;
     write_row(p, "wrong nodes", "", "%zu", in->tick->foreign.wrong_count);
@@ -232,7 +232,7 @@ static void write_keys(pen *p, const layer_source *in)
         write_line(p, ROLE_FAINT, text);
 }
 
-static void write_broken(pen *p, const layer_source *in)
+static void write_broken_node(pen *p, const layer_source *in)
 {
     char text[OCTREE_ADDRESS_TEXT];
     if (!in->broken)
@@ -370,7 +370,7 @@ static void write_view_limits(pen *p)
 /* ---- The column --------------------------------------------------------------------------------------------- */
 
 /* Remove the thin lines between rows of the column whose y is at least `from` pixels. */
-static void drop_rules(scene *s, int from)
+static void drop_rules_after(scene *s, int from)
 {
     size_t kept = 0;
     for (size_t i = 0; i < s->panels.count; i++)
@@ -380,7 +380,7 @@ static void drop_rules(scene *s, int from)
 }
 
 /* If not all rows fit into the picture, replace the last rows by a line that counts them. */
-static void cut_rows(pen *p)
+static void cut_rows_beyond_panel(pen *p)
 {
     scene *s = p->scene;
     const int last = s->view.height - s->text.height,
@@ -401,7 +401,7 @@ static void cut_rows(pen *p)
     }
     s->labels.count = kept;
     p->y = (int)first < last ? (int)first : last;
-    drop_rules(s, p->y);
+    drop_rules_after(s, p->y);
     write_text(p, 0, ROLE_WARNING, "and %zu more", rows);
     p->y += line;
 }
@@ -414,7 +414,7 @@ static void write_player(pen *p, const layer_source *in)
     if (in->session->player.kind == OCTREE_PLAYER_NONE && !in->tick->has_player)
         return;
     if (in->tick->has_player)
-        write_position(p, "player", in->tick->player, decimals_of_player(in));
+        write_position(p, "player", in->tick->player, count_player_decimals(in));
     else
         write_row(p, "player", "", "away");
     p->y = end;
@@ -466,8 +466,8 @@ static void add_corner_lines(scene *s, const layer_source *in, const char *title
         write_wrong_nodes(&p, in);
     }
     write_view_limits(&p);
-    write_broken(&p, in);
-    cut_rows(&p);
+    write_broken_node(&p, in);
+    cut_rows_beyond_panel(&p);
 }
 
 static void add_column(scene *s, const layer_source *in, const char *title)
@@ -482,8 +482,8 @@ static void add_column(scene *s, const layer_source *in, const char *title)
         write_rule(&p);
         write_tree_rows(&p, in);
     }
-    write_broken(&p, in);
-    cut_rows(&p);
+    write_broken_node(&p, in);
+    cut_rows_beyond_panel(&p);
     write_legend(&p, in);
 }
 

@@ -87,7 +87,7 @@ static bool open_sides(accepting *a, octreel_error *error)
     return true;
 }
 
-static bool is_named(const accept_options *options, const char *name)
+static bool is_name_listed(const accept_options *options, const char *name)
 {
     for (size_t i = 0; i < options->names->count; i++)
         if (strcmp(options->names->frames[i].name, name) == 0)
@@ -122,7 +122,7 @@ static bool check_names(const accepting *a, octreel_error *error)
     return true;
 }
 
-static action action_for(diff_finding finding)
+static action choose_action(diff_finding finding)
 {
     if (finding == FOUND_NO_FRAME)
         return REMOVED;
@@ -148,7 +148,7 @@ static bool decide_actions(accepting *a, octreel_error *error)
         diff_pair *pair = &a->result.pairs[i];
         if (pair->lacks_resources)
             return pair->trouble ? error_set(error, "%s", pair->trouble) : error_no_memory(error);
-        a->actions[i] = is_named(a->options, diff_pair_name(pair)) ? action_for(pair->finding) : KEPT;
+        a->actions[i] = is_name_listed(a->options, diff_pair_name(pair)) ? choose_action(pair->finding) : KEPT;
         a->counts[a->actions[i]]++;
         if ((a->actions[i] == CHANGED || a->actions[i] == ADDED) && !check_frame(a, pair, error))
             return false;

@@ -77,7 +77,7 @@ static char *read_name(const char *written)
 
 /* ---- Acceptances --------------------------------------------------------------------------------------------- */
 
-static bool is_id(const char *text)
+static bool is_acceptance_id(const char *text)
 {
     return text[0] && strchr(id_letters, text[0]) && text[1] && strchr(id_letters, text[1]);
 }
@@ -149,7 +149,7 @@ bool baseline_add_acceptance(diff_side *side, const acceptance_note *note, frame
  * therefore refused.
  */
 
-static bool fail_line(const diff_side *side, size_t number, octreel_error *error)
+static bool report_bad_line(const diff_side *side, size_t number, octreel_error *error)
 {
     return error_set(error,
                      "%s:%zu: expected an acceptance, as in \"accepted 7f 2026-11-22 1280x720 runs the reason\", or "
@@ -168,11 +168,11 @@ static bool read_acceptance(diff_side *side, char *line, size_t number, octreel_
     acceptance a = {.id = ""};
     char written[64];
     if (sscanf(line, "%2s %10s %5dx%5d", a.id, a.date, &a.width, &a.height) != 4)
-        return fail_line(side, number, error);
+        return report_bad_line(side, number, error);
     const size_t size = (size_t)snprintf(written, sizeof written, "%s %s %dx%d ", a.id, a.date, a.width, a.height);
-    if (strncmp(line, written, size) != 0 || !is_id(a.id) || !baseline_is_date(a.date) || !is_side_length(a.width) ||
-        !is_side_length(a.height))
-        return fail_line(side, number, error);
+    if (strncmp(line, written, size) != 0 || !is_acceptance_id(a.id) || !baseline_is_date(a.date) ||
+        !is_side_length(a.width) || !is_side_length(a.height))
+        return report_bad_line(side, number, error);
     char *at = line + size;
     const size_t kind = strcspn(at, " ");
     a.kind = image_find_digest_kind(at, kind);
@@ -181,7 +181,7 @@ static bool read_acceptance(diff_side *side, char *line, size_t number, octreel_
                          side->path, number, kind < 40 ? (int)kind : 40, at);
     a.reason = at + kind + (at[kind] == ' ');
     if (!baseline_is_reason(a.reason))
-        return fail_line(side, number, error);
+        return report_bad_line(side, number, error);
     const acceptance *other = find_id(side, a.id);
     if (!other)
         return append_acceptance(side, &a, error);
@@ -224,11 +224,11 @@ static bool read_digest(diff_side *side, const char *line, size_t number, octree
     char written[sizeof "7f 0123456789abcdef "], id[3] = "";
     sscanf(line, "%2s %16" SCNx64, id, &digest.pixels);
     snprintf(written, sizeof written, "%s %016" PRIx64 " ", id, digest.pixels);
-    if (strncmp(line, written, sizeof written - 1) != 0 || !is_id(id))
-        return fail_line(side, number, error);
+    if (strncmp(line, written, sizeof written - 1) != 0 || !is_acceptance_id(id))
+        return report_bad_line(side, number, error);
     const char *at = line + sizeof written - 1;
     if (!*at || has_control_character(at))
-        return fail_line(side, number, error);
+        return report_bad_line(side, number, error);
     const acceptance *by = find_id(side, line);
     if (!by)
         return error_set(error,
@@ -369,12 +369,12 @@ bool baseline_add_frame(diff_side *side, const char *name, const frame_digest *v
 
 /* ---- Writing ------------------------------------------------------------------------------------------------- */
 
-static int by_id(const void *a, const void *b)
+static int compare_by_id(const void *a, const void *b)
 {
     return strcmp((*(const acceptance *const *)a)->id, (*(const acceptance *const *)b)->id);
 }
 
-static bool is_used(const diff_side *side, size_t acceptance)
+static bool is_acceptance_used(const diff_side *side, size_t acceptance)
 {
     for (size_t i = 0; i < side->count; i++)
         for (size_t j = 0; j < side->frames[i].variant_count; j++)
@@ -390,9 +390,9 @@ static bool write_acceptances(FILE *out, const diff_side *side)
     if (!used)
         return false;
     for (size_t i = 0; i < side->acceptance_count; i++)
-        if (is_used(side, i))
+        if (is_acceptance_used(side, i))
             used[count++] = &side->acceptances[i];
-    qsort(used, count, sizeof(const acceptance *), by_id);
+    qsort(used, count, sizeof(const acceptance *), compare_by_id);
     for (size_t i = 0; i < count; i++)
         fprintf(out, "accepted %s %s %dx%d %s %s\n", used[i]->id, used[i]->date, used[i]->width, used[i]->height,
                 image_digest_kind_name(used[i]->kind), used[i]->reason);
@@ -417,7 +417,7 @@ static const frame_digest *next_variant(const diff_side *side, const diff_frame 
     return next;
 }
 
-static bool fail_name(const diff_side *side, const char *name, octreel_error *error)
+static bool report_bad_name(const diff_side *side, const char *name, octreel_error *error)
 {
     char *shown = strdup(name);
     error_set(error, "%s: the frame name \"%s\" contains a control character; rename the file", side->path,
@@ -431,7 +431,7 @@ bool baseline_write(FILE *out, const diff_side *side, octreel_error *error)
     const image_color ground = side->background;
     for (size_t i = 0; i < side->count; i++)
         if (has_control_character(side->frames[i].name))
-            return fail_name(side, side->frames[i].name, error);
+            return report_bad_name(side, side->frames[i].name, error);
     fprintf(out, "%s2\nbackground %02x%02x%02x\n", DIGEST_FILE_BEGINNING, ground.r, ground.g, ground.b);
     if (!write_acceptances(out, side))
         return error_no_memory(error);

@@ -366,20 +366,20 @@ typedef struct pending {
     const diff_options *options;
 } pending;
 
-static void try_bytes(size_t i, void *context)
+static void compare_bytes_of_pair(size_t i, void *context)
 {
     const pending *p = context;
     compare_bytes(p->pairs[i]);
 }
 
-static void find_pixels(size_t i, void *context)
+static void compare_pixels_of_pair(size_t i, void *context)
 {
     const pending *p = context;
     errno = 0;
     compare_pixels(p->pairs[i], p->options);
 }
 
-static void keep_undecided(pending *p)
+static void keep_undecided_pairs(pending *p)
 {
     size_t kept = 0;
     for (size_t i = 0; i < p->count; i++)
@@ -388,13 +388,13 @@ static void keep_undecided(pending *p)
     p->count = kept;
 }
 
-static bool compare_all(const diff_side *a, const diff_side *b, pending *p, octreel_error *error)
+static bool compare_all_pairs(const diff_side *a, const diff_side *b, pending *p, octreel_error *error)
 {
-    parallel_for(p->count, try_bytes, p);
-    keep_undecided(p);
+    parallel_for(p->count, compare_bytes_of_pair, p);
+    keep_undecided_pairs(p);
     if (p->options->mask && !p->options->mask(p->options->mask_context, a, b, p->pairs, p->count, error))
         return false;
-    parallel_for(p->count, find_pixels, p);
+    parallel_for(p->count, compare_pixels_of_pair, p);
     return true;
 }
 
@@ -428,7 +428,7 @@ bool diff_run(const diff_side *a, const diff_side *b, const diff_options *option
     for (size_t i = 0; ok && i < result->count; i++)
         if (result->pairs[i].a && result->pairs[i].b)
             p.pairs[p.count++] = &result->pairs[i];
-    ok = ok && compare_all(a, b, &p, error);
+    ok = ok && compare_all_pairs(a, b, &p, error);
     free(p.pairs);
     if (ok && a->no_frames)
         ok = compare_ticks(a, b, result, error);

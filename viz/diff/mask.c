@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool pack(pixel_mask *mask, const uint8_t *bytes)
+static bool pack_mask(pixel_mask *mask, const uint8_t *bytes)
 {
     const size_t size = (size_t)mask->width * (size_t)mask->height;
     size_t room = 0;
@@ -30,14 +30,14 @@ bool mask_add(pixel_mask *mask, const uint8_t *bytes, int width, int height)
     if (!mask->runs) {
         mask->width = width;
         mask->height = height;
-        return pack(mask, bytes);
+        return pack_mask(mask, bytes);
     }
     if (mask->width != width || mask->height != height)
         return true;
     uint8_t *both = mask_unpack(mask);
     for (size_t i = 0; both && i < size; i++)
         both[i] |= bytes[i];
-    const bool ok = both && pack(mask, both);
+    const bool ok = both && pack_mask(mask, both);
     free(both);
     return ok;
 }

@@ -12,7 +12,7 @@
 #include <unistd.h>
 
 /* Return the path of the picture with a digest: DIR/runs/01/0123456789abcdef.png. The caller frees the path. */
-static char *path_of(const char *store, const frame_digest *digest)
+static char *make_picture_path(const char *store, const frame_digest *digest)
 {
     const char *kind = image_digest_kind_name(digest->kind);
     const size_t size = strlen(store) + strlen(kind) + sizeof "//01/0123456789abcdef.png";
@@ -38,7 +38,7 @@ bool picture_store_add(const char *store, const char *picture, const frame_diges
                        octreel_error *error)
 {
     octreel_error ignored;
-    char *path = path_of(store, digest);
+    char *path = make_picture_path(store, digest);
     if (!path)
         return error_no_memory(error);
     bool ok = access(path, F_OK) == 0 && is_picture(path, digest, background, &ignored);
@@ -55,7 +55,7 @@ bool picture_store_add(const char *store, const char *picture, const frame_diges
 
 char *picture_store_find(const char *store, const frame_digest *digest, image_color background, octreel_error *error)
 {
-    char *path = path_of(store, digest);
+    char *path = make_picture_path(store, digest);
     if (path ? is_picture(path, digest, background, error) : error_no_memory(error))
         return path;
     free(path);

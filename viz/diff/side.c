@@ -185,7 +185,7 @@ bool diff_side_open(diff_side *side, const char *path, const diff_search *search
     return ok;
 }
 
-static int by_name(const void *a, const void *b)
+static int compare_by_name(const void *a, const void *b)
 {
     return strcmp(((const diff_frame *)a)->name, ((const diff_frame *)b)->name);
 }
@@ -193,7 +193,7 @@ static int by_name(const void *a, const void *b)
 void diff_side_sort_frames(diff_side *side)
 {
     if (side->count > 0)
-        qsort(side->frames, side->count, sizeof *side->frames, by_name);
+        qsort(side->frames, side->count, sizeof *side->frames, compare_by_name);
 }
 
 void diff_side_release(diff_side *side)

@@ -41,7 +41,7 @@ void box_lines_release(box_lines *kept)
 
 /* Copy the high bits of a coordinate into the low bits, so that the multiplication in hash_key() spreads them.
  * Coordinates of tree planes have only a few bits set, and all of these are high bits. */
-static uint64_t fold_bits(double value)
+static uint64_t fold_double_to_word(double value)
 {
     uint64_t bits;
     const double canonical = value + 0.0; /* turns -0 into 0, because equal coordinates need equal hashes */
@@ -52,8 +52,8 @@ static uint64_t fold_bits(double value)
 static uint64_t hash_key(const void *item)
 {
     const line_key *key = item;
-    const uint64_t mixed = (fold_bits(key->u) + key->kind) * UINT64_C(0x9e3779b97f4a7c15) ^
-                           (fold_bits(key->v) + key->kind) * UINT64_C(0xc2b2ae3d27d4eb4f);
+    const uint64_t mixed = (fold_double_to_word(key->u) + key->kind) * UINT64_C(0x9e3779b97f4a7c15) ^
+                           (fold_double_to_word(key->v) + key->kind) * UINT64_C(0xc2b2ae3d27d4eb4f);
     return (mixed ^ mixed >> 32) * UINT64_C(0xd6e8feb86659fd93) >> 32;
 }
 

@@ -124,7 +124,8 @@ context *context_egl_open(const renderer_choice *choice, octreel_error *error)
     if (find_egl_functions(&c->egl, c->face.library) && open_mesa(c, choice->any_renderer))
         return &c->face;
     error_set(error,
-              "EGL gives no OpenGL context without a display (Debian: libegl-mesa0 and libgl1-mesa-dri): error 0x%04x",
+              "EGL cannot create an OpenGL context without a display (Debian: libegl-mesa0 and libgl1-mesa-dri): error "
+              "0x%04x",
               c->egl.GetError ? (unsigned)c->egl.GetError() : 0);
     close_context(&c->face);
     return NULL;

@@ -66,7 +66,7 @@ context *context_osmesa_open(const renderer_choice *choice, octreel_error *error
         return NULL;
     if (open_mesa(c))
         return &c->face;
-    error_set(error, "OSMesa gives no compatibility context");
+    error_set(error, "OSMesa cannot create an OpenGL compatibility context");
     close_context(&c->face);
     return NULL;
 }

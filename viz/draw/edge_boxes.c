@@ -103,7 +103,7 @@ static stroke project_edge_line(const scene *s, const edge *e)
 
 /* Returns the coordinate on the edge's line of the point that appears at a column or row of the picture. The result is
  * clamped to the ends of the merged edge. */
-static double find_coordinate(const scene *s, const stroke *k, double pixel)
+static double find_coordinate_at_pixel(const scene *s, const stroke *k, double pixel)
 {
     const camera *c = &s->camera;
     const double slope = (pixel - c->middle[k->across]) / c->zoom * (k->across ? -1 : 1);
@@ -144,7 +144,7 @@ static double find_distance_from_edge(const box_edge *edge, double at)
 size_t edge_boxes_find_owner(const edge_boxes *all, const edge *e, int x, int y)
 {
     const stroke k = project_edge_line(all->scene, e);
-    const double at = k.speck ? k.from : find_coordinate(all->scene, &k, (k.across ? y : x) + 0.5);
+    const double at = k.speck ? k.from : find_coordinate_at_pixel(all->scene, &k, (k.across ? y : x) + 0.5);
     const box_edge *best = NULL;
     for (size_t i = find_first_edge(all, &k.line); is_on_line(all, i, &k); i++) {
         const box_edge *found = &all->items[i];
@@ -163,7 +163,8 @@ void edge_boxes_visit_sharing(const edge_boxes *all, const edge *e, int x, int y
     double low = k.from, high = k.to;
     if (!k.speck) {
         const int pixel = k.across ? y : x;
-        const double ends[2] = {find_coordinate(all->scene, &k, pixel), find_coordinate(all->scene, &k, pixel + 1)};
+        const double ends[2] = {find_coordinate_at_pixel(all->scene, &k, pixel),
+                                find_coordinate_at_pixel(all->scene, &k, pixel + 1)};
         low = fmin(ends[0], ends[1]);
         high = fmax(ends[0], ends[1]);
     }

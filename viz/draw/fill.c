@@ -195,7 +195,7 @@ typedef struct side {
 } side;
 
 /* Advance to the edge that crosses the centres of a row's pixels. */
-static void begin_next_edge(side *s, const quad *q, int row, int height)
+static void begin_next_edge_of_side(side *s, const quad *q, int row, int height)
 {
     int from;
     do {
@@ -218,9 +218,9 @@ static void fill_convex(const target *t, const quad *q, int turn)
     side left = {.corner = top, .way = turn > 0 ? 3 : 1}, right = {.corner = top, .way = turn > 0 ? 1 : 3};
     for (int row = find_first_pixel(q->y[top], t->height); row < end; row++) {
         if (row >= left.end)
-            begin_next_edge(&left, q, row, t->height);
+            begin_next_edge_of_side(&left, q, row, t->height);
         if (row >= right.end)
-            begin_next_edge(&right, q, row, t->height);
+            begin_next_edge_of_side(&right, q, row, t->height);
         const int64_t first = left.edge.at > 0 ? left.edge.at : 0,
                       last = right.edge.at < t->width ? right.edge.at : t->width;
         if (first < last)

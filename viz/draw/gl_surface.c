@@ -58,7 +58,7 @@ static bool load_gl_functions(gl *functions, const context *c, octreel_error *er
         missing = "gl" #name;
     GL_FUNCTIONS(GL_LOOK_UP)
 #undef GL_LOOK_UP
-    return !missing || error_set(error, "the %s context has no %s", draw_context_name(c->kind), missing);
+    return !missing || error_set(error, "the %s context has no function %s", draw_context_name(c->kind), missing);
 }
 
 #define BATCH 8192 /* the maximum number of quads in one draw call */
@@ -107,7 +107,7 @@ static bool make_framebuffer(gl_surface *s, octreel_error *error)
     if (s->side <= limits[0] && s->side <= limits[1] && s->width <= largest && s->height <= largest &&
         gl->CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE && gl->GetError() == GL_NO_ERROR)
         return true;
-    return error_set(error, "the %s context gives no framebuffer of %d x %d pixels",
+    return error_set(error, "the %s context cannot create a framebuffer of %d x %d pixels",
                      draw_context_name(s->context->kind), s->width, s->height);
 }
 

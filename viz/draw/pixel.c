@@ -43,14 +43,14 @@ typedef struct source {
 /* A scene and its close-up. The second entry is empty if the scene has no close-up. */
 typedef source sources[2];
 
-static void release_sources(sources all)
+static void release_quad_sources(sources all)
 {
     for (int i = 0; i < 2; i++)
         edge_boxes_release(&all[i].boxes);
 }
 
 /* Fill *from for a scene that `p` has painted. Returns false if memory runs out. */
-static bool open_source(source *from, const scene *s, const painter *p)
+static bool open_quad_source(source *from, const scene *s, const painter *p)
 {
     const int samples = s->view.aa;
     from->scene = s;
@@ -64,9 +64,9 @@ static bool open_source(source *from, const scene *s, const painter *p)
 
 /* Fill zeroed sources for a scene and its close-up. The sources must not be moved in memory afterwards. Returns false
  * if memory runs out. */
-static bool open_sources(sources all, const scene *s, const painter *p)
+static bool open_quad_sources(sources all, const scene *s, const painter *p)
 {
-    if (!open_source(&all[0], s, p) || (s->has_closeup && !open_source(&all[1], s->closeup, p->closeup)))
+    if (!open_quad_source(&all[0], s, p) || (s->has_closeup && !open_quad_source(&all[1], s->closeup, p->closeup)))
         return false;
     all[1].strokes_before = all[0].strokes;
     all[1].elements_before = (uint32_t)scene_count_elements(s);
@@ -166,11 +166,11 @@ bool renderer_find_element_numbers(renderer *r, const scene *s, uint32_t *number
         return false;
     painter p = {0}; /* a painter of its own, because the renderer's painter must keep the previous frame */
     sources all = {0};
-    const bool ok = ((painter_paint_scene(&p, s) && open_sources(all, s, &p)) || error_no_memory(error)) &&
+    const bool ok = ((painter_paint_scene(&p, s) && open_quad_sources(all, s, &p)) || error_no_memory(error)) &&
                     draw_stroke_numbers(r, s, &p, all, numbers, error);
     if (ok)
         replace_stroke_numbers(s, all, numbers);
-    release_sources(all);
+    release_quad_sources(all);
     painter_release(&p);
     return ok;
 }
@@ -405,9 +405,9 @@ bool renderer_list_pixel_covers(renderer *r, const scene *s, int x, int y, draw_
     if (x < 0 || y < 0 || x >= s->view.width || y >= s->view.height)
         return error_set(error, "pixel (%d, %d) is outside the picture, which has %d x %d pixels", x, y, s->view.width,
                          s->view.height);
-    p.out_of_memory = !painter_paint_scene(&p.painter, s) || !open_sources(p.sources, s, &p.painter);
+    p.out_of_memory = !painter_paint_scene(&p.painter, s) || !open_quad_sources(p.sources, s, &p.painter);
     const bool ok = p.out_of_memory || add_all_quad_covers(r, &p, error);
-    release_sources(p.sources);
+    release_quad_sources(p.sources);
     painter_release(&p.painter);
     return p.out_of_memory ? error_no_memory(error) : ok;
 }

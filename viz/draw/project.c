@@ -237,7 +237,7 @@ static void find_visible_points(const scene *s, point_run *run)
     }
 }
 
-static void project_run(const scene *s, point_run *run)
+static void project_point_run(const scene *s, point_run *run)
 {
     const camera c = s->camera; /* a copy of the camera, so that the compiler knows that no write below changes it */
     for (int axis = 0; axis < 3; axis++)
@@ -283,7 +283,7 @@ void project_points(const scene *s, const scene_marker *markers, size_t count, p
         point_run run;
         const size_t size = count - first < RUN ? count - first : RUN;
         gather_positions(markers + first, size, &run);
-        project_run(s, &run);
+        project_point_run(s, &run);
         for (size_t i = 0; i < size; i++)
             places[first + i] = make_point_place(s, &run, i);
     }

@@ -81,7 +81,7 @@ bool renderer_fits_scene(const renderer *r, const scene *s, octreel_error *error
 {
     const int samples = s->view.aa;
     return (s->view.width * samples == r->width && s->view.height * samples == r->height) ||
-           error_set(error, "the scene is not of the renderer's size");
+           error_set(error, "the scene and the renderer have different sizes");
 }
 
 bool renderer_fill_quads(renderer *r, const quad *quads, size_t count, renderer_part part, uint8_t *bytes,

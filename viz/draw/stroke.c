@@ -171,7 +171,7 @@ void stroke_add_line(quad_list *list, const pencil *with, const piece *pieces, u
         add_arrow_head(list, with, &pieces[0], &pieces[count - 1]);
 }
 
-static void add_frame(quad_list *list, quad q, int left, int top, int side, int line)
+static void add_square_outline(quad_list *list, quad q, int left, int top, int side, int line)
 {
     add_rectangle(list, q, left, top, side, line);
     add_rectangle(list, q, left, top + side - line, side, line);
@@ -250,7 +250,7 @@ void stroke_add_marker(quad_list *list, const pencil *with, scene_shape shape, c
         add_diamond(list, q, left, top, side);
         break;
     case SHAPE_FRAME:
-        add_frame(list, q, left, top, side, thin.width);
+        add_square_outline(list, q, left, top, side, thin.width);
         break;
     case SHAPE_LOZENGE:
         add_diamond_outline(list, &thin, band, left, top, side);

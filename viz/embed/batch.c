@@ -48,7 +48,7 @@ static int compare_changes(const void *a, const void *b)
     return c->id != d->id ? (c->id > d->id) - (c->id < d->id) : (c->order > d->order) - (c->order < d->order);
 }
 
-size_t changes_settle(change *changes, size_t count)
+size_t combine_changes(change *changes, size_t count)
 {
     size_t settled = 0;
     bool sorted = true;
@@ -68,7 +68,7 @@ size_t changes_settle(change *changes, size_t count)
     return settled;
 }
 
-static void put_point(point_table *table, uint64_t id, const double at[3])
+static void set_point_position(point_table *table, uint64_t id, const double at[3])
 {
     octree_point point = {.id = id};
     memcpy(point.position, at, sizeof point.position);
@@ -80,7 +80,7 @@ void change_apply(const change *c, point_table *table)
     if (c->kind == OCTREE_EDIT_REMOVE)
         point_table_remove(table, c->id);
     else
-        put_point(table, c->id, c->to);
+        set_point_position(table, c->id, c->to);
 }
 
 void change_revert(const change *c, point_table *table)
@@ -88,7 +88,7 @@ void change_revert(const change *c, point_table *table)
     if (c->kind == OCTREE_EDIT_INSERT)
         point_table_remove(table, c->id);
     else
-        put_point(table, c->id, c->from);
+        set_point_position(table, c->id, c->from);
 }
 
 /* ---- Gaps --------------------------------------------------------------------------------------------------- */
@@ -116,7 +116,7 @@ uint64_t gap_list_ticks(const gap_run *runs, size_t count)
 /* ---- Batches ------------------------------------------------------------------------------------------------ */
 
 /* Copy an array and add its size to the bytes of the batch. Returns null if memory runs out or the array is empty. */
-static void *copy(batch *b, const void *from, size_t count, size_t item_size)
+static void *copy_into_batch(batch *b, const void *from, size_t count, size_t item_size)
 {
     void *to = count > 0 && count <= SIZE_MAX / item_size ? malloc(count * item_size) : NULL;
     if (to) {
@@ -130,20 +130,20 @@ static bool copy_about(batch *b, const octreel_tick_info *about)
 {
     b->query_count = about->query_count;
     b->shape_count = about->shape_count;
-    b->shapes = copy(b, about->shapes, about->shape_count, sizeof *about->shapes);
+    b->shapes = copy_into_batch(b, about->shapes, about->shape_count, sizeof *about->shapes);
     if (b->shape_count && !b->shapes)
         return false;
-    b->queries = copy(b, about->queries, about->query_count, sizeof *about->queries);
+    b->queries = copy_into_batch(b, about->queries, about->query_count, sizeof *about->queries);
     bool whole = b->queries || b->query_count == 0;
     /* After a failed copy, continue with the other queries: no copied query may keep a pointer into the program's
      * memory. */
     for (size_t i = 0; b->queries && i < b->query_count; i++) {
         octree_query *query = &b->queries[i];
-        query->answer = whole ? copy(b, query->answer, query->answer_count, sizeof *query->answer) : NULL;
+        query->answer = whole ? copy_into_batch(b, query->answer, query->answer_count, sizeof *query->answer) : NULL;
         whole = whole && (query->answer || query->answer_count == 0);
         for (int met = 0; met < OCTREE_NODE_VISITS; met++) {
             octree_ids *ids = &query->visits[met];
-            ids->ids = whole ? copy(b, ids->ids, ids->count, sizeof *ids->ids) : NULL;
+            ids->ids = whole ? copy_into_batch(b, ids->ids, ids->count, sizeof *ids->ids) : NULL;
             whole = whole && (ids->ids || ids->count == 0);
         }
         /* A larger k finds no more points, because no tree holds more than UINT32_MAX. The recorder's files cannot hold
@@ -162,7 +162,7 @@ batch *batch_make_gaps(const gap_list *gaps)
     b->bytes = sizeof *b;
     b->is_gap = true;
     b->gap_count = gaps->count;
-    b->gaps = copy(b, gaps->runs, gaps->count, sizeof *gaps->runs);
+    b->gaps = copy_into_batch(b, gaps->runs, gaps->count, sizeof *gaps->runs);
     if (b->gaps || gaps->count == 0)
         return b;
     batch_release(b);
@@ -192,9 +192,9 @@ batch *batch_make(const gap_list *gaps, const octreel_tick_info *about, const oc
     return NULL;
 }
 
-void batch_settle(batch *b)
+void batch_combine_changes(batch *b)
 {
-    b->change_count = changes_settle(b->changes, b->change_count);
+    b->change_count = combine_changes(b->changes, b->change_count);
 }
 
 void batch_release(batch *b)

@@ -9,7 +9,7 @@
 
 typedef struct change {
     octree_edit_kind kind;
-    /* the change's position in the sequence in which the program made its changes; only changes_settle() uses it */
+    /* the change's position in the sequence in which the program made its changes; only combine_changes() uses it */
     uint32_t order;
     uint64_t id;
     double from[3], to[3]; /* positions before and after the change; an insertion has no `from`, a removal no `to` */
@@ -22,7 +22,7 @@ size_t changes_between(const points *before, const points *after, change *change
 /* Combine all changes of a point into one change, and sort the changes by id. Before the call, the changes must be in
  * the order in which the program made them. Changes that cancel each other are removed. Returns the new number of
  * changes. `count` may be at most UINT32_MAX. Cost: O(m log m) for m changes. */
-size_t changes_settle(change *changes, size_t count);
+size_t combine_changes(change *changes, size_t count);
 
 /* Set *made to the change of a point from position `from` to position `to`. If `from` is null, the change is an
  * insertion; if `to` is null, it is a removal. Returns false if the two positions are equal, because then nothing
@@ -57,7 +57,8 @@ typedef struct batch {
     gap_run *gaps; /* the refused ticks before the accepted tick */
     size_t gap_count;
     bool is_gap; /* true: the batch has gaps but no tick */
-    /* the point changes of the tick, in the order in which the program made them; batch_settle() sorts them by id */
+    /* the point changes of the tick, in the order in which the program made them; batch_combine_changes() sorts them by
+     * id */
     change *changes;
     size_t change_count;
     octree_query *queries;
@@ -75,7 +76,7 @@ typedef struct batch {
 batch *batch_make(const gap_list *gaps, const octreel_tick_info *about, const octree_foreign_tree *foreign);
 
 /* Combine all changes of a point in the batch into one change, and sort the changes by id. */
-void batch_settle(batch *b);
+void batch_combine_changes(batch *b);
 
 /* Make a batch that has gaps but no tick. Returns null if memory runs out. */
 batch *batch_make_gaps(const gap_list *gaps);

@@ -37,21 +37,20 @@ static octreel_status check_tree(const octree_def *own, const octree *tree, octr
         if (def.world.min[i] != own->world.min[i] || def.world.max[i] != own->world.max[i])
             return status_refuse(
                 error, OCTREEL_OTHER_TREE,
-                "the tree's world on %c is [%.17g, %.17g], and the recorder was opened for [%.17g, %.17g]", "xyz"[i],
-                def.world.min[i], def.world.max[i], own->world.min[i], own->world.max[i]);
+                "the tree's world on axis %c is [%.17g, %.17g], but the recorder was opened with [%.17g, %.17g]",
+                "xyz"[i], def.world.min[i], def.world.max[i], own->world.min[i], own->world.max[i]);
     if (def.leaf_capacity != own->leaf_capacity)
-        return status_refuse(
-            error, OCTREEL_OTHER_TREE,
-            "the tree's leaf_capacity is %zu, and the recorder was opened for %zu; a tree under OCTREE_AUTO "
-            "changes it: give it a fixed one",
-            def.leaf_capacity, own->leaf_capacity);
+        return status_refuse(error, OCTREEL_OTHER_TREE,
+                             "the tree's leaf_capacity is %zu, but the recorder was opened with %zu; OCTREE_AUTO "
+                             "changes the capacity: give the tree a fixed capacity",
+                             def.leaf_capacity, own->leaf_capacity);
     if (def.max_depth != own->max_depth)
         return status_refuse(error, OCTREEL_OTHER_TREE,
-                             "the tree's max_depth is %zu, and the recorder was opened for %zu", def.max_depth,
+                             "the tree's max_depth is %zu, but the recorder was opened with %zu", def.max_depth,
                              own->max_depth);
     if (def.full_leaf != own->full_leaf)
         return status_refuse(error, OCTREEL_OTHER_TREE,
-                             "the tree's full_leaf is not that of the definition that the recorder was opened for");
+                             "the tree's full_leaf differs from the definition with which the recorder was opened");
     return OCTREEL_OK;
 }
 
@@ -59,11 +58,11 @@ static octreel_status check_tree(const octree_def *own, const octree *tree, octr
 
 /* Combine the pending changes of each point when the number of changes has doubled since the previous call that
  * combined them. Changes that cancel each other disappear, which limits memory while no tick is accepted. */
-static void settle_pending(contents *c)
+static void combine_pending_changes(contents *c)
 {
     enum { FEW = 1024 };
     if (c->change_count > FEW && c->change_count / 2 > c->settled)
-        c->change_count = c->settled = changes_settle(c->changes, c->change_count);
+        c->change_count = c->settled = combine_changes(c->changes, c->change_count);
 }
 
 static bool reserve_changes(contents *c, size_t more)
@@ -94,7 +93,7 @@ static void revert_tick(contents *c)
 }
 
 /* Switch from sorted lists to the table. Returns false if memory runs out. */
-static bool start_table(contents *c)
+static bool start_point_table(contents *c)
 {
     if (c->tabled)
         return true;
@@ -111,7 +110,7 @@ static bool start_table(contents *c)
 
 /* Switch from the table back to sorted lists: `now` becomes the list of points before the tick that is being read.
  * Returns false if memory runs out. */
-static bool start_lists(contents *c)
+static bool start_point_lists(contents *c)
 {
     if (!c->tabled)
         return true;
@@ -152,7 +151,7 @@ static octreel_status read_edits(contents *c, const octreel_tick_info *about, oc
 {
     octreel_status first = OCTREEL_OK;
     octreel_error later;
-    if (!start_table(c))
+    if (!start_point_table(c))
         return status_fail(error, OCTREEL_NO_MEMORY);
     c->source = FROM_CHANGES;
     for (size_t i = 0; about && i < about->change_count; i++) {
@@ -167,11 +166,11 @@ static octreel_status read_edits(contents *c, const octreel_tick_info *about, oc
 /* ---- A list, or a whole tree -------------------------------------------------------------------------------- */
 
 /* Read all points of a tree, or of a list if the tree is null. */
-static octreel_status read_whole(contents *c, const octree *tree, const octree_point *list, size_t count,
-                                 octreel_error *error)
+static octreel_status read_whole_tree(contents *c, const octree *tree, const octree_point *list, size_t count,
+                                      octreel_error *error)
 {
     uint64_t clash = 0;
-    if (!start_lists(c))
+    if (!start_point_lists(c))
         return status_fail(error, OCTREEL_NO_MEMORY);
     const octreel_status status = points_read(&c->next, &c->spare, tree, list, count, &clash);
     if (status == OCTREEL_DUPLICATE_ID && !tree)
@@ -187,18 +186,18 @@ static octreel_status read_whole(contents *c, const octree *tree, const octree_p
     return OCTREEL_OK;
 }
 
-static octreel_status read_list(contents *c, const octree_point *list, size_t count, octreel_error *error)
+static octreel_status read_point_list(contents *c, const octree_point *list, size_t count, octreel_error *error)
 {
     for (size_t i = 0; i < count; i++)
         if (!is_finite_place(list[i].position))
             return status_refuse(error, OCTREEL_BAD_POINT, "points[%zu]: a coordinate is NaN or infinite", i);
-    return read_whole(c, NULL, list, count, error);
+    return read_whole_tree(c, NULL, list, count, error);
 }
 
 /* ---- Changes from a tree's log ------------------------------------------------------------------------------ */
 
 /* Returns a new name for a cursor into a tree's change log. The name was not used before and is never 0. */
-static size_t make_log_name(contents *c)
+static size_t choose_log_number(contents *c)
 {
     struct timespec now = {0};
     if (c->names == 0 && timespec_get(&now, TIME_UTC))
@@ -230,9 +229,9 @@ static bool read_log(contents *c, const octree *tree)
     c->log_incomplete = false;
     if (c->many_changes) /* A zero cursor does not ask for the tree's change log, so the tree may stop keeping a log. */
         c->mark = (octree_cursor){0};
-    if (c->many_changes || (c->mark.log != 0 && !start_table(c)))
+    if (c->many_changes || (c->mark.log != 0 && !start_point_table(c)))
         return false;
-    return octree_changes_since(tree, make_log_name(c), &c->mark, apply_logged, c) && !c->log_incomplete &&
+    return octree_changes_since(tree, choose_log_number(c), &c->mark, apply_logged, c) && !c->log_incomplete &&
            c->table.count == octree_count(tree);
 }
 
@@ -240,7 +239,7 @@ static octreel_status read_tree(contents *c, const octree_def *def, const octree
 {
     octreel_status status = check_tree(def, tree, error);
     if (status == OCTREEL_OK && !read_log(c, tree))
-        status = read_whole(c, tree, NULL, octree_count(tree), error);
+        status = read_whole_tree(c, tree, NULL, octree_count(tree), error);
     c->many_changes = c->change_count - c->kept > octree_count(tree) / 8 + 16;
     return status;
 }
@@ -249,7 +248,8 @@ static octreel_status read_tree(contents *c, const octree_def *def, const octree
 
 /* Find the source of this tick's points: tree, list or changes. If the program passes no points at this tick, the
  * source is the source of the previous tick: an empty list if it was a list, or no changes if it was changes. */
-static octreel_status find_source(contents *c, const octree *tree, const octreel_tick_info *about, octreel_error *error)
+static octreel_status choose_source_of_changes(contents *c, const octree *tree, const octreel_tick_info *about,
+                                               octreel_error *error)
 {
     const bool list = about && (about->points || about->point_count);
     const bool changes = about && (about->changes || about->change_count);
@@ -265,19 +265,19 @@ static octreel_status find_source(contents *c, const octree *tree, const octreel
 octreel_status contents_read(contents *c, const octree_def *def, const octree *tree, const octreel_tick_info *about,
                              octreel_error *error)
 {
-    settle_pending(c);
+    combine_pending_changes(c);
     c->kept = c->change_count;
-    const octreel_status status = find_source(c, tree, about, error);
+    const octreel_status status = choose_source_of_changes(c, tree, about, error);
     if (status != OCTREEL_OK)
         return status;
     if (c->read_source == FROM_TREE)
         return read_tree(c, def, tree, error);
     if (c->read_source == FROM_CHANGES)
         return read_edits(c, about, error);
-    return read_list(c, about ? about->points : NULL, about ? about->point_count : 0, error);
+    return read_point_list(c, about ? about->points : NULL, about ? about->point_count : 0, error);
 }
 
-void contents_give_changes(contents *c, batch *b)
+void contents_move_changes_to_batch(contents *c, batch *b)
 {
     if (c->change_count == 0)
         return;
@@ -289,16 +289,16 @@ void contents_give_changes(contents *c, batch *b)
     c->change_count = c->change_room = 0;
 }
 
-void contents_take_changes(contents *c, batch *b)
+void contents_move_changes_from_batch(contents *c, batch *b)
 {
-    if (b->change_count == 0) /* the batch has no changes, because contents_give_changes() had none to move */
+    if (b->change_count == 0) /* the batch has no changes, because contents_move_changes_to_batch() had none to move */
         return;
     c->changes = b->changes;
     c->change_count = c->change_room = b->change_count;
     b->changes = NULL;
 }
 
-void contents_accept(contents *c)
+void contents_accept_tick(contents *c)
 {
     c->source = c->read_source;
     c->settled = 0;
@@ -306,7 +306,7 @@ void contents_accept(contents *c)
         points_swap(&c->now, &c->next); /* the next tick's list will be compared with this tick's list */
 }
 
-void contents_refuse(contents *c, octreel_status status)
+void contents_refuse_tick(contents *c, octreel_status status)
 {
     if (c->tabled && status != OCTREEL_NO_MEMORY)
         return;

@@ -47,15 +47,15 @@ void contents_release(contents *c);
 octreel_status contents_read(contents *c, const octree_def *def, const octree *tree, const octreel_tick_info *about,
                              octreel_error *error);
 
-/* contents_give_changes() moves the changes since the last accepted tick into a batch. contents_take_changes() moves
- * them back if the batch could not be recorded. */
-void contents_give_changes(contents *c, batch *b);
-void contents_take_changes(contents *c, batch *b);
+/* contents_move_changes_to_batch() moves the changes since the last accepted tick into a batch.
+ * contents_move_changes_from_batch() moves them back if the batch could not be recorded. */
+void contents_move_changes_to_batch(contents *c, batch *b);
+void contents_move_changes_from_batch(contents *c, batch *b);
 
 /* Accept or refuse the tick that was read last. `status` is the reason for a refusal. If the points of a refused tick
  * came as a list or a whole tree, they are forgotten. If they came as edits or as changes from the tree's log, these
  * changes are kept for the next accepted tick, except after NO_MEMORY. */
-void contents_accept(contents *c);
-void contents_refuse(contents *c, octreel_status status);
+void contents_accept_tick(contents *c);
+void contents_refuse_tick(contents *c, octreel_status status);
 
 #endif

@@ -19,7 +19,7 @@ void points_release(points *p)
     *p = (points){0};
 }
 
-static bool reserve(points *p, size_t count)
+static bool reserve_points(points *p, size_t count)
 {
     return array_grow(&p->items, count, &p->room, sizeof *p->items);
 }
@@ -101,7 +101,7 @@ octreel_status points_read(points *p, points *spare, const octree *tree, const o
     p->count = 0;
     if (count == 0)
         return OCTREEL_OK;
-    if (!reserve(p, count) || !reserve(spare, count))
+    if (!reserve_points(p, count) || !reserve_points(spare, count))
         return OCTREEL_NO_MEMORY;
     if (tree)
         octree_walk(tree, add_leaf, p); /* octree_walk() cannot fail here, because its arguments are valid */
@@ -125,7 +125,7 @@ void point_table_release(point_table *t)
     *t = (point_table){0};
 }
 
-static size_t find_home(const point_table *t, uint64_t id)
+static size_t find_home_slot(const point_table *t, uint64_t id)
 {
     return (size_t)octree_digest_word(0, id) & (t->size - 1);
 }
@@ -133,7 +133,7 @@ static size_t find_home(const point_table *t, uint64_t id)
 /* Returns the slot that holds the id. If the id is missing, returns the empty slot where it can be inserted. */
 static size_t find_slot(const point_table *t, uint64_t id)
 {
-    size_t slot = find_home(t, id);
+    size_t slot = find_home_slot(t, id);
     while (t->slots[slot].id != id && t->slots[slot].id != NO_ID)
         slot = (slot + 1) & (t->size - 1);
     return slot;
@@ -179,7 +179,7 @@ void point_table_remove(point_table *t, uint64_t id)
     const size_t mask = t->size - 1;
     size_t hole = find_slot(t, id);
     for (size_t next = (hole + 1) & mask; t->slots[next].id != NO_ID; next = (next + 1) & mask) {
-        const size_t home = find_home(t, t->slots[next].id);
+        const size_t home = find_home_slot(t, t->slots[next].id);
         if (((next - home) & mask) < ((next - hole) & mask))
             continue;
         t->slots[hole] = t->slots[next];
@@ -194,7 +194,7 @@ bool point_table_list(const point_table *t, points *p, points *spare)
     p->count = 0;
     if (t->count == 0)
         return true;
-    if (!reserve(p, t->count) || !reserve(spare, t->count))
+    if (!reserve_points(p, t->count) || !reserve_points(spare, t->count))
         return false;
     for (size_t i = 0; i < t->size; i++)
         if (t->slots[i].id != NO_ID)

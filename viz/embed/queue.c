@@ -73,7 +73,7 @@ batch *queue_take(queue *q)
     return b;
 }
 
-void queue_done(queue *q, batch *b)
+void queue_finish_batch(queue *q, batch *b)
 {
     release_unless_borrowed(q, b);
 }
@@ -102,7 +102,7 @@ void queue_end(queue *q)
     wake_and_unlock(q);
 }
 
-void queue_break(queue *q, batch *b)
+void queue_fail(queue *q, batch *b)
 {
     release_unless_borrowed(q, b);
     pthread_mutex_lock(&q->lock);

@@ -32,7 +32,7 @@ octreel_status queue_put(queue *q, batch *b, bool wait);
 batch *queue_take(queue *q);
 
 /* Release the batch that queue_take() returned last. Call this after the batch is recorded. */
-void queue_done(queue *q, batch *b);
+void queue_finish_batch(queue *q, batch *b);
 
 /* Tell waiting threads that the recording has begun. */
 void queue_begin(queue *q);
@@ -44,6 +44,6 @@ void queue_end(queue *q);
 
 /* Tell waiting threads that the recording has failed. Batch `b`, all batches in the queue and all later batches are
  * released. */
-void queue_break(queue *q, batch *b);
+void queue_fail(queue *q, batch *b);
 
 #endif

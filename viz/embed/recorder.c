@@ -110,8 +110,9 @@ static octreel_status set_player(octreel_recorder *r, const octree_player *playe
     if (player->kind == OCTREE_PLAYER_NONE)
         return OCTREEL_OK;
     if (player->kind != OCTREE_PLAYER_BODY)
-        return status_refuse(&r->error, OCTREEL_BAD_OPTION,
-                             "player: kind must be OCTREE_PLAYER_NONE or OCTREE_PLAYER_BODY; a recorder has no keys");
+        return status_refuse(
+            &r->error, OCTREEL_BAD_OPTION,
+            "player: kind must be OCTREE_PLAYER_NONE or OCTREE_PLAYER_BODY; a recorder has no key presses");
     if (!(player->box_size >= 0) || isinf(player->box_size))
         return status_refuse(&r->error, OCTREEL_BAD_OPTION, "player: box_size must be finite and not negative");
     if (player->id >= SESSION_ID_LIMIT)
@@ -168,7 +169,7 @@ static octreel_status set_film(octreel_recorder *r, const octreel_recorder_def *
               context = json_find_name(draw_context_name, def->context);
     if (fill < 0)
         return status_refuse(&r->error, OCTREEL_BAD_OPTION,
-                             "fill: unknown rasterizer \"%s\"; octreel record --help lists them", def->fill);
+                             "fill: unknown rasterizer \"%s\"; octreel record --help lists the rasterizers", def->fill);
     if (context < 0)
         return status_refuse(&r->error, OCTREEL_BAD_OPTION,
                              "context: unknown name \"%s\"; octreel record --help lists the names", def->context);
@@ -176,13 +177,14 @@ static octreel_status set_film(octreel_recorder *r, const octreel_recorder_def *
     if (film->renderer.any_renderer && film->renderer.context != DRAW_EGL)
         return status_refuse(&r->error, OCTREEL_BAD_OPTION, "any_renderer: works only with the context \"egl\"");
     if (def->every > SESSION_LAST_TICK)
-        return status_refuse(&r->error, OCTREEL_BAD_OPTION, "every: must be 0 (no frames) to %d", SESSION_LAST_TICK);
+        return status_refuse(&r->error, OCTREEL_BAD_OPTION, "every: must be from 0 (no frames) to %d",
+                             SESSION_LAST_TICK);
     if (def->queue_ticks < 1)
         return status_refuse(&r->error, OCTREEL_BAD_OPTION, "queue_ticks: the queue must hold at least one tick");
     return OCTREEL_OK;
 }
 
-static octreel_status set_all(octreel_recorder *r, const octreel_recorder_def *def)
+static octreel_status set_options(octreel_recorder *r, const octreel_recorder_def *def)
 {
     r->settings.film.view = view_make_default();
     r->never_wait = def->never_wait;
@@ -215,7 +217,7 @@ static octreel_status check_folder(octreel_recorder *r, const char *folder)
 static octreel_status start_filming(octreel_recorder *r, const octreel_recorder_def *def)
 {
     if (!def->folder)
-        return status_refuse(&r->error, OCTREEL_NULL_ARGUMENT, "folder: null; set a folder or a ring");
+        return status_refuse(&r->error, OCTREEL_NULL_ARGUMENT, "folder: must not be null without a ring");
     r->folder = strdup(def->folder);
     if (!r->folder)
         return status_fail(&r->error, OCTREEL_NO_MEMORY);
@@ -251,7 +253,7 @@ static octreel_status open_recorder(const octreel_recorder_def *def, octreel_rec
     else if (!(r = calloc(1, sizeof *r)))
         status = status_fail(&none.error, OCTREEL_NO_MEMORY);
     else
-        status = set_all(r, def);
+        status = set_options(r, def);
     if (status == OCTREEL_OK && r->ring.most == 0)
         status = start_filming(r, def);
     if (status == OCTREEL_OK) {
@@ -275,9 +277,9 @@ static octreel_status let_leaves_grow(octreel_recorder *r)
     if (!listed || r->settings.tree.full_leaf == OCTREE_GROW)
         return OCTREEL_OK;
     if (r->put > 0)
-        return status_refuse(
-            &r->error, OCTREEL_OTHER_TREE,
-            "a list after ticks without points needs OCTREE_GROW as full_leaf of the definition's tree");
+        return status_refuse(&r->error, OCTREEL_OTHER_TREE,
+                             "the first ticks had no points: a later list of points needs OCTREE_GROW as full_leaf of "
+                             "the definition's tree");
     r->settings.tree.full_leaf = OCTREE_GROW;
     return OCTREEL_OK;
 }
@@ -323,7 +325,7 @@ static octreel_status queue_batch(octreel_recorder *r, batch *b, bool *taken)
     return r->filmer.status;
 }
 
-static octreel_status hand_over_batch(octreel_recorder *r, batch *b)
+static octreel_status queue_batch_or_keep(octreel_recorder *r, batch *b)
 {
     octreel_status status = OCTREEL_OK;
     bool taken = true;
@@ -332,7 +334,7 @@ static octreel_status hand_over_batch(octreel_recorder *r, batch *b)
     else if (!(taken = ring_put(&r->ring, b)))
         status = status_fail(&r->error, OCTREEL_NO_MEMORY);
     if (!taken) {
-        contents_take_changes(&r->contents, b);
+        contents_move_changes_from_batch(&r->contents, b);
         batch_release(b);
     }
     return status;
@@ -344,8 +346,8 @@ static octreel_status record_tick(octreel_recorder *r, const octreel_tick_info *
     batch *b = batch_make(&r->gaps, about, said ? said : r->has_kept ? &r->kept : NULL);
     if (!b)
         return status_fail(&r->error, OCTREEL_NO_MEMORY);
-    contents_give_changes(&r->contents, b);
-    return hand_over_batch(r, b);
+    contents_move_changes_to_batch(&r->contents, b);
+    return queue_batch_or_keep(r, b);
 }
 
 static octreel_status accept_tick(octreel_recorder *r, const octree *tree, const octreel_tick_info *about)
@@ -363,10 +365,10 @@ static octreel_status accept_tick(octreel_recorder *r, const octree *tree, const
         !keep_foreign_nodes(r, about->foreign))
         status = status_fail(&r->error, OCTREEL_NO_MEMORY);
     if (status != OCTREEL_OK) {
-        contents_refuse(&r->contents, status);
+        contents_refuse_tick(&r->contents, status);
         return status;
     }
-    contents_accept(&r->contents);
+    contents_accept_tick(&r->contents);
     foreign_tree_release(&r->kept);
     r->has_kept = false;
     r->gaps.count = 0;
@@ -415,7 +417,7 @@ static octreel_status ring_write(octreel_recorder *r, const char *folder)
     return status == OCTREEL_OK ? report_losses(r, &lost, ticks) : status;
 }
 
-static octreel_status write_recorder(octreel_recorder *r, const char *folder, uint64_t *first)
+static octreel_status write_ring_to_folder(octreel_recorder *r, const char *folder, uint64_t *first)
 {
     if (!folder)
         return status_fail(&r->error, OCTREEL_NULL_ARGUMENT);
@@ -497,7 +499,7 @@ octreel_status octreel_recorder_tick(octreel_recorder *recorder, const octree *t
 octreel_status octreel_recorder_write(octreel_recorder *recorder, const char *folder, uint64_t *first)
 {
     const fenv_t program = enter_default_mode();
-    const octreel_status status = recorder ? write_recorder(recorder, folder, first) : OCTREEL_OK;
+    const octreel_status status = recorder ? write_ring_to_folder(recorder, folder, first) : OCTREEL_OK;
     fesetenv(&program);
     return status;
 }

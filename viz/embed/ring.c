@@ -22,7 +22,7 @@ static void clear_changes(batch *b)
 
 /* Make a tick the first tick of the ring: apply its changes to the points in r->start, and drop the gaps before the
  * tick. Returns false if memory runs out. */
-static bool start_at(ring *r, batch *b)
+static bool restart_ring_at(ring *r, batch *b)
 {
     if (!point_table_reserve(&r->start, r->start.count + b->change_count))
         return false;
@@ -36,7 +36,7 @@ static bool start_at(ring *r, batch *b)
 
 /* Move the foreign nodes of a tick to the next tick, unless the next tick has foreign nodes itself. Foreign nodes stay
  * valid until a tick has new foreign nodes. */
-static void pass_foreign_nodes(batch *from, batch *to)
+static void move_foreign_nodes(batch *from, batch *to)
 {
     if (!from->has_foreign || to->has_foreign)
         return;
@@ -49,11 +49,11 @@ bool ring_put(ring *r, batch *b)
 {
     const bool full = r->list.count == r->most;
     batch *first = r->list.first, *second = first && first->next ? first->next : b;
-    if ((full || !first) && !start_at(r, second))
+    if ((full || !first) && !restart_ring_at(r, second))
         return false;
     if (full) {
         first = batch_list_take(&r->list);
-        pass_foreign_nodes(first, second);
+        move_foreign_nodes(first, second);
         batch_release(first);
         r->dropped++;
     }

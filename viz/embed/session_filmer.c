@@ -12,7 +12,7 @@
 /* ---- Ticks -------------------------------------------------------------------------------------------------- */
 
 /* Set the tick number of a batch's queries, shapes and foreign nodes, because the program does not set it. */
-static void number_tick(batch *b, uint64_t tick)
+static void set_tick_number(batch *b, uint64_t tick)
 {
     for (size_t i = 0; i < b->query_count; i++)
         b->queries[i].tick = tick;
@@ -81,7 +81,7 @@ static octreel_status film_input(session_filmer *f, const octree_input *input)
 
 /* Record the tick of a batch. `changes` is false if tick 0 was a gap: tick 0 has then already used the batch's
  * points. */
-static octreel_status film_next(session_filmer *f, const batch *b, bool changes)
+static octreel_status film_next_batch(session_filmer *f, const batch *b, bool changes)
 {
     f->order.count = 0;
     if (changes && !edit_order_make(&f->order, b, f->tick))
@@ -114,12 +114,12 @@ static octreel_status film_gaps(session_filmer *f, const batch *b)
 static octreel_status film_batch(session_filmer *f, batch *b)
 {
     const bool begun = f->tick > 0;
-    batch_settle(b); /* the recording thread sorts the changes, to save time in the program's thread */
+    batch_combine_changes(b); /* the recording thread sorts the changes, to save time in the program's thread */
     octreel_status status = film_gaps(f, b);
     if (status != OCTREEL_OK || b->is_gap)
         return status;
-    number_tick(b, f->tick);
-    status = f->tick == 0 ? film_first_tick(f, b, NULL) : film_next(f, b, begun);
+    set_tick_number(b, f->tick);
+    status = f->tick == 0 ? film_first_tick(f, b, NULL) : film_next_batch(f, b, begun);
     f->tick++;
     return status;
 }
@@ -133,11 +133,11 @@ static void film_queue(session_filmer *f)
     batch *b;
     while (f->status == OCTREEL_OK && (b = queue_take(f->queue))) {
         f->status = film_batch(f, b);
-        (f->status == OCTREEL_OK ? queue_done : queue_break)(f->queue, b);
+        (f->status == OCTREEL_OK ? queue_finish_batch : queue_fail)(f->queue, b);
     }
 }
 
-static void *run(void *context)
+static void *run_filmer_thread(void *context)
 {
     session_filmer *f = context;
     octreel_error late;
@@ -157,7 +157,7 @@ octreel_status session_filmer_start(session_filmer *f)
     /* Block all signals in this thread now, because the new thread inherits the signal mask. */
     if (pthread_sigmask(SIG_SETMASK, &all, &before) != 0)
         return OCTREEL_NO_MEMORY;
-    const bool started = pthread_create(&f->thread, NULL, run, f) == 0;
+    const bool started = pthread_create(&f->thread, NULL, run_filmer_thread, f) == 0;
     pthread_sigmask(SIG_SETMASK, &before, NULL);
     return started ? OCTREEL_OK : OCTREEL_NO_MEMORY;
 }

@@ -150,7 +150,7 @@ static bool advance_games(playing *p, octreel_error *error)
     return true;
 }
 
-static bool same_rules(const octree *a, const octree *b)
+static bool have_same_rules(const octree *a, const octree *b)
 {
     const octree_def x = octree_definition(a), y = octree_definition(b);
     return memcmp(&x.world, &y.world, sizeof x.world) == 0 && x.leaf_capacity == y.leaf_capacity &&
@@ -185,7 +185,7 @@ bool cause_find(const session_file *a, const session_file *b, const cause_view v
     p.shows_heat = views && ((views[0].view.layers | views[1].view.layers) & VIEW_HEAT_LAYERS);
     bool ok = (!c->session.out_of_memory && !c->view.out_of_memory) || error_no_memory(error);
     ok = ok && create_game(&p, 0, &a->session, error) && create_game(&p, 1, &b->session, error);
-    p.same_rules = ok && same_rules(octree_game_tree(p.games[0]), octree_game_tree(p.games[1]));
+    p.same_rules = ok && have_same_rules(octree_game_tree(p.games[0]), octree_game_tree(p.games[1]));
     for (bool over = false; ok && !over;) {
         ok = compare_tick(&p, error);
         over = octree_game_over(p.games[0]) || octree_game_over(p.games[1]);

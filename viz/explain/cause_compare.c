@@ -76,7 +76,7 @@ static keyed read_key(json_t *list, size_t i)
     return key;
 }
 
-static int by_key(const void *a, const void *b)
+static int compare_by_key(const void *a, const void *b)
 {
     const keyed *x = a, *y = b;
     if (x->id != y->id)
@@ -84,9 +84,9 @@ static int by_key(const void *a, const void *b)
     return strcmp(x->word, y->word);
 }
 
-static int by_key_and_place(const void *a, const void *b)
+static int compare_by_key_and_place(const void *a, const void *b)
 {
-    const int order = by_key(a, b);
+    const int order = compare_by_key(a, b);
     return order ? order : (((const keyed *)a)->place > ((const keyed *)b)->place ? 1 : -1);
 }
 
@@ -96,7 +96,7 @@ static keyed *sort_by_key(json_t *list, size_t count)
     for (size_t i = 0; sorted && i < count; i++)
         sorted[i] = read_key(list, i);
     if (sorted)
-        qsort(sorted, count, sizeof *sorted, by_key_and_place);
+        qsort(sorted, count, sizeof *sorted, compare_by_key_and_place);
     return sorted;
 }
 
@@ -108,7 +108,7 @@ static void compare_keyed(const cause_place *place, json_t *a, json_t *b)
     bool same = true, same_order = true;
     place->facts->out_of_memory |= !as || !bs;
     for (size_t i = 0, j = 0; as && bs && (i < a_count || j < b_count);) {
-        const int order = i == a_count ? 1 : j == b_count ? -1 : by_key(&as[i], &bs[j]);
+        const int order = i == a_count ? 1 : j == b_count ? -1 : compare_by_key(&as[i], &bs[j]);
         json_t *x = order <= 0 ? as[i].element : NULL, *y = order >= 0 ? bs[j].element : NULL;
         if (!is_same(place, x, y)) {
             add_fact(place, !x ? CAUSE_MORE : !y ? CAUSE_LESS : CAUSE_OTHER, order <= 0 ? as[i].id : bs[j].id, x, y);
@@ -127,7 +127,7 @@ static void compare_keyed(const cause_place *place, json_t *a, json_t *b)
 /* ---- Lists whose elements are paired by similarity ------------------------------------------------------------ */
 
 /* Return whether a member of an answer is a result and not a parameter of the query. */
-static bool is_result(const char *key)
+static bool is_result_member(const char *key)
 {
     static const char *const names[] = {"ids", "id", "position", "distance", "neighbors", "cost"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
@@ -141,7 +141,7 @@ static json_t *query_of(json_t *answer)
 {
     const char *kind = cause_kind_of(answer), *key;
     json_t *value, *asked = json_object();
-    json_object_foreach(json_object_get(answer, kind), key, value) if (!is_result(key))
+    json_object_foreach(json_object_get(answer, kind), key, value) if (!is_result_member(key))
         json_object_set(asked, key, value);
     return json_pack("{so}", kind, asked);
 }
@@ -224,7 +224,7 @@ static void compare_pair(const cause_place *place, cause_rule rule, json_t *a, j
 
 /* Write the name of the query of an answer: "the range query" or, if the list has several range queries, "query 3
  * (range)", where 3 is the position in the list, counted from 1. If the elements are not answers, write nothing. */
-static void name_query(cause_rule rule, json_t *list, size_t i, bool of_reference, char text[CAUSE_QUERY])
+static void format_query_name(cause_rule rule, json_t *list, size_t i, bool of_reference, char text[CAUSE_QUERY])
 {
     if (rule != CAUSE_ANSWERS)
         return;
@@ -238,7 +238,7 @@ static void name_query(cause_rule rule, json_t *list, size_t i, bool of_referenc
         snprintf(text, CAUSE_QUERY, "query %zu (%s)%s", i + 1, kind, of_reference ? " of the reference" : "");
 }
 
-static bool in_order(const size_t *mates, size_t count)
+static bool are_mates_in_order(const size_t *mates, size_t count)
 {
     size_t last = 0;
     for (size_t j = 0; j < count; j++) {
@@ -263,24 +263,24 @@ static void compare_paired(cause_place place, cause_rule rule, json_t *a, json_t
     for (size_t j = 0; j < count; j++) {
         if (mates[j] == CAUSE_ALONE)
             continue;
-        name_query(rule, b, j, false, query);
+        format_query_name(rule, b, j, false, query);
         compare_pair(&place, rule, json_array_get(a, mates[j]), json_array_get(b, j));
         has_partner[mates[j]] = true;
     }
     for (size_t i = 0; i < json_array_size(a); i++) {
         if (has_partner[i])
             continue;
-        name_query(rule, a, i, true, query);
+        format_query_name(rule, a, i, true, query);
         add_fact(&place, CAUSE_LESS, CAUSE_NO_ID, json_array_get(a, i), NULL);
     }
     for (size_t j = 0; j < count; j++) {
         if (mates[j] != CAUSE_ALONE)
             continue;
-        name_query(rule, b, j, false, query);
+        format_query_name(rule, b, j, false, query);
         add_fact(&place, CAUSE_MORE, CAUSE_NO_ID, NULL, json_array_get(b, j));
     }
     query[0] = 0;
-    if (!in_order(mates, count))
+    if (!are_mates_in_order(mates, count))
         add_fact(&place, CAUSE_ORDER, CAUSE_NO_ID, NULL, NULL);
 }
 
@@ -290,7 +290,7 @@ static void compare_by_similarity(const cause_place *place, cause_rule rule, jso
     size_t *mates = malloc((json_array_size(b) + 1) * sizeof *mates);
     bool *has_partner = calloc(json_array_size(a) + 1, sizeof *has_partner);
     const bool whole = json_array_size(keys[0]) == json_array_size(a) && json_array_size(keys[1]) == json_array_size(b);
-    if (whole && mates && has_partner && cause_pair(keys[0], keys[1], mates))
+    if (whole && mates && has_partner && cause_pair_elements(keys[0], keys[1], mates))
         compare_paired(*place, rule, a, b, mates, has_partner);
     else
         place->facts->out_of_memory = true;

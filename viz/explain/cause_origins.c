@@ -71,7 +71,7 @@ void cause_origins_release(cause_origins *o)
 
 /* ---- Stretches of ticks with the same causes ----------------------------------------------------------------- */
 
-static bool add_stretch(cause_origins *o, uint64_t tick)
+static bool add_differing_ticks(cause_origins *o, uint64_t tick)
 {
     text_stream s;
     bool any = false;
@@ -91,7 +91,7 @@ static bool add_stretch(cause_origins *o, uint64_t tick)
     return true;
 }
 
-static bool differs_here(const cause_origins *o, uint64_t tick, size_t kind)
+static bool kind_differs_at(const cause_origins *o, uint64_t tick, size_t kind)
 {
     for (size_t i = o->next; i < o->count && o->listed[i].tick == tick; i++)
         if (o->listed[i].kind == kind)
@@ -106,7 +106,7 @@ bool cause_origins_advance(cause_origins *o, uint64_t tick, bool games_differ, b
         cause_kind *kind = &o->kinds[i];
         const bool lasts = other_heat || (games_differ && !is_momentary(kind->name));
         const uint64_t before = kind->since;
-        if (!differs_here(o, tick, i))
+        if (!kind_differs_at(o, tick, i))
             kind->since = lasts ? kind->since : CAUSE_NO_TICK;
         else if (kind->since == CAUSE_NO_TICK)
             kind->since = tick;
@@ -114,7 +114,7 @@ bool cause_origins_advance(cause_origins *o, uint64_t tick, bool games_differ, b
     }
     while (o->next < o->count && o->listed[o->next].tick == tick)
         o->next++;
-    return !changed || add_stretch(o, tick);
+    return !changed || add_differing_ticks(o, tick);
 }
 
 /* Return the number of items whose tick is before `end`. The tick is the first member of an item. The items are in
@@ -132,7 +132,7 @@ static size_t count_before(const void *items, size_t count, size_t item_size, ui
     return low;
 }
 
-static const char *causes_at(const cause_origins *o, uint64_t tick)
+static const char *find_causes_at(const cause_origins *o, uint64_t tick)
 {
     const size_t count = count_before(o->stretches, o->stretch_count, sizeof *o->stretches, tick + 1);
     return count && o->stretches[count - 1].causes ? o->stretches[count - 1].causes : "";
@@ -142,13 +142,13 @@ static const char *causes_at(const cause_origins *o, uint64_t tick)
  * these keys: first at this and later ticks, then at earlier ticks. */
 const char *cause_origins_at(const cause_origins *o, uint64_t tick)
 {
-    const char *causes = causes_at(o, tick);
+    const char *causes = find_causes_at(o, tick);
     const size_t here = count_before(o->listed, o->count, sizeof *o->listed, tick);
     for (size_t i = here; !*causes && i < o->count && o->listed[i].tick <= tick + KEYS_AHEAD; i++)
         if (cause_origin_shows(o->kinds[o->listed[i].kind].name, o->listed[i].tick, tick))
-            causes = causes_at(o, o->listed[i].tick);
+            causes = find_causes_at(o, o->listed[i].tick);
     for (size_t i = here; !*causes && i > 0 && o->listed[i - 1].tick + KEYS_BEHIND >= tick; i--)
         if (cause_origin_shows(o->kinds[o->listed[i - 1].kind].name, o->listed[i - 1].tick, tick))
-            causes = causes_at(o, o->listed[i - 1].tick);
+            causes = find_causes_at(o, o->listed[i - 1].tick);
     return causes;
 }

@@ -59,7 +59,7 @@ static bool make_entries(entries *e, json_t *list)
 
 /* ---- Equal elements ------------------------------------------------------------------------------------------ */
 
-static int by_text(const void *a, const void *b)
+static int compare_by_text(const void *a, const void *b)
 {
     const entry *x = *(entry *const *)a, *y = *(entry *const *)b;
     const int order = strcmp(x->text, y->text);
@@ -76,17 +76,17 @@ static void sort_by_text(entries *e)
 {
     for (size_t i = 0; i < e->count; i++)
         e->left[i] = &e->all[i];
-    qsort(e->left, e->count, sizeof *e->left, by_text);
+    qsort(e->left, e->count, sizeof *e->left, compare_by_text);
 }
 
-static void list_left(entries *e)
+static void list_unpaired_entries(entries *e)
 {
     for (size_t i = 0; i < e->count; i++)
         if (!e->all[i].paired)
             e->left[e->left_count++] = &e->all[i];
 }
 
-static void pair_equal(entries *a, entries *b, size_t *mates)
+static void pair_equal_entries(entries *a, entries *b, size_t *mates)
 {
     sort_by_text(a);
     sort_by_text(b);
@@ -97,53 +97,53 @@ static void pair_equal(entries *a, entries *b, size_t *mates)
         i += order <= 0;
         j += order >= 0;
     }
-    list_left(a);
-    list_left(b);
+    list_unpaired_entries(a);
+    list_unpaired_entries(b);
 }
 
 /* ---- Similar elements ---------------------------------------------------------------------------------------- */
 
 /* Return how many numbers, texts and booleans of two elements are equal at the same path. */
-static unsigned count_common(json_t *a, json_t *b)
+static unsigned count_common_members(json_t *a, json_t *b)
 {
     unsigned common = 0;
     const char *key;
     json_t *value;
     size_t i;
     if (json_is_object(a))
-        json_object_foreach(a, key, value) common += count_common(value, json_object_get(b, key));
+        json_object_foreach(a, key, value) common += count_common_members(value, json_object_get(b, key));
     else if (json_is_array(a))
-        json_array_foreach(a, i, value) common += count_common(value, json_array_get(b, i));
+        json_array_foreach(a, i, value) common += count_common_members(value, json_array_get(b, i));
     else
         common = a && b && json_equal(a, b);
     return common;
 }
 
 /* Return the index of the first candidate for the j-th remaining element. */
-static size_t first_candidate(size_t j)
+static size_t find_first_candidate(size_t j)
 {
     return j < PAIR_CANDIDATES / 2 ? 0 : j - PAIR_CANDIDATES / 2;
 }
 
 /* Return the similarity of two remaining elements, or 0 if their kinds differ. Among pairs that share equally many
  * values, a pair wins whose elements have the same distance from the beginning or from the end of their lists. */
-static uint8_t similarity_of(const entries *a, size_t i, const entries *b, size_t j)
+static uint8_t find_similarity(const entries *a, size_t i, const entries *b, size_t j)
 {
     json_t *x = a->left[i]->element, *y = b->left[j]->element;
     if (strcmp(cause_kind_of(x), cause_kind_of(y)) != 0)
         return 0;
     const bool same_place = i == j || a->left_count - i == b->left_count - j;
-    const unsigned found = 1 + same_place + 2 * count_common(x, y);
+    const unsigned found = 1 + same_place + 2 * count_common_members(x, y);
     return found < UINT8_MAX ? (uint8_t)found : UINT8_MAX;
 }
 
 /* Pair the remaining elements in descending order of similarity. */
-static bool pair_similar(entries *a, entries *b, size_t *mates)
+static bool pair_similar_entries(entries *a, entries *b, size_t *mates)
 {
     uint8_t *table = calloc(b->left_count + 1, PAIR_CANDIDATES), most = 0;
     for (size_t j = 0; table && j < b->left_count; j++)
-        for (size_t k = 0; k < PAIR_CANDIDATES && first_candidate(j) + k < a->left_count; k++) {
-            const uint8_t found = similarity_of(a, first_candidate(j) + k, b, j);
+        for (size_t k = 0; k < PAIR_CANDIDATES && find_first_candidate(j) + k < a->left_count; k++) {
+            const uint8_t found = find_similarity(a, find_first_candidate(j) + k, b, j);
             table[j * PAIR_CANDIDATES + k] = found;
             most = found > most ? found : most;
         }
@@ -151,7 +151,7 @@ static bool pair_similar(entries *a, entries *b, size_t *mates)
         for (size_t n = 0; n < b->left_count * PAIR_CANDIDATES; n++) {
             if (table[n] != level)
                 continue;
-            entry *x = a->left[first_candidate(n / PAIR_CANDIDATES) + n % PAIR_CANDIDATES];
+            entry *x = a->left[find_first_candidate(n / PAIR_CANDIDATES) + n % PAIR_CANDIDATES];
             entry *y = b->left[n / PAIR_CANDIDATES];
             if (!x->paired && !y->paired)
                 join_pair(x, y, mates);
@@ -161,15 +161,15 @@ static bool pair_similar(entries *a, entries *b, size_t *mates)
     return made;
 }
 
-bool cause_pair(json_t *a, json_t *b, size_t *mates)
+bool cause_pair_elements(json_t *a, json_t *b, size_t *mates)
 {
     entries x = {0}, y = {0};
     for (size_t j = 0; j < json_array_size(b); j++)
         mates[j] = CAUSE_ALONE;
     bool ok = make_entries(&x, a) && make_entries(&y, b);
     if (ok) {
-        pair_equal(&x, &y, mates);
-        ok = pair_similar(&x, &y, mates);
+        pair_equal_entries(&x, &y, mates);
+        ok = pair_similar_entries(&x, &y, mates);
     }
     release_entries(&x);
     release_entries(&y);

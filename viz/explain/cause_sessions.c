@@ -43,7 +43,7 @@ void cause_compare_points(cause_facts *facts, const char *where, const cause_poi
     }
 }
 
-static int by_id(const void *a, const void *b)
+static int compare_by_id(const void *a, const void *b)
 {
     const uint64_t x = ((const octree_point *)a)->id, y = ((const octree_point *)b)->id;
     return (x > y) - (x < y);
@@ -60,7 +60,7 @@ static cause_points sort_bodies(const octree_session *session, bool velocities)
         memcpy(sorted.points[i].position, velocities ? body->velocity : body->position, sizeof body->position);
     }
     if (sorted.points)
-        qsort(sorted.points, sorted.count, sizeof *sorted.points, by_id);
+        qsort(sorted.points, sorted.count, sizeof *sorted.points, compare_by_id);
     return sorted;
 }
 
@@ -74,7 +74,7 @@ static void compare_sorted(const octree_session *a, const octree_session *b, boo
     free(bs.points);
 }
 
-static bool same_bodies(const octree_session *a, const octree_session *b)
+static bool have_same_bodies(const octree_session *a, const octree_session *b)
 {
     return a->body_count == b->body_count &&
            (a->body_count == 0 || memcmp(a->bodies, b->bodies, a->body_count * sizeof *a->bodies) == 0);
@@ -82,13 +82,13 @@ static bool same_bodies(const octree_session *a, const octree_session *b)
 
 /* Return whether the bodies differ and both sessions generated their bodies from a seed. The generators are then
  * compared in place of the bodies. */
-static bool both_sampled(const octree_session *a, const octree_session *b)
+static bool are_both_sampled(const octree_session *a, const octree_session *b)
 {
-    return a->sampled.known && b->sampled.known && !same_bodies(a, b);
+    return a->sampled.known && b->sampled.known && !have_same_bodies(a, b);
 }
 
 /* Return whether a difference between the generators was found. It explains why the bodies differ. */
-static bool sample_differs(const cause_facts *facts)
+static bool has_different_sample(const cause_facts *facts)
 {
     for (size_t i = 0; i < facts->count; i++)
         if (strncmp(facts->groups[i].where, "sampled", 7) == 0)
@@ -96,7 +96,7 @@ static bool sample_differs(const cause_facts *facts)
     return false;
 }
 
-static bool same_ids(const octree_session *a, const octree_session *b)
+static bool have_same_ids(const octree_session *a, const octree_session *b)
 {
     for (size_t i = 0; i < a->body_count; i++)
         if (a->bodies[i].id != b->bodies[i].id)
@@ -108,13 +108,13 @@ static bool same_ids(const octree_session *a, const octree_session *b)
  * order matters, because a full leaf refuses later bodies. */
 static void compare_bodies(const octree_session *a, const octree_session *b, cause_facts *facts)
 {
-    if (same_bodies(a, b) || sample_differs(facts))
+    if (have_same_bodies(a, b) || has_different_sample(facts))
         return;
     compare_sorted(a, b, false, facts);
     if (cause_group_of(facts, "points", CAUSE_MORE) || cause_group_of(facts, "points", CAUSE_LESS))
         return;
     compare_sorted(a, b, true, facts);
-    if (!same_ids(a, b))
+    if (!have_same_ids(a, b))
         cause_add_whole(facts, "points", CAUSE_ORDER, NULL, NULL);
 }
 
@@ -250,7 +250,7 @@ static void compare_texts(const cause_place *place, const char *x, const char *y
 static void compare_sessions(const octree_session *a, const octree_session *b, cause_facts *facts)
 {
     const cause_place place = {facts, "", "", CAUSE_NO_TICK, true};
-    const bool sampled = both_sampled(a, b);
+    const bool sampled = are_both_sampled(a, b);
     char *texts[2] = {write_session(a, sampled), write_session(b, sampled)};
     if (!texts[0] || !texts[1])
         facts->out_of_memory = true;

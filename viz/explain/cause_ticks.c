@@ -81,7 +81,7 @@ static void compare_points(const octree_game *a, const octree_game *b, cause_fac
 }
 
 /* Return whether both trees have the same world. Only then can their nodes be compared. */
-static bool same_world(const octree *a, const octree *b)
+static bool have_same_world(const octree *a, const octree *b)
 {
     const octree_box x = octree_definition(a).world, y = octree_definition(b).world;
     return memcmp(&x, &y, sizeof x) == 0;
@@ -91,7 +91,7 @@ void cause_compare_trees(const octree_game *a, const octree_game *b, cause_facts
 {
     const octree *const as = octree_game_tree(a), *const bs = octree_game_tree(b);
     walking over_b = {as, false, facts}, over_a = {bs, true, facts};
-    if (same_world(as, bs)) {
+    if (have_same_world(as, bs)) {
         octree_walk(bs, compare_node, &over_b);
         octree_walk(as, compare_node, &over_a);
     } else {
@@ -162,7 +162,7 @@ static void compare_lines(const octree_game *a, const octree_game *b, cause_fact
 
 /* ---- Values that are drawn but not in ticks.jsonl ------------------------------------------------------------ */
 
-static bool same_visits(const octree_tick *a, const octree_tick *b)
+static bool have_same_visits(const octree_tick *a, const octree_tick *b)
 {
     if (a->visit_count != b->visit_count || a->hit_leaf_count != b->hit_leaf_count)
         return false;
@@ -177,7 +177,7 @@ static bool same_visits(const octree_tick *a, const octree_tick *b)
 }
 
 /* Return whether the points that a swept collision test hit came from the same positions in both ticks. */
-static bool same_hit_ways(const octree_tick *a, const octree_tick *b)
+static bool have_same_hit_ways(const octree_tick *a, const octree_tick *b)
 {
     for (size_t i = 0; a->hit_from && b->hit_from && a->hit_count == b->hit_count && i < a->hit_count; i++)
         for (int axis = 0; axis < 3; axis++)
@@ -190,8 +190,8 @@ void cause_compare_ticks(const octree_game *a, const octree_game *b, cause_facts
 {
     const octree_tick *x = octree_game_tick(a), *y = octree_game_tick(b);
     compare_lines(a, b, facts);
-    if (!same_visits(x, y) && !cause_group_of(facts, "visits", CAUSE_OTHER))
+    if (!have_same_visits(x, y) && !cause_group_of(facts, "visits", CAUSE_OTHER))
         cause_add_whole(facts, "visited", CAUSE_OTHER, NULL, NULL);
-    if (!same_hit_ways(x, y))
+    if (!have_same_hit_ways(x, y))
         cause_add_whole(facts, "hit_from", CAUSE_OTHER, NULL, NULL);
 }

@@ -114,7 +114,7 @@ static void print_change(FILE *out, const json_t *a, const json_t *b, bool is_me
 
 /* ---- One fact ------------------------------------------------------------------------------------------------ */
 
-static void print_when(FILE *out, const cause_row *p, const cause_fact *fact)
+static void print_tick_of_fact(FILE *out, const cause_row *p, const cause_fact *fact)
 {
     if (fact->tick != CAUSE_NO_TICK)
         fprintf(out, " at tick %" PRIu64, fact->tick);
@@ -181,7 +181,7 @@ static void print_fact(FILE *out, const cause_row *p, const cause_group *group, 
     print_noun(out, p, group->change == CAUSE_ORDER);
     fputs(group->change == CAUSE_LESS ? " fewer" : "", out);
     print_query(out, group);
-    print_when(out, p, fact);
+    print_tick_of_fact(out, p, fact);
     print_values(out, p, group, fact);
 }
 
@@ -234,7 +234,7 @@ static void print_verb(FILE *out, const cause_row *p, const cause_group *group, 
 }
 
 /* Print a group of several facts without a verb: "12 more edits (points 3, 4, 5 and 9 more)". */
-static void print_many(FILE *out, const cause_row *p, const cause_group *group, bool brief)
+static void print_fact_count(FILE *out, const cause_row *p, const cause_group *group, bool brief)
 {
     static const char *const words[] = {
         [CAUSE_OTHER] = "other ", [CAUSE_MORE] = "more ", [CAUSE_LESS] = "fewer ", [CAUSE_ORDER] = "reordered "};
@@ -260,7 +260,7 @@ static void print_unnamed_verb(FILE *out, const cause_row *p, const cause_group 
         fprintf(out, "the %s %s", p->noun, p->verbs[group->change]);
     else
         fprintf(out, "%" PRIu64 " %s %s, the first", group->found, p->plural, p->verbs[group->change]);
-    print_when(out, p, first);
+    print_tick_of_fact(out, p, first);
     print_values(out, p, group, first);
 }
 
@@ -283,7 +283,7 @@ static void print_group(FILE *out, const cause_group *group, bool brief)
         return;
     }
     if (group->found > 1 && has_subject(&group->listed[0])) {
-        print_many(out, &p, group, brief);
+        print_fact_count(out, &p, group, brief);
         return;
     }
     for (size_t i = 0; i < printed; i++) {
@@ -331,7 +331,7 @@ static void print_extent(FILE *out, const cause *c)
 }
 
 /* Print the consequence of a different point, key, edit or query: the facts of the first differing tick. */
-static void print_first(FILE *out, const cause *c)
+static void print_first_difference(FILE *out, const cause *c)
 {
     const cause_tick *first = cause_find_tick(c, c->differing.first);
     if (c->differing.count == 0 || !first || first->facts.count == 0) {
@@ -342,7 +342,7 @@ static void print_first(FILE *out, const cause *c)
     cause_print_facts(out, &first->facts, true);
 }
 
-static bool any_option(const cause_facts *facts)
+static bool has_view_option(const cause_facts *facts)
 {
     for (size_t i = 0; i < facts->count; i++)
         if (cause_row_of(&facts->groups[i]).option)
@@ -376,7 +376,7 @@ static bool print_wrong(FILE *out, const cause *c, bool later)
 
 /* Return the number of groups of the session's facts that begin after the first differing tick. If all groups do,
  * return 0. The groups are sorted by tick. */
-static size_t count_later(const cause *c)
+static size_t count_later_ticks(const cause *c)
 {
     size_t count = 0;
     while (c->differing.count && count < c->session.count) {
@@ -392,14 +392,14 @@ static size_t count_later(const cause *c)
  * differing tick cannot be its cause, so they are printed last. */
 void cause_print_headline(FILE *out, const cause *c)
 {
-    const bool options = any_option(&c->session);
-    const size_t later = count_later(c), soon = c->session.count - later;
+    const bool options = has_view_option(&c->session);
+    const size_t later = count_later_ticks(c), soon = c->session.count - later;
     if (print_wrong(out, c, false))
         fputs("; ", out);
     if (c->session.count) {
         cause_print_facts(out, &(cause_facts){.groups = c->session.groups, .count = soon}, true);
         fputs(options ? ": " : "; ", out);
-        (options ? print_extent : print_first)(out, c);
+        (options ? print_extent : print_first_difference)(out, c);
         if (c->view.count == 0 && c->drawn < (c->differing.count ? c->differing.first : CAUSE_NO_TICK))
             fprintf(out, "; frames differ from tick %" PRIu64 " on", c->drawn);
     }

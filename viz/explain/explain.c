@@ -72,7 +72,7 @@ static bool is_wanted(void *context, uint64_t tick)
     return find_wanted(context, tick);
 }
 
-static bool handle_tick(void *context, const octree_game *const games[2], bool differs, octreel_error *error)
+static bool explain_pair_of_tick(void *context, const octree_game *const games[2], bool differs, octreel_error *error)
 {
     watching *w = context;
     const uint64_t tick = octree_game_tick(games[0])->number;
@@ -89,7 +89,7 @@ static bool handle_tick(void *context, const octree_game *const games[2], bool d
 
 /* Return the first tick whose frames differ. All pairs are searched, because names of ticks with more than six
  * digits are not sorted by tick. */
-static uint64_t first_drawn(const diff_result *result)
+static uint64_t find_first_drawn_tick(const diff_result *result)
 {
     uint64_t first = CAUSE_NO_TICK;
     for (size_t i = 0; i < result->count; i++) {
@@ -113,15 +113,15 @@ static bool list_pairs(watching *w, const diff_result *result, uint64_t most)
     return true;
 }
 
-static bool play_both(explanation *e, const diff_result *result, uint64_t most, octreel_error *error)
+static bool play_both_sessions(explanation *e, const diff_result *result, uint64_t most, octreel_error *error)
 {
     const cause_view views[2] = {e->sides[0].view, e->sides[1].view};
     watching w = {.e = e, .options = &result->options};
-    const cause_watcher watcher = {most < SIZE_MAX ? (size_t)most : SIZE_MAX, is_wanted, handle_tick, &w};
+    const cause_watcher watcher = {most < SIZE_MAX ? (size_t)most : SIZE_MAX, is_wanted, explain_pair_of_tick, &w};
     const bool ok = list_pairs(&w, result, most) ? cause_find(&e->sides[0].replay.session, &e->sides[1].replay.session,
                                                               views, &watcher, &e->cause, error)
                                                  : error_no_memory(error);
-    e->cause.drawn = first_drawn(result);
+    e->cause.drawn = find_first_drawn_tick(result);
     free(w.pairs);
     return ok;
 }
@@ -179,7 +179,7 @@ static bool file_differs(const diff_side *a, const diff_side *b, const char *nam
            !have_same_file(a->path, b->path, name);
 }
 
-static bool any_to_explain(const diff_side *a, const diff_side *b, const diff_result *result)
+static bool has_pair_to_explain(const diff_side *a, const diff_side *b, const diff_result *result)
 {
     for (size_t i = 0; i < result->count; i++)
         if (explain_has_difference(&result->pairs[i]))
@@ -189,19 +189,19 @@ static bool any_to_explain(const diff_side *a, const diff_side *b, const diff_re
             file_differs(a, b, "ticks.jsonl"));
 }
 
-/* The context of look_at_pair(), which runs for all pairs in parallel. */
+/* The context of examine_pair(), which runs for all pairs in parallel. */
 typedef struct looking {
     const explanation *e;
     const diff_result *result;
     pair_look *looks;
 } looking;
 
-static void look_at_pair(size_t i, void *context)
+static void examine_pair(size_t i, void *context)
 {
     const looking *l = context;
     const diff_pair *pair = &l->result->pairs[i];
     if (explain_has_difference(pair)) {
-        l->looks[i] = pair_look_at(l->e, pair);
+        l->looks[i] = pair_examine(l->e, pair);
         l->e->pairs[i].key = pair_find_key(l->e, pair, &l->looks[i]);
     }
 }
@@ -214,7 +214,7 @@ static bool explain_pairs(explanation *e, const diff_result *result, uint64_t mo
     bool ok = (l.looks && e->pairs) || error_no_memory(error);
     e->count = e->pairs ? result->count : 0;
     if (ok)
-        parallel_for(result->count, look_at_pair, &l);
+        parallel_for(result->count, examine_pair, &l);
     for (size_t i = 0; ok && i < result->count && most > 0; i++) {
         if (!explain_has_difference(&result->pairs[i]))
             continue;
@@ -230,7 +230,7 @@ static bool explain_all(const diff_side *a, const diff_side *b, const diff_resul
 {
     e->recordings = a->kind == DIFF_RECORDING && b->kind == DIFF_RECORDING;
     if (e->recordings && !(recorded_open(&e->sides[0], a, error) && recorded_open(&e->sides[1], b, error) &&
-                           play_both(e, result, most, error)))
+                           play_both_sessions(e, result, most, error)))
         return false;
     return explain_pairs(e, result, most, error) && make_headline(e, result, error);
 }
@@ -240,7 +240,7 @@ bool explain(const diff_side *a, const diff_side *b, const diff_result *result, 
 {
     octreel_error why;
     *e = (explanation){0};
-    if (most == 0 || !any_to_explain(a, b, result) || explain_all(a, b, result, most, e, &why))
+    if (most == 0 || !has_pair_to_explain(a, b, result) || explain_all(a, b, result, most, e, &why))
         return true;
     explanation_release(e);
     e->trouble = strdup(why.text);

@@ -54,7 +54,7 @@ static bool draw_mask(masking *w, frame_mask *m, octreel_error *error)
 
 static bool add_mask(masking *w, diff_pair *pair, octreel_error *error)
 {
-    if (!replay_to(&w->replay, diff_pair_tick(pair), error) || !playback_compose_scene(&w->replay.playback, error))
+    if (!replay_up_to(&w->replay, diff_pair_tick(pair), error) || !playback_compose_scene(&w->replay.playback, error))
         return false;
     const view *v = &w->replay.playback.scene.view;
     frame_mask m = {calloc((size_t)v->width, (size_t)v->height), v->width, v->height};
@@ -64,7 +64,7 @@ static bool add_mask(masking *w, diff_pair *pair, octreel_error *error)
     return ok;
 }
 
-static int by_tick(const void *a, const void *b)
+static int compare_by_tick(const void *a, const void *b)
 {
     const uint64_t x = diff_pair_tick(*(diff_pair *const *)a), y = diff_pair_tick(*(diff_pair *const *)b);
     return (x > y) - (x < y);
@@ -90,7 +90,7 @@ bool ignore_layers(void *context, const diff_side *a, const diff_side *b, diff_p
         return true;
     /* Sort the pairs by tick. Both frames of a pair have the same name, so the order fits both recordings. Names of
      * ticks with more than six digits are not sorted by tick. */
-    qsort(pairs, count, sizeof *pairs, by_tick);
+    qsort(pairs, count, sizeof *pairs, compare_by_tick);
     return (a->kind != DIFF_RECORDING || add_masks(a, layers, pairs, count, error)) &&
            (b->kind != DIFF_RECORDING || add_masks(b, layers, pairs, count, error));
 }

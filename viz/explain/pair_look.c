@@ -45,7 +45,7 @@ static frame_fault find_origin_fault(const recorded *r, const frame_origin *orig
     return scene == 0 || origin->scene == scene ? FAULT_NONE : FAULT_SCENE;
 }
 
-pair_look pair_look_at(const explanation *e, const diff_pair *pair)
+pair_look pair_examine(const explanation *e, const diff_pair *pair)
 {
     const diff_frame *const frames[2] = {pair->a, pair->b};
     pair_look l = {.has_texts = {false}};
@@ -67,7 +67,7 @@ static bool has_fault(const pair_look *l)
     return l->faults[0] != FAULT_NONE || l->faults[1] != FAULT_NONE;
 }
 
-static bool is_only_drawn(const explanation *e, const pair_look *l)
+static bool is_only_drawing_different(const explanation *e, const pair_look *l)
 {
     return l->same_scene && !has_fault(l) && !cause_facts_show(&e->cause.view, 0);
 }
@@ -100,7 +100,7 @@ static void print_faults(FILE *out, const diff_pair *pair, const pair_look *l)
     }
 }
 
-static bool same_renderer(const explanation *e)
+static bool have_same_renderer(const explanation *e)
 {
     return strcmp(e->sides[0].drawn_by, e->sides[1].drawn_by) == 0;
 }
@@ -113,7 +113,7 @@ static void print_renderers(FILE *out, const explanation *e)
 void pair_print_rendering(FILE *out, const explanation *e)
 {
     fputs("rendering differs: the scene digests are equal", out);
-    if (e->recordings && same_renderer(e))
+    if (e->recordings && have_same_renderer(e))
         fprintf(out, "; both drawn by %s", e->sides[0].drawn_by);
     else if (e->recordings)
         print_renderers(out, e);
@@ -197,7 +197,7 @@ static bool may_be_right(const pair_look *l)
 
 static void print_cause(FILE *out, const explanation *e, const diff_pair *pair, const pair_look *l)
 {
-    const bool both = pair->a && pair->b, faulty = has_fault(l), drawn = is_only_drawn(e, l);
+    const bool both = pair->a && pair->b, faulty = has_fault(l), drawn = is_only_drawing_different(e, l);
     const uint64_t tick = diff_pair_tick(pair);
     const cause_tick *details = cause_find_tick(&e->cause, tick); /* null if the frames are not from recordings */
     const bool prints_tick =
@@ -213,7 +213,7 @@ static void print_cause(FILE *out, const explanation *e, const diff_pair *pair, 
         print_missing(out, &e->sides[pair->a ? 1 : 0], tick);
     else if (both_have_texts(l) && !faulty)
         print_origins(out, l);
-    if (e->recordings && l->same_scene && !faulty && !drawn && !same_renderer(e))
+    if (e->recordings && l->same_scene && !faulty && !drawn && !have_same_renderer(e))
         print_renderers(out, e);
     if (details && details->trace.count) {
         fputs("; ", out);
@@ -226,7 +226,7 @@ bool pair_find_cause(const explanation *e, const diff_pair *pair, const pair_loo
 {
     text_stream s;
     const bool begun = text_stream_begin(&s);
-    cause->only_drawn = is_only_drawn(e, l);
+    cause->only_drawn = is_only_drawing_different(e, l);
     if (begun)
         print_cause(s.stream, e, pair, l);
     return (text_stream_end(&s, &cause->text) && begun) || error_no_memory(error);
@@ -262,7 +262,7 @@ static bool print_key(FILE *out, const explanation *e, const diff_pair *pair, co
                 pair->about[1].height);
     if (has_fault(l))
         fprintf(out, "faults %d %d, ", (int)l->faults[0], (int)l->faults[1]);
-    if (is_only_drawn(e, l))
+    if (is_only_drawing_different(e, l))
         fputs("drawn", out);
     else if (e->recordings && !both)
         print_missing(out, &e->sides[pair->a ? 1 : 0], diff_pair_tick(pair));

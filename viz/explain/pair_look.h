@@ -20,7 +20,7 @@ typedef struct pair_look {
 
 /* Read the text chunks of both frames. Decode a frame that has text chunks, to check the digest of its pixels.
  * Thread-safe. */
-pair_look pair_look_at(const explanation *e, const diff_pair *pair);
+pair_look pair_examine(const explanation *e, const diff_pair *pair);
 
 /* Find the cause of a pair that differs. cause->text is null if neither recordings nor text chunks show a cause. */
 bool pair_find_cause(const explanation *e, const diff_pair *pair, const pair_look *look, pair_cause *cause,

@@ -45,13 +45,13 @@ bool recorded_open(recorded *r, const diff_side *side, octreel_error *error)
         return false;
     r->view = (cause_view){r->replay.film.view, r->replay.film.every};
     check_session(r);
-    r->reading = lines_open(&r->lines, side->path, error);
+    r->reading = line_reader_open(&r->lines, side->path, error);
     return r->reading;
 }
 
 void recorded_close(recorded *r)
 {
-    lines_close(&r->lines);
+    line_reader_close(&r->lines);
     free(r->scenes);
     replay_close(&r->replay);
     *r = (recorded){0};
@@ -72,7 +72,7 @@ static bool read_line(recorded *r, uint64_t tick, octreel_error *error)
     };
     if (!r->reading)
         return true;
-    const line_state state = lines_next(&r->lines, LONGEST_LINE);
+    const line_state state = line_reader_next(&r->lines, LONGEST_LINE);
     r->reading = state == LINE_WHOLE;
     if (!r->reading) {
         add_warning(r, "%s/ticks.jsonl %s tick %" PRIu64, r->side->path, words[state], tick);
@@ -88,7 +88,7 @@ static bool read_line(recorded *r, uint64_t tick, octreel_error *error)
 /* Return the values of a tick's line that do not follow from the tick. The result points to `name`, which receives
  * the name of the tick's frame. No scene is built here, so the digest of the scene is read from the frame or, if the
  * frame has none, from the line itself. */
-static tick_extras extras_of(const recorded *r, const octree_tick *tick, char name[FRAME_NAME])
+static tick_extras make_tick_extras(const recorded *r, const octree_tick *tick, char name[FRAME_NAME])
 {
     uint64_t scene = 0;
     if (tick->gap || !frame_is_due(tick->number, r->view.every))
@@ -106,7 +106,7 @@ static bool check_line(recorded *r, const octree_game *game, octreel_error *erro
     text_stream s;
     if (!r->reading)
         return true;
-    const tick_extras extras = extras_of(r, tick, name);
+    const tick_extras extras = make_tick_extras(r, tick, name);
     if (text_stream_begin(&s))
         tick_write(s.stream, tick, &extras);
     if (!text_stream_end(&s, &text))

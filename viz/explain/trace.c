@@ -64,7 +64,7 @@ static octree_address changed_node(const octree_game *const games[2], octree_add
 
 /* Return the part to which an element belongs. In the layers of nodes and points, each node and each point is a
  * part. Every other layer is one part. */
-static trace_part part_of(const scene *s, uint32_t number, const octree_game *const games[2])
+static trace_part find_part_of_element(const scene *s, uint32_t number, const octree_game *const games[2])
 {
     trace_part part = {.layer = TRACE_BACKGROUND, .pixels = 1};
     if (number == 0)
@@ -83,14 +83,14 @@ static trace_part part_of(const scene *s, uint32_t number, const octree_game *co
 
 /* Return the part that is drawn on top. Layers are numbered in the order in which they are drawn; the background is
  * below all layers. */
-static trace_part upper_part(trace_part a, trace_part b)
+static trace_part choose_upper_part(trace_part a, trace_part b)
 {
     if (a.layer == TRACE_BACKGROUND || b.layer == TRACE_BACKGROUND)
         return a.layer == TRACE_BACKGROUND ? b : a;
     return a.layer > b.layer ? a : b;
 }
 
-static bool same_part(const void *a, const void *b)
+static bool are_parts_equal(const void *a, const void *b)
 {
     const trace_part *x = a, *y = b;
     return x->layer == y->layer && x->id == y->id;
@@ -110,17 +110,17 @@ typedef struct tracing {
 
 /* Return the part at the first sample of a pixel at which the two scenes show different parts. If no sample differs,
  * return the part at the first sample that shows an element. */
-static trace_part part_at(const tracing *t, size_t x, size_t y)
+static trace_part find_part_at_pixel(const tracing *t, size_t x, size_t y)
 {
     const size_t width = (size_t)t->frames[0].width;
     trace_part found = {.layer = TRACE_BACKGROUND, .pixels = 1};
     for (size_t i = 0; i < t->samples * t->samples; i++) {
         const size_t row = y * t->samples + i / t->samples;
         const size_t at = (row * width + x) * t->samples + i % t->samples;
-        const trace_part a = part_of(&t->tracer->scenes[0], t->numbers[0][at], t->games);
-        const trace_part b = part_of(&t->tracer->scenes[1], t->numbers[1][at], t->games);
-        if (!same_part(&a, &b))
-            return upper_part(a, b);
+        const trace_part a = find_part_of_element(&t->tracer->scenes[0], t->numbers[0][at], t->games);
+        const trace_part b = find_part_of_element(&t->tracer->scenes[1], t->numbers[1][at], t->games);
+        if (!are_parts_equal(&a, &b))
+            return choose_upper_part(a, b);
         if (found.layer == TRACE_BACKGROUND)
             found = b;
     }
@@ -136,7 +136,7 @@ static uint64_t hash_part(const void *part)
     return hash_map_hash_id(&key);
 }
 
-static const hash_map_item_type by_part = {sizeof(trace_part), hash_part, same_part};
+static const hash_map_item_type by_part = {sizeof(trace_part), hash_part, are_parts_equal};
 
 static bool count_part(tracing *t, const trace_part *part)
 {
@@ -153,7 +153,7 @@ static bool count_part(tracing *t, const trace_part *part)
     return hash_map_add(&t->map, &by_part, made->parts);
 }
 
-static int by_pixels(const void *a, const void *b)
+static int compare_by_pixels(const void *a, const void *b)
 {
     const trace_part *x = a, *y = b;
     if (x->pixels != y->pixels)
@@ -170,12 +170,12 @@ static bool count_parts(tracing *t, const image_tolerance *tolerance)
             const image_color a = image_color_at(&frames[0], x, y), b = image_color_at(&frames[1], x, y);
             if ((a.r == b.r && a.g == b.g && a.b == b.b) || image_is_pixel_ignored(tolerance, frames[0].width, x, y))
                 continue;
-            const trace_part part = part_at(t, (size_t)x, (size_t)y);
+            const trace_part part = find_part_at_pixel(t, (size_t)x, (size_t)y);
             if (!count_part(t, &part))
                 return false;
         }
     if (t->made.count)
-        qsort(t->made.parts, t->made.count, sizeof *t->made.parts, by_pixels);
+        qsort(t->made.parts, t->made.count, sizeof *t->made.parts, compare_by_pixels);
     t->made.made = true;
     return true;
 }

@@ -25,7 +25,7 @@ typedef struct bitmap {
     int width, height;
 } bitmap;
 
-static void stop(const char *path, const char *what)
+static void stop_with_error(const char *path, const char *what)
 {
     fprintf(stderr, "faces_convert: %s %s\n", path, what);
     exit(2);
@@ -51,7 +51,7 @@ static void read_header(font *f, const char *path)
         f->each = f->height = b[3];
         f->width = 8;
     } else {
-        stop(path, "is not a console font (PSF)");
+        stop_with_error(path, "is not a console font (PSF)");
     }
 }
 
@@ -81,8 +81,9 @@ static void check_letters(const font *f, const char *path)
     const unsigned long digest = crc32(0, f->bytes + f->at + GLYPH_FIRST * f->each, GLYPH_COUNT * f->each);
     for (size_t i = 0; i < sizeof faces / sizeof *faces; i++)
         if (faces[i].width == f->width && faces[i].height == f->height && faces[i].digest != digest)
-            stop(path, "has other letters than Octreel's frames; download Spleen 2.1.0 from "
-                       "https://github.com/fcambus/spleen/releases and configure with -DOCTREEL_FONTS=FOLDER");
+            stop_with_error(path,
+                            "has other letters than Octreel's frames; download Spleen 2.1.0 from "
+                            "https://github.com/fcambus/spleen/releases and configure with -DOCTREEL_FONTS=FOLDER");
 }
 
 static void read_font(font *f, const char *path)
@@ -92,18 +93,18 @@ static void read_font(font *f, const char *path)
     if (in)
         gzclose(in);
     if (size < 0)
-        stop(path, "cannot be read");
+        stop_with_error(path, "cannot be read");
     f->size = (unsigned)size;
     read_header(f, path);
     if (f->width > MOST_WIDTH || f->height > MOST_HEIGHT || f->each == 0 || f->each != (f->width + 7) / 8 * f->height)
-        stop(path, "has letters larger than 16 x 32 pixels or of a wrong size");
+        stop_with_error(path, "has letters larger than 16 x 32 pixels or of a wrong size");
     if (f->count < GLYPH_FIRST + GLYPH_COUNT || f->at > f->size || (f->size - f->at) / f->each < f->count)
-        stop(path, "is truncated, or has too few glyphs");
+        stop_with_error(path, "is truncated, or has too few glyphs");
     replace_letters(f);
     check_letters(f, path);
 }
 
-static bitmap glyph_of(const font *f, unsigned letter)
+static bitmap find_glyph(const font *f, unsigned letter)
 {
     bitmap b = {.width = (int)f->width, .height = (int)f->height};
     const unsigned row_bytes = (f->width + 7) / 8;
@@ -114,7 +115,7 @@ static bitmap glyph_of(const font *f, unsigned letter)
 }
 
 /* Returns the number of consecutive set pixels from (x, y) to the right, at most `most`. */
-static int run_of(const bitmap *b, int x, int y, int most)
+static int find_run_length(const bitmap *b, int x, int y, int most)
 {
     int run = 0;
     while (run < most && x + run < b->width && b->set[y][x + run])
@@ -123,12 +124,12 @@ static int run_of(const bitmap *b, int x, int y, int most)
 }
 
 /* Returns the largest rectangle of set pixels whose top left corner is (x, y). */
-static glyph_part largest_at(const bitmap *b, int x, int y)
+static glyph_part find_largest_rectangle_at(const bitmap *b, int x, int y)
 {
     glyph_part best = {0};
     int width = b->width;
     for (int bottom = y; bottom < b->height; bottom++) {
-        width = run_of(b, x, bottom, width);
+        width = find_run_length(b, x, bottom, width);
         const int height = bottom - y + 1;
         if (width * height > best.width * best.height)
             best = (glyph_part){(uint8_t)x, (uint8_t)y, (uint8_t)width, (uint8_t)height};
@@ -137,12 +138,12 @@ static glyph_part largest_at(const bitmap *b, int x, int y)
 }
 
 /* Find the largest rectangle of set pixels, clear its pixels and return it. Its width is 0 if no pixel is set. */
-static glyph_part take_largest(bitmap *b)
+static glyph_part remove_largest_rectangle(bitmap *b)
 {
     glyph_part best = {0};
     for (int y = 0; y < b->height; y++)
         for (int x = 0; x < b->width; x++) {
-            const glyph_part part = largest_at(b, x, y);
+            const glyph_part part = find_largest_rectangle_at(b, x, y);
             if (part.width * part.height > best.width * best.height)
                 best = part;
         }
@@ -164,9 +165,9 @@ static face write_parts(FILE *out, const font *f, int number)
     unsigned count = 0;
     fprintf(out, "static const glyph_part parts_%d[] = {\n", number);
     for (unsigned i = 0; i < GLYPH_COUNT; i++) {
-        bitmap b = glyph_of(f, GLYPH_FIRST + i);
+        bitmap b = find_glyph(f, GLYPH_FIRST + i);
         made.first[i] = count;
-        for (glyph_part p = take_largest(&b); p.width; p = take_largest(&b), count++)
+        for (glyph_part p = remove_largest_rectangle(&b); p.width; p = remove_largest_rectangle(&b), count++)
             fprintf(out, "{%d, %d, %d, %d},\n", p.x, p.y, p.width, p.height);
     }
     made.first[GLYPH_COUNT] = count;
@@ -179,10 +180,10 @@ int main(int argc, char **argv)
     static font f;
     static face faces[MOST_FACES];
     if (argc < 3 || argc - 2 > MOST_FACES)
-        stop("arguments:", "expected an output file and 1 to 16 fonts");
+        stop_with_error("arguments:", "expected an output file and 1 to 16 fonts");
     FILE *out = fopen(argv[1], "w");
     if (!out)
-        stop(argv[1], "cannot be written");
+        stop_with_error(argv[1], "cannot be written");
     fprintf(out, "/* Made by faces_convert of the fonts of Spleen; see viz/THIRD-PARTY. */\n#include \"glyphs.h\"\n\n");
     for (int i = 0; i < argc - 2; i++) {
         read_font(&f, argv[i + 2]);
@@ -197,6 +198,6 @@ int main(int argc, char **argv)
     }
     fprintf(out, "};\n");
     if (ferror(out) || fclose(out) != 0)
-        stop(argv[1], "cannot be written");
+        stop_with_error(argv[1], "cannot be written");
     return 0;
 }

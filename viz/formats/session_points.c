@@ -176,7 +176,7 @@ static bool load_point_file(json_reader *r, const json_t *value, const json_plac
     if (!done)
         return error_set(r->error, "%s:%zu: points.file: %s", json_shorten_name(r->name), json_find_line(r, at),
                          why.text);
-    memcpy(s->note, s->points.note, sizeof s->note);
+    memcpy(s->note, s->points.note, sizeof s->points.note);
     if (!*s->note)
         write_values_note(s, json_string_value(value));
     return true;

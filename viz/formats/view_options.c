@@ -242,7 +242,7 @@ static bool parse_region(const view_option *option, const char *text, view *v, o
 
 /* ---- Anti-aliasing ------------------------------------------------------------------------------------------ */
 
-static bool parse_aa(const view_option *option, const char *text, view *v, octreel_error *error)
+static bool parse_antialiasing(const view_option *option, const char *text, view *v, octreel_error *error)
 {
     if (text[0] == 0 || text[1] != 0 || !strchr("124", text[0]))
         return report_wrong_value(option, text, error);
@@ -250,7 +250,7 @@ static bool parse_aa(const view_option *option, const char *text, view *v, octre
     return true;
 }
 
-static bool check_aa(json_reader *r, const json_place *at, void *structure)
+static bool check_antialiasing(json_reader *r, const json_place *at, void *structure)
 {
     return ((const view *)structure)->aa != 3 || json_fail(r, at, "expected 1, 2 or 4, found 3");
 }
@@ -385,8 +385,8 @@ static const view_option rows[] = {
      "limit)",
      parse_whole, MEMBER("budget", &json_uint64, budget), .standard = "250000", .member.max = JSON_LARGEST_WHOLE},
     {"aa", "N", "1, 2 or 4 samples on each side of a pixel",
-     "anti-aliasing: 1 (off, the default), 2 or 4 samples on each side of a pixel", parse_aa,
-     MEMBER("aa", &json_int, aa), .standard = "1", .member.min = 1, .member.max = 4, .member.check = check_aa,
+     "anti-aliasing: 1 (off, the default), 2 or 4 samples on each side of a pixel", parse_antialiasing,
+     MEMBER("aa", &json_int, aa), .standard = "1", .member.min = 1, .member.max = 4, .member.check = check_antialiasing,
      .noun = "anti-aliasing"},
 };
 

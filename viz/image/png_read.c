@@ -59,7 +59,7 @@ static void read_bytes(png_structp png, png_bytep bytes, size_t size)
 {
     FILE *file = (FILE *)png_get_io_ptr(png);
     if (fread(bytes, 1, size, file) != size)
-        png_error(png, ferror(file) ? strerror(errno) : "the file is cut short");
+        png_error(png, ferror(file) ? strerror(errno) : "the file is truncated");
 }
 
 static void ignore_warning(png_structp png, png_const_charp message)
@@ -229,7 +229,7 @@ static void read_description(image_source *s)
     s->about.height = (int)png_get_image_height(png, info);
     s->about.channels = s->samples == 1 ? 1 : 3;
     if (png_get_rowbytes(png, info) != find_row_size(s))
-        png_error(png, "libpng did not expand the pixels to 8 or 16 bits a sample");
+        png_error(png, "libpng did not expand the pixels to 8 or 16 bits per sample");
     if (s->samples == 1)
         set_palette(s);
     /* An interlaced file delivers its rows in several passes. For 16-bit samples, only all rows together show whether

@@ -24,7 +24,7 @@ typedef struct output {
 static const char *find_reason_to_refuse(const image *image)
 {
     if (image->wide)
-        return "the image has more than 8 bits a sample";
+        return "the image has more than 8 bits per sample";
     if (image->channels == 3)
         return NULL;
     if (image->palette.count < 1 || image->palette.count > 256)

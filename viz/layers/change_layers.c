@@ -70,7 +70,7 @@ static void describe_change(description *d, const described_element *element)
 
 static bool changes_apply(const layer_source *in)
 {
-    return in->game && shows_own_tree(in);
+    return in->game && shows_octreel_nodes(in);
 }
 
 const layer_type layer_MERGES = {.applies = changes_apply,

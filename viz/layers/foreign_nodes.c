@@ -20,20 +20,20 @@
 #include <stdio.h>
 #include <string.h>
 
-bool shows_own_tree(const layer_source *in)
+bool shows_octreel_nodes(const layer_source *in)
 {
     const view_tree tree = in->view->tree;
     return tree == TREE_OWN || tree == TREE_BOTH || (tree == TREE_AUTO && !(in->tick && in->tick->foreign.given));
 }
 
-bool shows_foreign_tree(const layer_source *in)
+bool shows_foreign_nodes(const layer_source *in)
 {
     return in->tick && in->tick->foreign.given && in->view->tree != TREE_OWN;
 }
 
 /* ---- Boxes -------------------------------------------------------------------------------------------------- */
 
-static theme_role role_of(const view *v, const octree_foreign_place *place)
+static theme_role choose_foreign_role(const view *v, const octree_foreign_place *place)
 {
     return v->coloring == COLORING_KIND ? theme_node_kind_role(place->kind)
                                         : node_role(v, (node_traits){.depth = place->depth, .points = place->points});
@@ -57,7 +57,7 @@ static bool passes_filter(const scene *s, const octree_foreign_place *place)
 }
 
 /* Return whether a node is smaller than the view's lod and has an ancestor that the view may show. */
-static bool is_small(const scene *s, const octree_foreign_place *place)
+static bool is_below_lod(const scene *s, const octree_foreign_place *place)
 {
     return place->parent != SIZE_MAX && is_small_below_shown(s, &place->node->box, place->depth);
 }
@@ -71,7 +71,7 @@ static int deepest_in_budget(scene *s, const octree_foreign_state *foreign)
     size_t at_level[UINT8_MAX + 1] = {0}, sum = 0;
     int level = 0;
     for (size_t i = 0; i < foreign->node_count; i++)
-        if (passes_filter(s, &foreign->nodes[i]) && !is_small(s, &foreign->nodes[i]))
+        if (passes_filter(s, &foreign->nodes[i]) && !is_below_lod(s, &foreign->nodes[i]))
             at_level[clamped_depth(&foreign->nodes[i])]++;
     while (level <= UINT8_MAX && (!s->view.budget || (sum += at_level[level]) <= s->view.budget))
         level++;
@@ -89,12 +89,12 @@ void add_foreign_nodes(scene *s, const layer_source *in)
         const octree_foreign_place *place = &foreign->nodes[i];
         if (!passes_filter(s, place))
             continue;
-        const bool small = is_small(s, place), out = !small && (int)clamped_depth(place) > deepest;
+        const bool small = is_below_lod(s, place), out = !small && (int)clamped_depth(place) > deepest;
         s->tally.small += small;
         s->tally.beyond += out;
         if (small || out)
             continue;
-        add_box(s, place, make_role_style(LAYER_NODES, role_of(&s->view, place), STROKE_SOLID, 1));
+        add_box(s, place, make_role_style(LAYER_NODES, choose_foreign_role(&s->view, place), STROKE_SOLID, 1));
         s->tally.nodes++;
     }
     if (s->tally.beyond > beyond)
@@ -120,10 +120,10 @@ void add_visited_foreign_nodes(scene *s, const layer_source *in, scene_style sty
         const octree_foreign_place *place = &foreign->nodes[i];
         if (!matches_layer(place, style.layer) || !passes_filter(s, place))
             continue;
-        const bool small = is_small(s, place);
+        const bool small = is_below_lod(s, place);
         s->tally.small_marked += small;
         if (style.layer != LAYER_HIT)
-            style.role = (uint8_t)role_of(&s->view, place);
+            style.role = (uint8_t)choose_foreign_role(&s->view, place);
         if (!small)
             add_box(s, place, style);
     }
@@ -141,7 +141,7 @@ wrong_marks find_wrong_marks(const layer_source *in)
 {
     const octree_foreign_state *foreign = &in->tick->foreign;
     wrong_marks marks = {.count = 0};
-    if (!shows_foreign_tree(in))
+    if (!shows_foreign_nodes(in))
         return marks;
     for (size_t i = 0; i < foreign->node_count && marks.count < OCTREE_LISTED_WRONG_NODES; i++) {
         const octree_foreign_place *node = &foreign->nodes[i];

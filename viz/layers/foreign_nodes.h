@@ -26,8 +26,8 @@ static inline uint64_t foreign_node_of(uint64_t id)
 }
 
 /* Return whether the view shows Octreel's own tree at this tick, and whether it shows the foreign nodes. */
-bool shows_own_tree(const layer_source *in);
-bool shows_foreign_tree(const layer_source *in);
+bool shows_octreel_nodes(const layer_source *in);
+bool shows_foreign_nodes(const layer_source *in);
 
 /* add_foreign_nodes() adds all foreign nodes that pass the view's filter, lod and budget. add_visited_foreign_nodes()
  * adds only the foreign nodes that queries visited, pruned or hit: `style.layer` selects which of the three. */

@@ -10,7 +10,7 @@
 
 unsigned heat_step(uint64_t amount, unsigned shift)
 {
-    return theme_doubling_step(amount >> shift, shift);
+    return theme_step_of_doubling_ramp(amount >> shift, shift);
 }
 
 /* The context of the walk that adds a marker to each leaf. */
@@ -20,7 +20,7 @@ typedef struct heat_walk {
     view_layer layer;
 } heat_walk;
 
-static unsigned shift_of(view_layer layer)
+static unsigned heat_shift(view_layer layer)
 {
     return layer == LAYER_VISIT_HEAT ? HEAT_VISITS_SHIFT : HEAT_POINTS_SHIFT;
 }
@@ -48,7 +48,7 @@ static octree_walk_order add_leaf(const octree_node *node, void *context)
     const uint64_t amount = visits ? heat_of_node.visits : heat_of_node.points;
     if (amount) {
         double middle[3];
-        const unsigned step = heat_step(amount, shift_of(w->layer));
+        const unsigned step = heat_step(amount, heat_shift(w->layer));
         scene_box_middle(&node->box, middle);
         scene_add_mark(s, node->address, middle, visits ? SHAPE_SQUARE : SHAPE_DIAMOND,
                        make_role_style(w->layer, theme_node_role(step), STROKE_SOLID, mark_width(s, &node->box, step)));
@@ -68,7 +68,7 @@ static void add_heat_legend(legend *l, const layer_source *in)
     const bool visits = l->next.layer == LAYER_VISIT_HEAT;
     (void)in;
     legend_add(l, SIGN_GROWING_RAMP, "%s 1-%" PRIu64 "+ %s", visits ? "square" : "diamond",
-               HEAT_LAST(shift_of(l->next.layer)), visits ? "visits" : "points");
+               HEAT_LAST(heat_shift(l->next.layer)), visits ? "visits" : "points");
 }
 
 static void describe_heat(description *d, const described_element *element)
@@ -83,12 +83,12 @@ static void describe_heat(description *d, const described_element *element)
     describe_node(d, ", ", element->id);
 }
 
-const layer_type layer_VISIT_HEAT = {.applies = layer_in_games,
+const layer_type layer_VISIT_HEAT = {.applies = is_layer_of_games,
                                      .add = add_heat,
                                      .legend = {.order = 170, .add_lines = add_heat_legend},
                                      .describe = describe_heat};
 
-const layer_type layer_POINT_HEAT = {.applies = layer_in_games,
+const layer_type layer_POINT_HEAT = {.applies = is_layer_of_games,
                                      .add = add_heat,
                                      .legend = {.order = 180, .add_lines = add_heat_legend},
                                      .describe = describe_heat};

@@ -75,7 +75,7 @@ LAYER_MAP(LAYER_TYPE_DECLARE)
 extern const layer_type *const layer_types[LAYER_ALL];
 
 /* The member `applies` of layers whose elements exist only in scenes of a game, not in scenes of a tree. */
-bool layer_in_games(const layer_source *in);
+bool is_layer_of_games(const layer_source *in);
 
 bool layer_applies(const layer_source *in, view_layer layer);
 

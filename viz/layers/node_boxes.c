@@ -8,8 +8,8 @@ theme_role node_role(const view *v, node_traits node)
     switch (v->coloring) {
     case COLORING_OCCUPANCY:
         if (node.capacity == 0)
-            return theme_node_role(theme_doubling_step(node.points, 1));
-        return node.leaf ? theme_node_role(theme_fraction_step(node.points, node.capacity)) : ROLE_WORLD;
+            return theme_node_role(theme_step_of_doubling_ramp(node.points, 1));
+        return node.leaf ? theme_node_role(theme_step_of_even_ramp(node.points, node.capacity)) : ROLE_WORLD;
     case COLORING_PLAIN:
     case COLORING_KIND:
         return ROLE_NODE_PLAIN;

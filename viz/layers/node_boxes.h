@@ -42,12 +42,12 @@ void add_crossed_faces(scene *s, const octree_box *box, scene_style style);
  * points than the budget. The decision depends only on the point's id. So a moving point does not flicker, and its
  * velocity arrow is dropped together with it. A sieve whose n lowest bits are set keeps about one id in 2^n. A sieve
  * with more bits, called finer, keeps a subset of the ids that a coarser sieve keeps. */
-static inline bool sieve_drops(uint64_t sieve, uint64_t id)
+static inline bool sieve_rejects_id(uint64_t sieve, uint64_t id)
 {
     return octree_digest_word(OCTREE_DIGEST_START, id) & sieve;
 }
 
-static inline uint64_t finer_sieve(uint64_t sieve)
+static inline uint64_t make_finer_sieve(uint64_t sieve)
 {
     return sieve << 1 | 1;
 }

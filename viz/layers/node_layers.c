@@ -62,7 +62,7 @@ typedef struct tree_walk {
     bool keeping_failed; /* true: no memory for the store, so the walk must start again without it */
 } tree_walk;
 
-static void stop_keeping(tree_walk *w)
+static void abandon_kept_tree(tree_walk *w)
 {
     if (w->kept)
         kept_tree_clear(w->kept);
@@ -73,15 +73,15 @@ static void stop_keeping(tree_walk *w)
 
 /* Switch to the next finer sieve. Remove from the scene the points that this sieve drops, which are about half of the
  * points. */
-static void thin_points(tree_walk *w)
+static void thin_points_once(tree_walk *w)
 {
     scene *s = w->scene;
     size_t kept = 0;
-    stop_keeping(w);
-    w->sieve = finer_sieve(w->sieve);
+    abandon_kept_tree(w);
+    w->sieve = make_finer_sieve(w->sieve);
     for (size_t i = 0; i < s->markers.count; i++) {
         const scene_marker *marker = &s->markers.items[i];
-        const bool out = marker->style.layer == LAYER_POINTS && sieve_drops(w->sieve, marker->id);
+        const bool out = marker->style.layer == LAYER_POINTS && sieve_rejects_id(w->sieve, marker->id);
         s->tally.points -= out;
         s->tally.thinned += out;
         if (!out)
@@ -94,7 +94,7 @@ static void thin_points_to_budget(tree_walk *w)
 {
     const scene *s = w->scene;
     while (s->view.budget && s->tally.points > s->view.budget && w->sieve != UINT64_MAX)
-        thin_points(w);
+        thin_points_once(w);
 }
 
 /* Return whether filter and sieve keep a point. Also count the points that the sieve drops. */
@@ -102,11 +102,11 @@ static bool select_point(tree_walk *w, const octree_point *point)
 {
     if (!filter_shows_point(&w->scene->view.filter, point->position))
         return false;
-    const bool out = sieve_drops(w->sieve, point->id);
+    const bool out = sieve_rejects_id(w->sieve, point->id);
     w->scene->tally.thinned += out;
     if (w->kept) {
         w->kept->open.thinned += out;
-        w->kept->open.looser += !sieve_drops(w->sieve >> 1, point->id);
+        w->kept->open.looser += !sieve_rejects_id(w->sieve >> 1, point->id);
     }
     return !out;
 }
@@ -158,7 +158,7 @@ static void add_points(tree_walk *w, const octree_node *leaf)
 /* ---- Nodes -------------------------------------------------------------------------------------------------- */
 
 /* Remove the boxes at the greatest depth from the scene. */
-static void drop_level(tree_walk *w)
+static void drop_deepest_level(tree_walk *w)
 {
     scene *s = w->scene;
     while (w->deepest > 0 && w->at_depth[w->deepest] == 0)
@@ -195,7 +195,7 @@ static void add_box(tree_walk *w, const scene_box *box)
     w->at_depth[box->depth]++;
     s->tally.nodes++;
     while (s->view.budget && s->tally.nodes > s->view.budget)
-        drop_level(w);
+        drop_deepest_level(w);
 }
 
 /* Add a node's box if filter and lod allow it. `by_filter` is true if the filter shows the node. Return false if the
@@ -298,8 +298,8 @@ static octree_walk_order add_node(const octree_node *node, void *context)
 static kept_tree *get_kept_tree(const tree_walk *w, const layer_source *in)
 {
     scene *s = w->scene;
-    if (!in->game || in->values || filter_is_set(&w->filter) || view_paints_points(&s->view) || !shows_own_tree(in) ||
-        shows_foreign_tree(in) || (!s->kept && octree_count(in->tree) < KEPT_FEWEST))
+    if (!in->game || in->values || filter_is_set(&w->filter) || view_paints_points(&s->view) ||
+        !shows_octreel_nodes(in) || shows_foreign_nodes(in) || (!s->kept && octree_count(in->tree) < KEPT_FEWEST))
         return NULL;
     s->kept = s->kept ? s->kept : calloc(1, sizeof *s->kept);
     return s->kept;
@@ -339,7 +339,7 @@ static void walk_tree(tree_walk *w, const octree *tree, kept_tree *kept)
     const bool stores = begin_kept_tree(w, tree, kept);
     octree_walk(tree, add_node, w);
     if (stores && !end_kept_tree(w)) {
-        stop_keeping(w);
+        abandon_kept_tree(w);
         *w = initial;
         s->boxes.count = boxes;
         s->markers.count = markers;
@@ -408,15 +408,15 @@ static void add_nodes_and_points(scene *s, const layer_source *in, view_layer la
     tree_walk w = {.scene = s, .world = in->world, .values = in->values, .deepest = OCTREE_MAX_DEPTH};
     w.capacity = octree_definition(in->tree).leaf_capacity;
     w.point_width = expected <= 500 ? 2 : expected <= 20000 ? 1 : 0;
-    w.shows_nodes = view_shows_layer(&s->view, LAYER_NODES) && shows_own_tree(in);
+    w.shows_nodes = view_shows_layer(&s->view, LAYER_NODES) && shows_octreel_nodes(in);
     w.filter = s->view.filter;
-    if (!shows_own_tree(in))
+    if (!shows_octreel_nodes(in))
         /* The depths in the view's filter are depths of the foreign tree. They do not apply to the points, which belong
          * to Octreel's tree. */
         w.filter.by_depth = false;
     walk_tree(&w, in->tree, get_kept_tree(&w, in));
     s->tally.deepest = w.deepest;
-    if (shows_foreign_tree(in))
+    if (shows_foreign_nodes(in))
         add_foreign_nodes(s, in);
     s->tally.one_in = w.sieve + 1;
     s->spacing = view_paints_points(&s->view) ? s->view.point_scale.of.spacing * thinned_spacing(s->tally.one_in) : 0;
@@ -427,10 +427,10 @@ static void add_nodes_and_points(scene *s, const layer_source *in, view_layer la
 /* Add a legend line for each kind of foreign node that has a colour. Octreel's own nodes have no kinds. */
 static void add_kinds_legend(legend *l, const layer_source *in)
 {
-    const size_t count = shows_foreign_tree(in) ? in->tick->foreign.kind_count : 0;
+    const size_t count = shows_foreign_nodes(in) ? in->tick->foreign.kind_count : 0;
     /* Number of kinds of foreign nodes that get a legend line of their own. */
     const size_t named = count > THEME_NODE_KINDS ? THEME_NODE_KINDS - 1 : count;
-    if (shows_own_tree(in))
+    if (shows_octreel_nodes(in))
         legend_add(l, SIGN_BOLD, "node");
     for (size_t i = 0; i < named; i++)
         legend_add(l, SIGN_BOLD, "node: %s", in->tick->foreign.kinds[i][0] ? in->tick->foreign.kinds[i] : "no kind")
@@ -445,18 +445,18 @@ static void add_occupancy_legend(legend *l, const layer_source *in)
 {
     const view *v = &l->scene->view;
     const bool diagram = view_shows_layer(v, LAYER_DIAGRAM);
-    if (shows_own_tree(in) || diagram)
+    if (shows_octreel_nodes(in) || diagram)
         legend_add(l, SIGN_RAMP, "leaves, 0-%zu+ points", octree_definition(in->tree).leaf_capacity)->steps =
             THEME_NODE_DEPTHS;
-    if ((shows_own_tree(in) && !v->filter.leaves) || diagram)
+    if ((shows_octreel_nodes(in) && !v->filter.leaves) || diagram)
         legend_add(l, SIGN_BOLD, "inner node")->role = ROLE_WORLD;
-    if (shows_foreign_tree(in))
+    if (shows_foreign_nodes(in))
         legend_add(l, SIGN_RAMP, "foreign, 0-%u+ points", THEME_MOST_POINTS)->steps = THEME_NODE_DEPTHS;
 }
 
 static void add_node_legend(legend *l, const layer_source *in)
 {
-    const size_t deepest = shows_foreign_tree(in) ? OCTREE_MAX_DEPTH : octree_definition(in->tree).max_depth;
+    const size_t deepest = shows_foreign_nodes(in) ? OCTREE_MAX_DEPTH : octree_definition(in->tree).max_depth;
     if (l->scene->view.coloring == COLORING_KIND)
         add_kinds_legend(l, in);
     else if (l->scene->view.coloring == COLORING_DEPTH)

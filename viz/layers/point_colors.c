@@ -28,7 +28,7 @@ static bool is_dark_cell(const octree_node *leaf)
 const char *const class_kind_names[THEME_KINDS] = {"unclassified", "ground", "vegetation",         "building",
                                                    "water",        "noise",  "road, rail, bridge", "other"};
 
-unsigned kind_of_class(unsigned class)
+unsigned find_class_color_kind(unsigned class)
 {
     static const uint8_t kinds[] = {0, 0, 1, 2, 2, 2, 3, 5, 1, 4, 6, 6, 7, 7, 7, 7, 7, 6, 5};
     return class < sizeof kinds ? kinds[class] : 7;
@@ -61,7 +61,7 @@ static theme_color color_of_marker(const painting *p, const scene_marker *m)
         return value.has[POINT_COLOR] ? (theme_color){value.color[0], value.color[1], value.color[2]} : p->plain;
     case POINTS_BY_CLASS:
         value = point_values_get(p->values, m->id);
-        return value.has[POINT_CLASS] ? theme_kind_color(kind_of_class(value.class)) : p->plain;
+        return value.has[POINT_CLASS] ? theme_kind_color(find_class_color_kind(value.class)) : p->plain;
     case POINTS_BY_INTENSITY:
         value = point_values_get(p->values, m->id);
         if (!value.has[POINT_INTENSITY])
@@ -104,13 +104,13 @@ static void add_class_legend(legend *l, const point_values *values)
     unsigned kinds = 0; /* bit i is set if a class of kind i occurs among the points */
     for (size_t row = 0; row < values->count; row++)
         if (values->rows[row].has[POINT_CLASS])
-            kinds |= 1u << kind_of_class(values->rows[row].class);
+            kinds |= 1u << find_class_color_kind(values->rows[row].class);
     for (unsigned kind = 0; kind < THEME_KINDS; kind++)
         if (kinds >> kind & 1)
             legend_add(l, SIGN_SWATCH, "%s", class_kind_names[kind])->color = theme_kind_color(kind);
 }
 
-static legend_scale scale_of(const point_scale *s, view_point_color by)
+static legend_scale make_color_scale(const point_scale *s, view_point_color by)
 {
     const int axis = axis_of(by);
     switch (by) {
@@ -172,5 +172,5 @@ void add_point_legend(legend *l, const layer_source *in)
     }
     /* Without a scale no point is shown, so the legend needs no colour bar. */
     if (v->point_scale.given || v->point_color == POINTS_BY_DENSITY)
-        legend_add_scale(l, scale_of(&v->point_scale.of, v->point_color));
+        legend_add_scale(l, make_color_scale(&v->point_scale.of, v->point_color));
 }

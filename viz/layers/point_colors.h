@@ -18,7 +18,7 @@ void add_point_legend(legend *l, const layer_source *in);
 
 /* Return the kind of an LAS class, for theme_kind_color(). Similar classes have the same kind; unknown classes have
  * kind 7, "other". The array class_kind_names has the names of the kinds. */
-unsigned kind_of_class(unsigned class);
+unsigned find_class_color_kind(unsigned class);
 extern const char *const class_kind_names[THEME_KINDS];
 
 #endif

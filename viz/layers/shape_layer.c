@@ -28,7 +28,8 @@ static void add_box(scene *s, uint64_t id, const octree_shape *shape, scene_styl
  * its position anyway, over other elements. */
 static void add_label(scene *s, text_space *words, uint64_t id, const octree_shape *shape, scene_style style)
 {
-    _Static_assert(OCTREE_SHAPE_TEXT < SCENE_TEXT, "a label must hold a shape's text and one space before it");
+    _Static_assert(OCTREE_SHAPE_TEXT < SCENE_TEXT,
+                   "a label must have room for a shape's text and a space before the text");
     scene_label label = scene_make_label(id, style, "%s", shape->text);
     label.style.width = 1;
     if (text_space_add_label_beside(words, s, label, shape->at, MARK))

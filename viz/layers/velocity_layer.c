@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* velocity_layer.c - the layer of velocities: an arrow for each moving point that the view shows.
  *
- * An arrow starts at the point and follows the point's velocity for velocity_ticks() ticks. If the arrow meets the
- * world's bounds earlier, it ends at the bounds, because the point bounces there. The number of ticks depends only on
- * the session, so readers can compare lengths from tick to tick. A point whose arrow would have no length gets no
+ * An arrow starts at the point and follows the point's velocity for count_velocity_ticks() ticks. If the arrow meets
+ * the world's bounds earlier, it ends at the bounds, because the point bounces there. The number of ticks depends only
+ * on the session, so readers can compare lengths from tick to tick. A point whose arrow would have no length gets no
  * arrow.
  *
  * The arrows of a large session would cover the picture, so there is at most one arrow per thousand boxes of the view's
@@ -25,7 +25,7 @@
 #define ARROW_FRACTION 10      /* the longest arrow is at most a tenth of the world's longest side */
 #define BOXES_PER_ARROW 1000.0 /* at most one arrow per thousand boxes of the view's budget */
 
-unsigned velocity_ticks(const octree_game *game)
+unsigned count_velocity_ticks(const octree_game *game)
 {
     static const unsigned choices[] = {2, 5, 10, 20, 50, 100, 200, 500, 1000};
     const octree_box *world = &octree_game_session(game)->tree.world;
@@ -64,7 +64,7 @@ static void extrapolate(const octree_body *body, const octree_box *world, double
 }
 
 /* Return whether an arrow appears shorter on screen than the view's lod. */
-static bool is_small(const scene *s, double ends[2][3])
+static bool is_arrow_below_lod(const scene *s, double ends[2][3])
 {
     double from[2], to[2];
     return s->view.lod > 0 && camera_find_pixel(&s->camera, ends[0], from) &&
@@ -120,7 +120,7 @@ enum { SIEVES = 65 };
 static unsigned count_passed_sieves(uint64_t id)
 {
     unsigned passed = 0;
-    for (uint64_t sieve = 1; passed < SIEVES - 1 && !sieve_drops(sieve, id); sieve <<= 1)
+    for (uint64_t sieve = 1; passed < SIEVES - 1 && !sieve_rejects_id(sieve, id); sieve <<= 1)
         passed++;
     return passed;
 }
@@ -143,7 +143,7 @@ static uint64_t choose_sieve(scene *s, const arrow_context *a, const octree_tick
     while (sieve >> bits & 1)
         bits++;
     for (; bits < SIEVES - 1 && passing[bits] > most; bits++)
-        sieve = finer_sieve(sieve);
+        sieve = make_finer_sieve(sieve);
     s->tally.arrows.thinned = all - passing[bits];
     s->tally.arrows.one_in = sieve + 1;
     return sieve;
@@ -152,7 +152,7 @@ static uint64_t choose_sieve(scene *s, const arrow_context *a, const octree_tick
 static void add_velocities(scene *s, const layer_source *in, view_layer layer)
 {
     const octree_tick *tick = in->tick;
-    const arrow_context a = {s, in, velocity_ticks(in->game)};
+    const arrow_context a = {s, in, count_velocity_ticks(in->game)};
     if (!view_shows_layer(&s->view, layer) || tick->mover_count == 0)
         return;
     /* The sieve that dropped points from this scene. A dropped point gets no arrow, so the arrows use the same or a
@@ -162,10 +162,10 @@ static void add_velocities(scene *s, const layer_source *in, view_layer layer)
     for (size_t i = 0; i < tick->mover_count; i++) {
         const octree_body *body = &tick->movers[i];
         scene_segment arrow = {.id = body->id, .style = make_layer_style(LAYER_VELOCITIES, STROKE_ARROW, 1)};
-        if (sieve_drops(sieve, body->id) || !find_arrow_end(&a, body, arrow.ends[1]) || !is_body_shown(&a, body))
+        if (sieve_rejects_id(sieve, body->id) || !find_arrow_end(&a, body, arrow.ends[1]) || !is_body_shown(&a, body))
             continue;
         memcpy(arrow.ends[0], body->position, sizeof arrow.ends[0]);
-        if (is_small(s, arrow.ends))
+        if (is_arrow_below_lod(s, arrow.ends))
             s->tally.arrows.small++;
         else
             scene_add_segment(s, arrow);
@@ -179,7 +179,7 @@ static bool has_movers(const layer_source *in)
 
 static void add_velocity_legend(legend *l, const layer_source *in)
 {
-    const unsigned ticks = velocity_ticks(in->game);
+    const unsigned ticks = count_velocity_ticks(in->game);
     legend_add(l, SIGN_ARROW, "velocity, %u tick%s", ticks, plural_ending(ticks));
 }
 
@@ -191,8 +191,8 @@ static void describe_arrow(description *d, const described_element *element)
             continue;
         describe_point(d, "the velocity of ", body->id, body->position);
         append_position(d, ": ", body->velocity);
-        append_text(d, " per tick; the arrow is the motion of %u tick%s", velocity_ticks(d->game),
-                    plural_ending(velocity_ticks(d->game)));
+        append_text(d, " per tick; the arrow shows the motion of %u tick%s", count_velocity_ticks(d->game),
+                    plural_ending(count_velocity_ticks(d->game)));
     }
 }
 

@@ -8,6 +8,6 @@
 /* Return the number of ticks whose movement an arrow shows. The result is the largest of 1, 2, 5, 10 ... 1000 for which
  * the arrow of the session's fastest body is at most a tenth of the world's longest side. If even 1 is too large, the
  * result is 1. The number is the same at every tick. */
-unsigned velocity_ticks(const octree_game *game);
+unsigned count_velocity_ticks(const octree_game *game);
 
 #endif

@@ -32,7 +32,7 @@ static void add_visits(scene *s, const layer_source *in, view_layer layer)
     octree_node node;
     if (!view_shows_layer(&s->view, layer))
         return;
-    for (size_t i = 0; shows_own_tree(in) && i < count; i++) {
+    for (size_t i = 0; shows_octreel_nodes(in) && i < count; i++) {
         const octree_address address = find_visited_node(tick, layer, i);
         if (!address || !find_shown_node(s, in->tree, address, &node))
             continue;
@@ -40,14 +40,14 @@ static void add_visits(scene *s, const layer_source *in, view_layer layer)
             style.role = (uint8_t)node_role(&s->view, (node_traits){node.depth, node.count, capacity, node.leaf});
         add_node_box(s, &node, style);
     }
-    if (shows_foreign_tree(in))
+    if (shows_foreign_nodes(in))
         add_visited_foreign_nodes(s, in, style);
 }
 
 /* Return how many nodes had a visit of the kind `visit`, in the trees that the view shows. */
 static size_t count_shown_visits(const layer_source *in, size_t octreel, octree_node_visit visit)
 {
-    return (shows_own_tree(in) ? octreel : 0) + (shows_foreign_tree(in) ? in->tick->foreign.visits[visit] : 0);
+    return (shows_octreel_nodes(in) ? octreel : 0) + (shows_foreign_nodes(in) ? in->tick->foreign.visits[visit] : 0);
 }
 
 static void add_pruned_legend(legend *l, const layer_source *in)
@@ -60,7 +60,7 @@ static void add_pruned_legend(legend *l, const layer_source *in)
  * accepted without comparing them. The two numbers share a line if they fit. */
 static void add_visited_legend(legend *l, const layer_source *in)
 {
-    const size_t taken = shows_own_tree(in) ? in->tick->touched[OCTREE_TRACE_TAKEN] : 0;
+    const size_t taken = shows_octreel_nodes(in) ? in->tick->touched[OCTREE_TRACE_TAKEN] : 0;
     const size_t visited = count_shown_visits(in, in->tick->touched[OCTREE_TRACE_VISITED], OCTREE_NODE_VISITED);
     char rest[SCENE_TEXT];
     legend_line *line = legend_add(l, SIGN_BOLD, "%zu node%s visited", visited, plural_ending(visited));
@@ -86,17 +86,17 @@ static void describe_visit(description *d, const described_element *element)
                                             : "; it holds points that this tick's queries found");
 }
 
-const layer_type layer_PRUNED = {.applies = layer_in_games,
+const layer_type layer_PRUNED = {.applies = is_layer_of_games,
                                  .add = add_visits,
                                  .legend = {.order = 80, .add_lines = add_pruned_legend},
                                  .describe = describe_visit};
 
-const layer_type layer_VISITED = {.applies = layer_in_games,
+const layer_type layer_VISITED = {.applies = is_layer_of_games,
                                   .add = add_visits,
                                   .legend = {.order = 70, .add_lines = add_visited_legend},
                                   .describe = describe_visit};
 
-const layer_type layer_HIT = {.applies = layer_in_games,
+const layer_type layer_HIT = {.applies = is_layer_of_games,
                               .add = add_visits,
                               .legend = {.order = 90, .add_lines = add_hit_legend},
                               .describe = describe_visit};

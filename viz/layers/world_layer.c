@@ -58,7 +58,7 @@ static double side_length(const camera *c, int axis)
 
 /* Return the distance between two neighbouring numbers on an axis, in world units. Return 0 if there is no room for
  * numbers, or if the numbers would need too many digits. */
-static double number_step(const axes *a, int axis)
+static double choose_number_step(const axes *a, int axis)
 {
     const double extent = a->box->max[axis] - a->box->min[axis];
     const double length = side_length(&a->scene->camera, axis);
@@ -76,7 +76,7 @@ static double number_step(const axes *a, int axis)
 
 /* Return whether an edge lies on the outline of the box: no corner of the box lies beyond the line through the pixel
  * `at` with the normal `out`. */
-static bool is_outline(const axes *a, const double at[2], const double out[2])
+static bool is_on_outline(const axes *a, const double at[2], const double out[2])
 {
     for (int i = 0; i < 8; i++)
         if ((a->corners[i][0] - at[0]) * out[0] + (a->corners[i][1] - at[1]) * out[1] > OUTLINE)
@@ -108,7 +108,7 @@ static axis_edge choose_edge(const axes *a, int axis)
         const double out[2] = {y / length, -x / length};
         const double worth =
             (axis == 2 ? 0 : LOWEST) * out[1] - out[0] + ROOM * (has_room(a, from, out) + has_room(a, to, out));
-        if (corner >> axis & 1 || !(worth > most) || !is_outline(a, from, out))
+        if (corner >> axis & 1 || !(worth > most) || !is_on_outline(a, from, out))
             continue;
         most = worth;
         edge.corner = corner;
@@ -120,7 +120,7 @@ static axis_edge choose_edge(const axes *a, int axis)
 /* Return whether an axis gets no numbers. An axis that is seen end on gets none, because all its numbers would be at
  * the same place. An axis gets none either if no edge lies on the outline, because its numbers would stand on the
  * contents of the box. */
-static bool is_end_on(const axes *a, const axis_edge *e)
+static bool is_seen_end_on(const axes *a, const axis_edge *e)
 {
     const double *from = a->corners[e->corner], *to = a->corners[e->corner | 1u << e->axis];
     const double x = to[0] - from[0], y = to[1] - from[1];
@@ -174,8 +174,8 @@ static void add_tick(axes *a, const axis_edge *e, double at, uint64_t id)
 static void add_ticks(axes *a, const axis_edge *e)
 {
     const int axis = e->axis;
-    const double step = number_step(a, axis);
-    if (step == 0 || is_end_on(a, e) || !isfinite(longest_side(a->scene)))
+    const double step = choose_number_step(a, axis);
+    if (step == 0 || is_seen_end_on(a, e) || !isfinite(longest_side(a->scene)))
         return;
     const double first = ceil(a->box->min[axis] / step), last = floor(a->box->max[axis] / step);
     for (double i = first; i <= last; i++) /* adding 0.0 turns -0 into 0 */
@@ -208,7 +208,7 @@ static void add_axis(axes *a, const axis_edge *e, bool drawn)
     box_corner(a->box, e->corner | 1u << e->axis, ends[1]);
     if (drawn)
         scene_add_line(a->scene, (uint64_t)e->axis, ends[0], ends[1], axis_style);
-    if (is_end_on(a, e))
+    if (is_seen_end_on(a, e))
         return;
     letter.style.stroke = STROKE_CUT;
     letter.in_world = !place_letter(a, ends, &letter);

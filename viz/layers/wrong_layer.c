@@ -30,7 +30,7 @@ static uint64_t ring_id(size_t place)
 
 static bool has_judged_tick(const layer_source *in)
 {
-    return in->tick && (in->tick->judged || shows_foreign_tree(in));
+    return in->tick && (in->tick->judged || shows_foreign_nodes(in));
 }
 
 static bool is_in_session(const octree_session *session)
@@ -133,7 +133,7 @@ static void add_wrong_legend(legend *l, const layer_source *in)
         legend_add(l, SIGN_TRIANGLE, "missing point")->role = ROLE_MISSED;
         legend_add(l, SIGN_WEDGE, "extra point");
     }
-    if (shows_foreign_tree(in))
+    if (shows_foreign_nodes(in))
         legend_add(l, SIGN_DASHES, "wrong node");
 }
 

@@ -79,7 +79,7 @@ typedef struct preparation {
     octreel_error errors[PREPARATIONS];
 } preparation;
 
-static void prepare_part(size_t part, void *context)
+static void prepare_picture_or_tick(size_t part, void *context)
 {
     preparation *to = context;
     recording *r = to->recording;
@@ -89,10 +89,10 @@ static void prepare_part(size_t part, void *context)
                          : make_session_bytes(r->session, o->values, &r->bytes, &to->errors[part]);
 }
 
-static bool prepare(recording *r, playback *p, octreel_error *error)
+static bool open_picture_and_play_first_tick(recording *r, playback *p, octreel_error *error)
 {
     preparation to = {.recording = r, .playback = p};
-    parallel_for(PREPARATIONS, prepare_part, &to);
+    parallel_for(PREPARATIONS, prepare_picture_or_tick, &to);
     for (int part = 0; part < PREPARATIONS; part++)
         if (!to.done[part]) {
             *error = to.errors[part];
@@ -112,7 +112,7 @@ bool film_session(const octree_session *session, const film_options *options, fi
     summary->total = r.share.last - r.share.first;
     const uint64_t frames = count_frames(&r.share, options->every);
     const unsigned jobs = options->jobs < frames ? options->jobs : (unsigned)frames;
-    bool ok = prepare(&r, &p, error);
+    bool ok = open_picture_and_play_first_tick(&r, &p, error);
     if (ok)
         summary->start = film_count_start(session, octree_game_tick(p.game));
     ok = ok && (jobs > 1 ? film_by_jobs(&r, &p, jobs, error) : film_in_this_process(&r, &p, error));

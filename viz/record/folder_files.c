@@ -168,7 +168,7 @@ char *describe_renderer(const renderer_info *info, char *text, size_t size)
     return make_printable(text);
 }
 
-static const char *text_of(const json_t *object, const char *key)
+static const char *get_json_text(const json_t *object, const char *key)
 {
     return json_string_value(json_object_get(object, key));
 }
@@ -180,10 +180,10 @@ char *describe_recorded_renderer(const char *folder, char *text, size_t size)
     uint64_t bytes = 0;
     FILE *file = path ? file_open(path, &bytes, reason) : NULL;
     json_t *object = file && bytes <= LARGEST ? json_loadf(file, 0, NULL) : NULL;
-    const renderer_info info = {.context = text_of(object, "context"),
-                                .renderer = text_of(object, "renderer"),
-                                .version = text_of(object, "version"),
-                                .fill = text_of(object, "fill")};
+    const renderer_info info = {.context = get_json_text(object, "context"),
+                                .renderer = get_json_text(object, "renderer"),
+                                .version = get_json_text(object, "version"),
+                                .fill = get_json_text(object, "fill")};
     describe_renderer(&info, text, size);
     json_decref(object);
     if (file)
@@ -227,7 +227,7 @@ static bool check_live_session(const char *folder, uint64_t session_digest, octr
 
 /* Check that the folder contains recording.json and session.json. The caller has listed the folder before this check. A
  * recording writes these two files before all others, so a recording that another process has just begun passes. */
-static bool check_known(const char *folder, const char *past, uint64_t session_digest, octreel_error *error)
+static bool check_recorded_start(const char *folder, const char *past, uint64_t session_digest, octreel_error *error)
 {
     const bool view = folder_contains(folder, "recording.json"), session = folder_contains(folder, "session.json");
     if (view && !session && folder_contains(folder, "session.json.live"))
@@ -267,7 +267,7 @@ bool check_resumable(const char *folder, uint64_t session_digest, uint64_t ticks
             ok = error_set(error, "%s/%s: not a frame of this recording; remove it, or choose another folder", folder,
                            names[i]);
     }
-    ok = ok && (!past || (check_known(folder, past, session_digest, error) &&
+    ok = ok && (!past || (check_recorded_start(folder, past, session_digest, error) &&
                           check_session(folder, frame, session_digest, error)));
     free(names);
     return ok;

@@ -38,7 +38,8 @@ static bool keep_picture(const picture *p, const char *prefix, const char *raste
     return kept;
 }
 
-static bool keep_both(picture *p, const scene *s, const uint8_t *by_gl, const char *prefix, octreel_error *error)
+static bool keep_both_pictures(picture *p, const scene *s, const uint8_t *by_gl, const char *prefix,
+                               octreel_error *error)
 {
     image *drawn = picture_samples(p);
     if (!keep_picture(p, prefix, "integers", error))
@@ -47,8 +48,8 @@ static bool keep_both(picture *p, const scene *s, const uint8_t *by_gl, const ch
     return picture_finish(p, s, error) && keep_picture(p, prefix, "gl", error);
 }
 
-static bool compare(frame_checks *checks, picture *p, const scene *s, const uint8_t *by_gl, const char *name,
-                    const char *prefix, octreel_error *error)
+static bool compare_with_gl(frame_checks *checks, picture *p, const scene *s, const uint8_t *by_gl, const char *name,
+                            const char *prefix, octreel_error *error)
 {
     octreel_error unkept;
     const uint64_t different = count_different(picture_samples(p), by_gl);
@@ -57,7 +58,7 @@ static bool compare(frame_checks *checks, picture *p, const scene *s, const uint
     checks->count += different == 0;
     if (different == 0)
         return true;
-    if (!keep_both(p, s, by_gl, prefix, &unkept))
+    if (!keep_both_pictures(p, s, by_gl, prefix, &unkept))
         return error_set(error,
                          "%s: %" PRIu64 " sample%s between the integer rasterizer and %s; the two pictures "
                          "cannot be kept: %s",
@@ -79,7 +80,7 @@ bool frame_checks_compare(frame_checks *checks, picture *p, const scene *s, cons
         return true;
     }
     const bool same = !renderer_redraw_with_gl(p->renderer, by_gl, &checks->by, &checks->reason) ||
-                      compare(checks, p, s, by_gl, name, prefix, error);
+                      compare_with_gl(checks, p, s, by_gl, name, prefix, error);
     free(by_gl);
     return same;
 }

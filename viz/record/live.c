@@ -45,7 +45,7 @@ struct live_recording {
 
 /* ---- session.json.live -------------------------------------------------------------------------------------- */
 
-static bool fail_to_write(const live_recording *live, octreel_error *error)
+static bool report_write_failure(const live_recording *live, octreel_error *error)
 {
     return error_set(error, "%s: cannot be written: %s", live->path, strerror(errno));
 }
@@ -54,7 +54,7 @@ static bool fail_to_write(const live_recording *live, octreel_error *error)
 static bool flush_session(live_recording *live, octreel_error *error)
 {
     if (fflush(live->stream) != 0 || ferror(live->stream))
-        return fail_to_write(live, error);
+        return report_write_failure(live, error);
     live->whole = ftello(live->stream);
     return true;
 }
@@ -81,7 +81,7 @@ static bool open_session(live_recording *live, octreel_error *error)
         return error_no_memory(error);
     unlink(live->path); /* the path may be an old pipe or a link */
     live->stream = fopen(live->path, "w+bx");
-    return live->stream || fail_to_write(live, error);
+    return live->stream || report_write_failure(live, error);
 }
 
 static bool begin_session(live_recording *live, octreel_error *error)
@@ -122,7 +122,7 @@ static bool copy_ticks(live_recording *live, FILE *out, octreel_error *error)
     off_t left = live->whole - live->head;
     clearerr(live->stream);
     if (fseeko(live->stream, live->head, SEEK_SET) != 0)
-        return fail_to_write(live, error);
+        return report_write_failure(live, error);
     while (left > 0) {
         const size_t wanted = left < (off_t)sizeof buffer ? (size_t)left : sizeof buffer;
         if (fread(buffer, 1, wanted, live->stream) != wanted)

@@ -30,7 +30,7 @@ typedef struct cutter {
 } cutter;
 
 /* Returns true if the character is inside a string or is one of the string's quotes. */
-static bool advance_string(cutter *c, char at)
+static bool advance_in_string(cutter *c, char at)
 {
     const bool was = c->quoted;
     if (!c->escaped && at == '"')
@@ -39,7 +39,7 @@ static bool advance_string(cutter *c, char at)
     return was || c->quoted;
 }
 
-static bool advance_nesting(cutter *c, char at)
+static bool advance_in_lists(cutter *c, char at)
 {
     if (at == '[' || at == '{') {
         if (++c->depth == DEPTH)
@@ -72,7 +72,7 @@ static char *shorten_lists(const char *text, size_t size, size_t *left)
     size_t from = 0; /* offset of the first character that is not yet written */
     for (size_t i = 0; ok && i < size; i++) {
         const bool cut = c.cut;
-        ok = advance_string(&c, text[i]) || advance_nesting(&c, text[i]);
+        ok = advance_in_string(&c, text[i]) || advance_in_lists(&c, text[i]);
         if (!cut && c.cut)
             fwrite(text + from, 1, i - from, c.out);
         from = cut && !c.cut ? i : from;

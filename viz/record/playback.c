@@ -161,7 +161,7 @@ static bool film_frame(playback *p, film_step *step, octreel_error *error)
 
 /* Make the line of ticks.jsonl in memory, because callers write it in one piece, send it to another process or compare
  * it. */
-static bool make_line(playback *p, film_step *step, octreel_error *error)
+static bool make_tick_line(playback *p, film_step *step, octreel_error *error)
 {
     text_stream s;
     free(p->line);
@@ -185,7 +185,7 @@ bool playback_film_tick(playback *p, film_step *step, octreel_error *error)
                         .foreign_nodes = tick->foreign.given,
                         .filmed = !tick->gap && frame_is_due(tick->number, p->target.every)};
     p->extras.frame = step->filmed ? frame_print_name(tick->number, name) : NULL;
-    return (!step->filmed || film_frame(p, step, error)) && make_line(p, step, error);
+    return (!step->filmed || film_frame(p, step, error)) && make_tick_line(p, step, error);
 }
 
 static bool has_tick(const film_share *share, uint64_t tick, uint64_t every)

@@ -47,7 +47,7 @@ static bool open_log(recording *r, octreel_error *error)
 
 /* Begin a recording in a folder without a recording, or replace the recording in it. ticks.jsonl is created first,
  * because its lock keeps other processes away from the folder. */
-static bool begin_alone(recording *r, const beginning *b, octreel_error *error)
+static bool begin_whole_recording(recording *r, const beginning *b, octreel_error *error)
 {
     const char *folder = r->options->folder;
     octreel_error late;
@@ -77,7 +77,7 @@ static bool check_new_chunk(const recording *r, octreel_error *error)
 
 /* Begin a recording in a folder that may already contain a part of it, and into which other processes may be recording
  * other chunks. A dry run and the checks come first, so that a folder with another recording stays unchanged. */
-static bool begin_shared(recording *r, const beginning *b, octreel_error *error)
+static bool begin_chunk_of_recording(recording *r, const beginning *b, octreel_error *error)
 {
     char writer[CHUNK_NAME];
     const film_options *o = r->options;
@@ -95,7 +95,8 @@ bool recording_begin(recording *r, playback *p, octreel_error *error)
     if (r->options->every > 0)
         b.info = renderer_describe(p->picture.renderer);
     p->session_digest = r->bytes.digest;
-    const bool begun = (is_chunk(r) || r->options->resume ? begin_shared : begin_alone)(r, &b, error);
+    const bool begun =
+        (is_chunk(r) || r->options->resume ? begin_chunk_of_recording : begin_whole_recording)(r, &b, error);
     free(r->bytes.bytes);
     r->bytes.bytes = NULL;
     return begun;

@@ -182,7 +182,7 @@ static bool recover_from_crash(const replacement *r, octreel_error *error)
 
 /* ---- Set aside ---------------------------------------------------------------------------------------------- */
 
-static void release(replacement *r)
+static void release_replacement(replacement *r)
 {
     if (r->aside && r->lock >= 0) {
         rmdir(r->aside);
@@ -195,20 +195,20 @@ static void release(replacement *r)
 
 /* Returns true if the open folder aside still exists under its name. The process that held its lock before may have
  * removed it. */
-static bool still_exists(const replacement *r)
+static bool old_recording_exists(const replacement *r)
 {
     struct stat open, named;
     return fstat(r->lock, &open) == 0 && stat(r->aside, &named) == 0 && is_same_file(&open, &named);
 }
 
-static bool make_aside(replacement *r, octreel_error *error)
+static bool create_aside_folder(replacement *r, octreel_error *error)
 {
     if (mkdir(r->aside, 0777) != 0 && errno != EEXIST)
         return error_set(error, "%s: cannot create the folder: %s", r->aside, strerror(errno));
     r->lock = open(r->aside, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
     if (r->lock < 0 && errno != ENOENT)
         return error_set(error, "%s: cannot open the folder: %s", r->aside, strerror(errno));
-    if (r->lock >= 0 && (flock(r->lock, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) && still_exists(r))
+    if (r->lock >= 0 && (flock(r->lock, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) && old_recording_exists(r))
         return true;
     if (r->lock >= 0)
         close(r->lock);
@@ -216,7 +216,7 @@ static bool make_aside(replacement *r, octreel_error *error)
     return error_set(error, "%s: another process is replacing the recording", r->folder);
 }
 
-static bool set_aside(replacement *r, octreel_error *error)
+static bool move_recording_aside(replacement *r, octreel_error *error)
 {
     if (move_file(r->folder, r->aside, mark) && move_or_remove_rest(r->folder, r->aside))
         return true;
@@ -231,10 +231,10 @@ bool replacement_begin(replacement *r, const char *folder, octreel_error *error)
     bool ok = (r->folder && r->aside) || error_no_memory(error);
     ok = ok && folder_create(folder, error) && replacement_check(folder, error);
     /* Check again, because another process may have changed the folder before the lock was taken. */
-    ok = ok && make_aside(r, error) && replacement_check(folder, error);
-    ok = ok && recover_from_crash(r, error) && set_aside(r, error);
+    ok = ok && create_aside_folder(r, error) && replacement_check(folder, error);
+    ok = ok && recover_from_crash(r, error) && move_recording_aside(r, error);
     if (!ok)
-        release(r);
+        release_replacement(r);
     return ok;
 }
 
@@ -242,7 +242,7 @@ void replacement_end(replacement *r)
 {
     if (r->aside)
         remove_recording(r->aside);
-    release(r);
+    release_replacement(r);
 }
 
 bool replacement_undo(replacement *r)
@@ -250,7 +250,7 @@ bool replacement_undo(replacement *r)
     const bool set = r->aside;
     if (set && remove_recording(r->folder))
         restore_old_recording(r);
-    release(r);
+    release_replacement(r);
     return set;
 }
 

@@ -9,7 +9,7 @@
 #include <string.h>
 #include <unistd.h>
 
-static bool fail_to_write(tick_log *log, octreel_error *error, const char *more)
+static bool report_write_failure(tick_log *log, octreel_error *error, const char *more)
 {
     return error_set(error, "%s: cannot be written: %s%s", log->path, strerror(errno), more);
 }
@@ -22,7 +22,7 @@ static bool lock_and_open(tick_log *log, int file, bool keep, octreel_error *err
     log->kept = keep ? lseek(file, 0, SEEK_END) : 0;
     if (log->kept >= 0 && lseek(file, 0, SEEK_SET) == 0 && (keep || ftruncate(file, 0) == 0))
         log->stream = fdopen(file, "r+b");
-    return log->stream || fail_to_write(log, error, "");
+    return log->stream || report_write_failure(log, error, "");
 }
 
 bool tick_log_open(tick_log *log, const char *folder, const char *name, bool keep, octreel_error *error)
@@ -31,7 +31,7 @@ bool tick_log_open(tick_log *log, const char *folder, const char *name, bool kee
     if (!log->path)
         return error_no_memory(error);
     const int file = open(log->path, O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
-    if (file < 0 ? fail_to_write(log, error, "") : lock_and_open(log, file, keep, error))
+    if (file < 0 ? report_write_failure(log, error, "") : lock_and_open(log, file, keep, error))
         return true;
     if (file >= 0)
         close(file);
@@ -47,7 +47,7 @@ static bool cut_and_close(tick_log *log, octreel_error *error)
     log->stream = NULL;
     const bool cut = truncate(log->path, log->whole) == 0;
     errno = reason;
-    return fail_to_write(log, error, cut ? "" : "; its last line is torn");
+    return report_write_failure(log, error, cut ? "" : "; its last line is torn");
 }
 
 /* Returns true if the line equals the next line of the earlier log, which can then stay in the file. */
@@ -84,11 +84,12 @@ bool tick_log_add(tick_log *log, const char *line, size_t size, octreel_error *e
 
 bool tick_log_close(tick_log *log, bool whole, octreel_error *error)
 {
-    const bool cut = !log->stream || !whole || log->kept == 0 || remove_old_lines(log) || fail_to_write(log, error, "");
+    const bool cut =
+        !log->stream || !whole || log->kept == 0 || remove_old_lines(log) || report_write_failure(log, error, "");
     if (log->stream)
         /* Unlock explicitly: a child of this program may have the file open too, which would keep the lock. */
         flock(fileno(log->stream), LOCK_UN);
-    const bool ok = (!log->stream || fclose(log->stream) == 0 || fail_to_write(log, error, "")) && cut;
+    const bool ok = (!log->stream || fclose(log->stream) == 0 || report_write_failure(log, error, "")) && cut;
     free(log->path);
     *log = (tick_log){0};
     return ok;

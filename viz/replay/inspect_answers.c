@@ -109,7 +109,7 @@ static bool is_outside(const octree_box *world, const octree_box *box)
 
 /* Write the reason why an answer has fewer points than the user may expect. Returns false if there is no such reason.
  */
-static bool find_note(const shown_answer *shown, char note[NOTE_TEXT])
+static bool describe_answer_note(const shown_answer *shown, char note[NOTE_TEXT])
 {
     const octree_answer *answer = shown->answer;
     octree_box bound, target;
@@ -178,7 +178,7 @@ static void print_answer(const shown_answer *shown, FILE *out)
     const octree_cost *cost = &shown->answer->cost;
     print_question(shown, out);
     fprintf(out, ": %zu found\n", shown->answer->count);
-    if (find_note(shown, note))
+    if (describe_answer_note(shown, note))
         fprintf(out, "  note: %s\n", note);
     for (size_t i = 0; i < shown->answer->count && i < LIST_LINES; i++)
         inspect_print_point(point_at(shown, i), distance_at(shown, i), out);
@@ -210,7 +210,7 @@ static void write_answer(json_writer *w, const shown_answer *shown)
     if (shown->about->neighbors && !(shown->about->members & OCTREE_QUERY_HAS_K))
         json_write_integer_member(w, "k", shown->answer->k);
     write_points(w, shown);
-    if (find_note(shown, note))
+    if (describe_answer_note(shown, note))
         json_write_text_member(w, "note", note);
     json_begin_object_member(w, "cost");
     json_write_integer_member(w, "nodes", shown->answer->cost.nodes);

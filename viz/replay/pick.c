@@ -37,7 +37,7 @@ static bool read_picture(pick *p, image *frame, octreel_error *error)
                      p->asked[1], p->width, p->height);
 }
 
-static bool check_beside(const pick *p, const char *folder, octreel_error *error)
+static bool check_recording_beside(const pick *p, const char *folder, octreel_error *error)
 {
     static const char *const needed[] = {"recording.json", "session.json"};
     for (size_t i = 0; i < sizeof needed / sizeof needed[0]; i++)
@@ -56,7 +56,7 @@ static bool compose_scene_again(pick *p, replay *r, octreel_error *error)
     if (p->tick >= r->ticks)
         return error_set(error, "%s: shows tick %" PRIu64 ", but the session in its folder ends with tick %" PRIu64,
                          p->path, p->tick, r->ticks - 1);
-    if (!replay_to(r, p->tick, error) || !playback_compose_scene(&r->playback, error))
+    if (!replay_up_to(r, p->tick, error) || !playback_compose_scene(&r->playback, error))
         return false;
     frame_origin origin = {.tick = p->tick, .session = r->session_digest, .scene = scene_digest(&r->playback.scene)};
     return frame_check_file(p->path, &origin, error);
@@ -195,7 +195,7 @@ bool pick_frame(const char *path, const pick_options *options, pick *found, octr
     image frame = {0};
     char *folder = path_parent_folder(path);
     const bool ok = (folder || error_no_memory(error)) && read_picture(found, &frame, error) &&
-                    frame_read_tick(path, &found->tick, error) && check_beside(found, folder, error) &&
+                    frame_read_tick(path, &found->tick, error) && check_recording_beside(found, folder, error) &&
                     replay_open(&r, folder, options->max_ticks, error) && compose_scene_again(found, &r, error) &&
                     pick_pixel(found, &r, options, error);
     if (ok)
@@ -226,7 +226,7 @@ static char *print_color(const pick *p, char text[COLOR_TEXT])
     return text;
 }
 
-static double distance(const pick *p)
+static double find_distance(const pick *p)
 {
     const double dx = p->pixel[0] - p->asked[0], dy = p->pixel[1] - p->asked[1];
     return sqrt(dx * dx + dy * dy);
@@ -234,7 +234,7 @@ static double distance(const pick *p)
 
 /* True if the pixel lies between two dashes of a dashed line. The renderer reports such a pixel as painted, but without
  * a colour. */
-static bool is_gap(const pick_element *e)
+static bool is_element_beside_pixel(const pick_element *e)
 {
     return e->touch.painted > 0 && e->touch.color == 0 && e->kind != SCENE_PANEL;
 }
@@ -249,8 +249,8 @@ static void print_heading(FILE *out, const pick *p)
     if (p->count == 0)
         fprintf(out, ": nothing is drawn there, nor within %d pixel%s\n", p->radius,
                 plural_ending((uint64_t)p->radius));
-    else if (distance(p) > 0)
-        fprintf(out, ": nothing is drawn there; %.1f pixels away, at (%d, %d), %s:\n", distance(p), p->pixel[0],
+    else if (find_distance(p) > 0)
+        fprintf(out, ": nothing is drawn there; %.1f pixels away, at (%d, %d), %s:\n", find_distance(p), p->pixel[0],
                 p->pixel[1], print_color(p, color));
     else
         fprintf(out, ", %s:\n", print_color(p, color));
@@ -261,7 +261,7 @@ static const char *element_text(const pick_element *e)
     return e->explained ? e->explained : e->subject.text;
 }
 
-static const char *in_closeup(const pick_element *e)
+static const char *closeup_words(const pick_element *e)
 {
     return e->in_closeup ? " (in the close-up)" : "";
 }
@@ -273,13 +273,14 @@ static void print_element(FILE *out, const pick *p, const pick_element *e)
     if (e->touch.painted == 0) {
         fprintf(out, "      %s %s%s\n",
                 e->kind == SCENE_BOX ? "its edge is also that of" : "on the same pixel:", element_text(e),
-                in_closeup(e));
+                closeup_words(e));
         return;
     }
     fputs(e->touch.shown ? "  " : "    over ", out);
     if (e->touch.shown && p->samples > 1)
         fprintf(out, "%d of %d samples: ", e->touch.shown, p->samples);
-    fprintf(out, "%s%s%s\n", element_text(e), is_gap(e) ? " (between two of its dashes)" : "", in_closeup(e));
+    fprintf(out, "%s%s%s\n", element_text(e), is_element_beside_pixel(e) ? " (between two of its dashes)" : "",
+            closeup_words(e));
 }
 
 static void print_text(FILE *out, const pick *p)
@@ -354,7 +355,7 @@ static void write_element(json_writer *w, const pick_element *e)
     json_write_text_member(w, "layer", e->layer);
     json_write_integer_member(w, "shown", (uint64_t)e->touch.shown);
     json_write_integer_member(w, "painted", (uint64_t)e->touch.painted);
-    if (is_gap(e))
+    if (is_element_beside_pixel(e))
         json_write_bool_member(w, "gap", true);
     if (e->in_closeup)
         json_write_bool_member(w, "closeup", true);

@@ -2,7 +2,7 @@
 /* replay.h - opens a recording and replays it to any tick, with the game and the scene of that tick.
  *
  *   replay r;
- *   if (replay_open(&r, "frames", 0, &error) && replay_to(&r, 41, &error) && playback_compose_scene(&r.playback,
+ *   if (replay_open(&r, "frames", 0, &error) && replay_up_to(&r, 41, &error) && playback_compose_scene(&r.playback,
  * &error))
  *       ... octree_game_tick(r.playback.game), r.playback.scene ...
  *   replay_close(&r);
@@ -32,7 +32,7 @@ void replay_close(replay *r);
 
 /* Play to a tick. To reach a tick before the current one, the session is played from the start again. Returns false
  * with an error on failure, and also if the session has no such tick. */
-bool replay_to(replay *r, uint64_t tick, octreel_error *error);
+bool replay_up_to(replay *r, uint64_t tick, octreel_error *error);
 
 /* Returns a renderer for the scenes of the recording. The first call opens it; replay_close() closes it. Returns null
  * with an error on failure. */

@@ -104,7 +104,7 @@ static bool check_line(verifying *v, const film_step *step, octreel_error *error
     const tick_extras extras = {.frame = step->filmed ? frame_print_name(step->tick, name) : NULL,
                                 .scene_digest = p->extras.scene_digest};
     const expected_line expected = {step->line, step->size, octree_game_tick(p->game), &extras};
-    const line_state state = lines_next(&v->lines, line_limit(&expected));
+    const line_state state = line_reader_next(&v->lines, line_limit(&expected));
     verify_finding differs = {.kind = VERIFY_LINES, .has_tick = true, .tick = step->tick};
     if (state == LINE_TROUBLE)
         return error_set(error, "%s/ticks.jsonl: cannot be read: %s", v->folder, strerror(errno));
@@ -218,7 +218,7 @@ static bool check_tick(void *context, const film_step *step, octreel_error *erro
 
 static void check_end_of_lines(verifying *v)
 {
-    if (lines_next(&v->lines, 0) == LINE_NONE)
+    if (line_reader_next(&v->lines, 0) == LINE_NONE)
         return;
     add_finding(v, VERIFY_LINES, v->replay.ticks,
                 "ticks.jsonl has lines beyond the session, which has %" PRIu64 " tick%s", v->replay.ticks,
@@ -296,7 +296,8 @@ static bool replay_ticks(verifying *v, octreel_error *error)
 
 static bool verify_all(verifying *v, octreel_error *error)
 {
-    if (!replay_read(&v->replay, v->folder, v->options->max_ticks, error) || !lines_open(&v->lines, v->folder, error))
+    if (!replay_read(&v->replay, v->folder, v->options->max_ticks, error) ||
+        !line_reader_open(&v->lines, v->folder, error))
         return false;
     v->filmed_session = v->replay.session_digest;
     v->report->has_frames = v->replay.film.every > 0;
@@ -313,7 +314,7 @@ bool verify_recording(const char *folder, const verify_options *options, verify_
     *report = (verify_report){.fill = ""};
     const bool ok = verify_all(&v, error);
     replay_close(&v.replay);
-    lines_close(&v.lines);
+    line_reader_close(&v.lines);
     return ok;
 }
 
@@ -338,7 +339,7 @@ static void print_identical(FILE *out, const char *folder, const verify_report *
         fputs("compared by ticks.jsonl alone, since there are no frames\n", out);
 }
 
-static void print_people(FILE *out, const char *folder, const verify_report *report)
+static void print_text(FILE *out, const char *folder, const verify_report *report)
 {
     const octree_gap *gap = &report->first_gap;
     if (report->count == 0)
@@ -406,5 +407,5 @@ static void print_json(FILE *out, const char *folder, const verify_report *repor
 
 void verify_print(FILE *out, const char *folder, const verify_report *report, bool json)
 {
-    (json ? print_json : print_people)(out, folder, report);
+    (json ? print_json : print_text)(out, folder, report);
 }

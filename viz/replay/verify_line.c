@@ -15,7 +15,7 @@
 
 /* ---- Lines -------------------------------------------------------------------------------------------------- */
 
-bool lines_open(line_reader *reader, const char *folder, octreel_error *error)
+bool line_reader_open(line_reader *reader, const char *folder, octreel_error *error)
 {
     char reason[FILE_REASON], *path = path_join(folder, "ticks.jsonl");
     *reader = (line_reader){0};
@@ -30,7 +30,7 @@ bool lines_open(line_reader *reader, const char *folder, octreel_error *error)
     return reader->stream;
 }
 
-void lines_close(line_reader *reader)
+void line_reader_close(line_reader *reader)
 {
     if (reader->stream)
         fclose(reader->stream);
@@ -38,7 +38,7 @@ void lines_close(line_reader *reader)
     *reader = (line_reader){0};
 }
 
-line_state lines_next(line_reader *reader, size_t limit)
+line_state line_reader_next(line_reader *reader, size_t limit)
 {
     reader->size = 0;
     for (int c; (c = getc(reader->stream)) != EOF;) {
@@ -166,7 +166,7 @@ static void compare_lines(const json_t *found, const json_t *expected, uint64_t 
     }
 }
 
-static bool is_line(const line_reader *found, const char *text, size_t size)
+static bool line_equals(const line_reader *found, const char *text, size_t size)
 {
     return found->size == size && memcmp(found->line, text, size) == 0;
 }
@@ -195,14 +195,14 @@ static bool is_earlier_line(const line_reader *found, const expected_line *expec
         tick_write(s.stream, expected->tick, &extras);
     if (!text_stream_end(&s, &text))
         return false;
-    const bool same = is_line(found, text, s.size);
+    const bool same = line_equals(found, text, s.size);
     free(text);
     return same;
 }
 
 bool line_matches(const line_reader *found, const expected_line *expected, verify_finding *finding)
 {
-    if (is_line(found, expected->text, expected->size) || is_earlier_line(found, expected))
+    if (line_equals(found, expected->text, expected->size) || is_earlier_line(found, expected))
         return true;
     const size_t flags = JSON_REJECT_DUPLICATES;
     json_error_t why;

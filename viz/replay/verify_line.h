@@ -22,11 +22,11 @@ typedef enum line_state {
 } line_state;
 
 /* Open ticks.jsonl in a folder. It must be a regular file. */
-bool lines_open(line_reader *reader, const char *folder, octreel_error *error);
-void lines_close(line_reader *reader);
+bool line_reader_open(line_reader *reader, const char *folder, octreel_error *error);
+void line_reader_close(line_reader *reader);
 
 /* Read the next line. `limit` is the maximum number of bytes to read. */
-line_state lines_next(line_reader *reader, size_t limit);
+line_state line_reader_next(line_reader *reader, size_t limit);
 
 /* The line that a tick should have, and the data from which it was made. */
 typedef struct expected_line {

@@ -139,7 +139,7 @@ typedef struct chart {
     const double *limit; /* null: no limit is drawn */
 } chart;
 
-static double value_of(const chart *c, const audit_tick *tick)
+static double chart_value(const chart *c, const audit_tick *tick)
 {
     return c->ratio ? tick->ratio : audit_tick_recall(tick);
 }
@@ -151,7 +151,7 @@ static bool is_worse(const chart *c, const audit_tick *a, const audit_tick *than
 
 /* Lay out a chart. One end of its axis is 1. The other end is the worst finite value or the limit, whichever is worse.
  * If there are infinite values, the axis is longer by a quarter. */
-static chart chart_of(const audit_kind *kind, bool ratio, const audit_limits *limits)
+static chart make_chart(const audit_kind *kind, bool ratio, const audit_limits *limits)
 {
     chart c = {.kind = kind, .ratio = ratio, .from = 1, .to = 1};
     if (ratio ? limits->by_ratio : limits->by_recall)
@@ -159,7 +159,7 @@ static chart chart_of(const audit_kind *kind, bool ratio, const audit_limits *li
     double worst = c.limit ? *c.limit : 1;
     bool beyond = false;
     for (size_t i = 0; i < kind->tick_count; i++) {
-        const double value = value_of(&c, &kind->ticks[i]);
+        const double value = chart_value(&c, &kind->ticks[i]);
         beyond = beyond || isinf(value);
         worst = !isinf(value) && (ratio ? value > worst : value < worst) ? value : worst;
     }
@@ -172,14 +172,14 @@ static chart chart_of(const audit_kind *kind, bool ratio, const audit_limits *li
     return c;
 }
 
-static double x_of(const chart *c, uint64_t tick)
+static double chart_x(const chart *c, uint64_t tick)
 {
     const uint64_t first = c->kind->ticks[0].tick, last = c->kind->ticks[c->kind->tick_count - 1].tick;
     return LEFT + (last > first ? (double)(tick - first) / (double)(last - first) : 0.5) * (WIDTH - LEFT - RIGHT);
 }
 
 /* Return the vertical position of a value. An infinite value is on the upper edge. */
-static double y_of(const chart *c, double value)
+static double chart_y(const chart *c, double value)
 {
     const double share = isinf(value) ? 1 : (value - c->from) / (c->to - c->from);
     return HEIGHT - FOOT - share * (HEIGHT - FOOT - TOP);
@@ -188,7 +188,7 @@ static double y_of(const chart *c, double value)
 static void write_scale(const page *p, const chart *c, double value)
 {
     char number[NUMBER_TEXT];
-    const double y = y_of(c, value);
+    const double y = chart_y(c, value);
     fprintf(p->out, "<path class=\"axis\" d=\"M%d %.1fH%d\"/>", LEFT, y, WIDTH - RIGHT);
     fprintf(p->out, "<text x=\"%d\" y=\"%.1f\" text-anchor=\"end\">%s</text>\n", LEFT - 8, y + 4,
             value > c->finite ? "infinite" : number_format(value, 6, number));
@@ -197,7 +197,7 @@ static void write_scale(const page *p, const chart *c, double value)
 static void write_ticks_scale(const page *p, const chart *c)
 {
     const uint64_t first = c->kind->ticks[0].tick, last = c->kind->ticks[c->kind->tick_count - 1].tick;
-    fprintf(p->out, "<text x=\"%.1f\" y=\"%d\">tick %" PRIu64 "</text>", x_of(c, first), HEIGHT - 8, first);
+    fprintf(p->out, "<text x=\"%.1f\" y=\"%d\">tick %" PRIu64 "</text>", chart_x(c, first), HEIGHT - 8, first);
     if (last > first)
         fprintf(p->out, "<text x=\"%d\" y=\"%d\" text-anchor=\"end\">%" PRIu64 "</text>", WIDTH - RIGHT, HEIGHT - 8,
                 last);
@@ -205,7 +205,7 @@ static void write_ticks_scale(const page *p, const chart *c)
 }
 
 /* Return the worst of the ticks that one point of the chart represents. */
-static const audit_tick *worst_of(const chart *c, size_t point, size_t points)
+static const audit_tick *find_worst_tick(const chart *c, size_t point, size_t points)
 {
     const size_t count = c->kind->tick_count;
     const size_t first = (size_t)((double)point / (double)points * (double)count);
@@ -222,15 +222,15 @@ static void write_point(const page *p, const chart *c, const audit_tick *tick)
     char text[AUDIT_RATIO_TEXT];
     const bool linked = begin_frame_link(p, tick->tick, "") || begin_viewer_link(p, tick->tick, "");
     fprintf(p->out, "<circle class=\"point%s\" cx=\"%.1f\" cy=\"%.1f\" r=\"%s\"><title>tick %" PRIu64 ": ",
-            tick->wrong ? " wrong" : "", x_of(c, tick->tick), y_of(c, value_of(c, tick)), tick->wrong ? "5" : "2.5",
-            tick->tick);
+            tick->wrong ? " wrong" : "", chart_x(c, tick->tick), chart_y(c, chart_value(c, tick)),
+            tick->wrong ? "5" : "2.5", tick->tick);
     fprintf(p->out, "%s %s, %" PRIu64 " of %" PRIu64 " wrong</title></circle>%s\n", c->ratio ? "ratio" : "recall",
-            audit_ratio_text(value_of(c, tick), text), tick->wrong, tick->asked, linked ? "</a>" : "");
+            audit_ratio_text(chart_value(c, tick), text), tick->wrong, tick->asked, linked ? "</a>" : "");
 }
 
 static void write_chart(const page *p, const audit_kind *kind, bool ratio)
 {
-    const chart c = chart_of(kind, ratio, &p->verdict->report->limits);
+    const chart c = make_chart(kind, ratio, &p->verdict->report->limits);
     const size_t points = kind->tick_count < AUDIT_PAGE_POINTS ? kind->tick_count : AUDIT_PAGE_POINTS;
     fprintf(p->out, "<h3>%s, by tick</h3>\n<svg viewBox=\"0 0 %d %d\" role=\"img\" aria-label=\"%s by tick\">\n",
             ratio ? "Ratio of distances" : "Recall", WIDTH, HEIGHT, ratio ? "Ratio of distances" : "Recall");
@@ -239,16 +239,16 @@ static void write_chart(const page *p, const audit_kind *kind, bool ratio)
     if (c.to > c.finite)
         write_scale(p, &c, c.to);
     if (c.limit)
-        fprintf(p->out, "<path class=\"limit\" d=\"M%d %.1fH%d\"/>\n", LEFT, y_of(&c, *c.limit), WIDTH - RIGHT);
+        fprintf(p->out, "<path class=\"limit\" d=\"M%d %.1fH%d\"/>\n", LEFT, chart_y(&c, *c.limit), WIDTH - RIGHT);
     write_ticks_scale(p, &c);
     fputs("<polyline class=\"way\" points=\"", p->out);
     for (size_t i = 0; i < points; i++) {
-        const audit_tick *tick = worst_of(&c, i, points);
-        fprintf(p->out, "%s%.1f,%.1f", i ? " " : "", x_of(&c, tick->tick), y_of(&c, value_of(&c, tick)));
+        const audit_tick *tick = find_worst_tick(&c, i, points);
+        fprintf(p->out, "%s%.1f,%.1f", i ? " " : "", chart_x(&c, tick->tick), chart_y(&c, chart_value(&c, tick)));
     }
     fputs("\"/>\n", p->out);
     for (size_t i = 0; i < points; i++)
-        write_point(p, &c, worst_of(&c, i, points));
+        write_point(p, &c, find_worst_tick(&c, i, points));
     fputs("</svg>\n", p->out);
 }
 

@@ -16,7 +16,7 @@
 
 /* ---- Sentences ----------------------------------------------------------------------------------------------- */
 
-static bool are_ticks(const frame_groups *g, const diff_result *result, size_t group)
+static bool are_frames_of_ticks(const frame_groups *g, const diff_result *result, size_t group)
 {
     for (size_t i = g->groups[group].first; i <= g->groups[group].last; i++)
         if (g->of[i] == group && diff_pair_tick(&result->pairs[i]) == DIFF_NO_TICK)
@@ -35,7 +35,7 @@ static void print_frame(FILE *out, const diff_pair *pair, bool ticks)
 /* Print the names of a group's frames. With `others`, leave out the first frame. */
 static void print_frames(FILE *out, const frame_groups *g, const diff_result *result, size_t group, bool others)
 {
-    const bool ticks = are_ticks(g, result, group);
+    const bool ticks = are_frames_of_ticks(g, result, group);
     const size_t last = g->groups[group].last, all = g->groups[group].count - others;
     size_t runs = 0, shown = 0;
     if (ticks)
@@ -59,7 +59,7 @@ static void print_frames(FILE *out, const frame_groups *g, const diff_result *re
 }
 
 /* Return the zero-terminated text at *at, and move *at behind it. */
-static const char *next_text(const char **at)
+static const char *cut_next_text(const char **at)
 {
     const char *text = *at;
     *at += strlen(text) + 1;
@@ -90,14 +90,14 @@ static bool print_sentences(frame_groups *g, const diff_result *result, const ex
     if (!text_stream_end(&s, &g->sentences))
         return false;
     const char *at = g->sentences;
-    g->verdict = next_text(&at);
-    g->tolerance = next_text(&at);
+    g->verdict = cut_next_text(&at);
+    g->tolerance = cut_next_text(&at);
     for (size_t i = 0; i < g->count; i++) {
         g->groups[i].cause = explanation_cause(why, g->groups[i].first);
-        g->groups[i].line = next_text(&at);
-        g->groups[i].difference = next_text(&at);
-        g->groups[i].frames = next_text(&at);
-        g->groups[i].others = next_text(&at);
+        g->groups[i].line = cut_next_text(&at);
+        g->groups[i].difference = cut_next_text(&at);
+        g->groups[i].frames = cut_next_text(&at);
+        g->groups[i].others = cut_next_text(&at);
     }
     return true;
 }
@@ -110,7 +110,7 @@ typedef struct keyed_pair {
     size_t pair;
 } keyed_pair;
 
-static int by_key(const void *a, const void *b)
+static int compare_by_key(const void *a, const void *b)
 {
     const keyed_pair *x = a, *y = b;
     const int order = strcmp(x->key, y->key);
@@ -148,7 +148,7 @@ bool frame_groups_make(frame_groups *g, const diff_result *result, const explana
             keyed[count++] = (keyed_pair){key, i};
     }
     if (ok && count > 0)
-        qsort(keyed, count, sizeof *keyed, by_key);
+        qsort(keyed, count, sizeof *keyed, compare_by_key);
     for (size_t i = 1; ok && i < count; i++)
         if (strcmp(keyed[i].key, keyed[i - 1].key) == 0)
             first[keyed[i].pair] = first[keyed[i - 1].pair];

@@ -115,7 +115,7 @@ static void write_entries(json_writer *w, const page *p)
     json_write_end_array(w);
 }
 
-static void write_whole(json_writer *w, const page *p)
+static void write_folder_findings(json_writer *w, const page *p)
 {
     json_write_begin_object(w);
     diff_json_summary(w, p->report);
@@ -166,7 +166,7 @@ static bool write_facts(const page *p, octreel_error *error)
     char *text;
     if (text_stream_begin(&s)) {
         json_writer w = {.out = s.stream};
-        write_whole(&w, p);
+        write_folder_findings(&w, p);
         for (size_t n = 0; n < p->count; n++)
             write_group(&w, p, n);
     }

@@ -72,8 +72,8 @@ static const char *find_slice_problem(const view_filter *f, const octree_box *wo
     char at[NUMBER_TEXT], min[NUMBER_TEXT], max[NUMBER_TEXT];
     if (f->slice_at >= world->min[axis] && f->slice_at <= world->max[axis])
         return NULL;
-    snprintf(text, FILTER_TEXT, "the slice %c = %s lies outside the world, which reaches from %s to %s there", f->slice,
-             number_format(f->slice_at, 9, at), number_format(world->min[axis], 9, min),
+    snprintf(text, FILTER_TEXT, "the slice %c = %s lies outside the world, which extends from %s to %s on this axis",
+             f->slice, number_format(f->slice_at, 9, at), number_format(world->min[axis], 9, min),
              number_format(world->max[axis], 9, max));
     return text;
 }
@@ -85,7 +85,8 @@ static const char *find_region_problem(const view_filter *f, const octree_box *w
         if (f->region.max[i] >= world->min[i] && f->region.min[i] <= world->max[i])
             continue;
         snprintf(text, FILTER_TEXT,
-                 "the region lies outside the world: on %c it reaches from %s to %s, and the world from %s to %s",
+                 "the region lies outside the world: on axis %c the region extends from %s to %s, and the world from "
+                 "%s to %s",
                  "xyz"[i], number_format(f->region.min[i], 9, from), number_format(f->region.max[i], 9, to),
                  number_format(world->min[i], 9, min), number_format(world->max[i], 9, max));
         return text;
@@ -100,7 +101,7 @@ const char *filter_find_problem(const view_filter *f, const octree_def *tree, ch
         reason = find_region_problem(f, &tree->world, text);
     if (reason || !f->by_depth || f->min_depth <= tree->max_depth)
         return reason;
-    snprintf(text, FILTER_TEXT, "the range of depths begins at %u, and the tree ends at depth %zu", f->min_depth,
-             tree->max_depth);
+    snprintf(text, FILTER_TEXT, "the range of depths begins at %u, but the deepest level of the tree is %zu",
+             f->min_depth, tree->max_depth);
     return text;
 }

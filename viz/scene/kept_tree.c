@@ -53,13 +53,14 @@ void kept_tree_release(kept_tree *k)
 /* ---- Changes ------------------------------------------------------------------------------------------------ */
 
 /* A key is the address of a cell at the greatest depth. Keys ascend in the order of the walk. The cell at `address`
- * contains the smallest cells with the keys from first_key() to first_key() + key_count() - 1. */
-static uint64_t first_key(octree_address address)
+ * contains the smallest cells with the keys from first_key_in_cell() to first_key_in_cell() + count_keys_in_cell() - 1.
+ */
+static uint64_t first_key_in_cell(octree_address address)
 {
     return address << 3 * (OCTREE_MAX_DEPTH - octree_address_depth(address));
 }
 
-static uint64_t key_count(octree_address address)
+static uint64_t count_keys_in_cell(octree_address address)
 {
     return UINT64_C(1) << 3 * (OCTREE_MAX_DEPTH - octree_address_depth(address));
 }
@@ -74,7 +75,7 @@ static void add_key(kept_tree *k, const double at[3])
               octree_locate(k->tree, at, &leaf) != OCTREE_OK ||
               !array_grow(&k->changed, k->changed_count + 1, &k->changed_room, sizeof *k->changed);
     if (!k->lost)
-        k->changed[k->changed_count++] = first_key(leaf.address);
+        k->changed[k->changed_count++] = first_key_in_cell(leaf.address);
 }
 
 static void add_change(const octree_change *change, void *context)
@@ -129,10 +130,10 @@ static bool update_changes(kept_tree *k, const octree *tree)
 
 static bool is_changed(kept_tree *k, octree_address address)
 {
-    const uint64_t first = first_key(address);
+    const uint64_t first = first_key_in_cell(address);
     while (k->next_changed < k->changed_count && k->changed[k->next_changed] < first)
         k->next_changed++;
-    return k->next_changed < k->changed_count && k->changed[k->next_changed] - first < key_count(address);
+    return k->next_changed < k->changed_count && k->changed[k->next_changed] - first < count_keys_in_cell(address);
 }
 
 /* ---- The walk ----------------------------------------------------------------------------------------------- */
@@ -163,8 +164,8 @@ bool kept_tree_begin_walk(kept_tree *k, const octree *tree, const kept_look *loo
 const kept_subtree *kept_tree_find_subtree(kept_tree *k, octree_address address)
 {
     const bool changed = is_changed(k, address);
-    const uint64_t first = first_key(address);
-    for (; k->passed < k->before.count && first_key(k->before.items[k->passed].address) < first; k->passed++)
+    const uint64_t first = first_key_in_cell(address);
+    for (; k->passed < k->before.count && first_key_in_cell(k->before.items[k->passed].address) < first; k->passed++)
         free(k->before.items[k->passed].nodes);
     kept_subtree *there = k->passed < k->before.count ? &k->before.items[k->passed] : NULL;
     if (changed || !there || there->address != address || !ARRAY_GROW(&k->now, 1))

@@ -25,9 +25,10 @@
     X(WORLD, "world", "the world", "the world's box, the slice and the region, and axes with numbers", ROLE_WORLD,     \
       true, true)                                                                                                      \
     X(NODES, "nodes", "nodes", "the boxes of the nodes", ROLE_NODE_PLAIN, true, true)                                  \
-    X(VISIT_HEAT, "visit-heat", "heat", "leaves, by the ticks in which queries visited them", ROLE_NODE, false, false) \
-    X(POINT_HEAT, "point-heat", "heat", "leaves, by the points that were in them, in all ticks together", ROLE_NODE,   \
+    X(VISIT_HEAT, "visit-heat", "heat", "leaves, by the number of ticks in which queries visited them", ROLE_NODE,     \
       false, false)                                                                                                    \
+    X(POINT_HEAT, "point-heat", "heat", "leaves, by their number of points, summed over all ticks", ROLE_NODE, false,  \
+      false)                                                                                                           \
     X(PRUNED, "pruned", "pruned nodes", "nodes that the tick's queries pruned", ROLE_NODE_2, true, true)               \
     X(VISITED, "visited", "visited nodes", "nodes that the tick's queries visited, or took whole", ROLE_NODE_2, false, \
       true)                                                                                                            \
@@ -35,20 +36,23 @@
     X(MERGES, "merges", "merges", "inner nodes that became leaves in the tick", ROLE_CHANGE, false, true)              \
     X(SPLITS, "splits", "splits", "leaves that split in the tick", ROLE_CHANGE, false, true)                           \
     X(POINTS, "points", "points", "the points in the tree", ROLE_POINT, true, true)                                    \
-    X(VELOCITIES, "velocities", "velocities", "arrows to where moving points go next", ROLE_FAINT, true, true)         \
-    X(ASKED, "asked", "the node asked for", "the node that inspect --node names", ROLE_PLAYER, false, true)            \
+    X(VELOCITIES, "velocities", "velocities", "arrows that show where moving points will go", ROLE_FAINT, true, true)  \
+    X(ASKED, "asked", "the node asked for", "the node of inspect --node", ROLE_PLAYER, false, true)                    \
     QUERY_LOOKS(QUERY_LAYER, X)                                                                                        \
     X(PLAYER, "player", "the player", "the player, and a line down to the floor", ROLE_PLAYER, false, true)            \
-    X(BOX, "box", "the collision box", "the player's collision box, and what is in it", ROLE_COLLISION, false, true)   \
-    X(SHAPES, "shapes", "shapes", "what the session shows in addition to its points", ROLE_SHAPE, false, true)         \
-    X(WRONG, "wrong", "wrong answers", "wrong answers of a foreign index, its wrong nodes, missing and extra points",  \
-      ROLE_WRONG, false, true)                                                                                         \
-    X(BROKEN, "broken", "the broken node", "where the validator finds an invariant broken", ROLE_WARNING, false, true) \
-    X(TEXT, "text", "text", "the panel, the legend and all letters", ROLE_TEXT, false, true)                           \
+    X(BOX, "box", "the collision box", "the player's collision box, and the points in it", ROLE_COLLISION, false,      \
+      true)                                                                                                            \
+    X(SHAPES, "shapes", "shapes", "the session's boxes, segments, points and labels that are not in the tree",         \
+      ROLE_SHAPE, false, true)                                                                                         \
+    X(WRONG, "wrong", "wrong answers",                                                                                 \
+      "wrong answers and wrong nodes of a foreign index, and missing and extra points", ROLE_WRONG, false, true)       \
+    X(BROKEN, "broken", "the broken node", "the node in which the validator finds a broken invariant", ROLE_WARNING,   \
+      false, true)                                                                                                     \
+    X(TEXT, "text", "text", "the text column, the legend and all labels", ROLE_TEXT, false, true)                      \
     X(CLOSEUP, "closeup", "the close-up", "the frame of the close-up, and the part of the world that it shows",        \
       ROLE_FAINT, false, false)                                                                                        \
-    X(DIAGRAM, "diagram", "the diagram", "the tree as a tree, where view.diagram says so", ROLE_BACKGROUND, false,     \
-      false)
+    X(DIAGRAM, "diagram", "the diagram", "the diagram of the tree, where view.diagram places it", ROLE_BACKGROUND,     \
+      false, false)
 
 typedef enum view_layer {
 #define LAYER_ENUM(layer, ...) LAYER_##layer,

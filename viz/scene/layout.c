@@ -124,7 +124,7 @@ static void find_text_box(const scene *s, const char *text, const double corner[
         4 * sizeof *box);
 }
 
-static bool is_free(const text_space *t, const double box[4])
+static bool is_area_free(const text_space *t, const double box[4])
 {
     for (size_t i = 0; i < t->count; i++) {
         const double *other = t->taken[i];
@@ -152,7 +152,8 @@ bool text_space_reserve_text(text_space *t, const scene *s, const char *text, co
     double box[4];
     const camera_window w = layout_space_area(s);
     find_text_box(s, text, at, box);
-    if (!(box[0] >= w.x && box[1] >= w.y && box[2] <= w.x + w.width && box[3] <= w.y + w.height) || !is_free(t, box))
+    if (!(box[0] >= w.x && box[1] >= w.y && box[2] <= w.x + w.width && box[3] <= w.y + w.height) ||
+        !is_area_free(t, box))
         return false;
     memcpy(t->taken[t->count++], box, sizeof box);
     memcpy(corner, at, sizeof at);

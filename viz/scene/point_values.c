@@ -28,7 +28,7 @@ point_value point_values_get(const point_values *v, uint64_t id)
     return found ? *found : (point_value){0};
 }
 
-static unsigned kind_bits(const point_value *value)
+static unsigned list_value_kinds(const point_value *value)
 {
     unsigned bits = 0;
     for (int kind = 0; kind < POINT_VALUE_KINDS; kind++)
@@ -38,7 +38,7 @@ static unsigned kind_bits(const point_value *value)
 
 bool point_value_has_any(const point_value *value)
 {
-    return kind_bits(value) != 0;
+    return list_value_kinds(value) != 0;
 }
 
 _Static_assert(sizeof(point_value) == 12, "point_value_equals() compares bytes: no padding");
@@ -55,7 +55,7 @@ bool point_values_append_row(point_values *v, const point_value *value)
     if (!array_grow(&v->rows, v->count + 1, &v->room, sizeof *v->rows))
         return false;
     v->rows[v->count++] = *value;
-    v->kinds |= kind_bits(value);
+    v->kinds |= list_value_kinds(value);
     return true;
 }
 
@@ -89,7 +89,7 @@ static bool build_table(point_values *v, const point_entry *entries, size_t coun
 
 /* Returns whether the ids of the entries continue the ids of the table's rows without a gap, as in a stream of
  * points. */
-static bool follow_last_row(const point_values *v, const point_entry *entries, size_t count)
+static bool continue_ids_of_rows(const point_values *v, const point_entry *entries, size_t count)
 {
     bool next = v->count > 0 && !v->ids;
     for (size_t i = 0; next && i < count; i++)
@@ -110,7 +110,7 @@ bool point_values_add_entries(point_values *v, const point_entry *entries, size_
 {
     point_values made = {0};
     size_t all = v->count + count;
-    if (count == 0 || follow_last_row(v, entries, count))
+    if (count == 0 || continue_ids_of_rows(v, entries, count))
         return append_entries(v, entries, count);
     point_entry *sorted = all <= SIZE_MAX / sizeof *sorted ? malloc(all * sizeof *sorted) : NULL;
     if (!sorted)

@@ -14,16 +14,18 @@
  *
  * Each row calls Y(X, row...): the tables of layers and of options pass a Y that selects their columns. */
 #define QUERY_LOOKS(Y, X)                                                                                              \
-    Y(X, RANGE, "range", "range queries", "boxes that are asked for, and the points found", ROLE_RANGE,                \
-      "X0,Y0,Z0,X1,Y1,Z1", RANGE, "print and draw the points in a box; queries can be given several times",            \
+    Y(X, RANGE, "range", "range queries", "boxes of range queries, and the points found in them", ROLE_RANGE,          \
+      "X0,Y0,Z0,X1,Y1,Z1", RANGE,                                                                                      \
+      "print and draw the points in a box; this and other query options can be given several times",                   \
       "two corners as in -10,-10,-10,10,10,10")                                                                        \
-    Y(X, RADIUS, "radius", "radius queries", "balls that are asked for, and the points found", ROLE_RADIUS, "X,Y,Z,R", \
-      RADIUS, "print and draw the points within R of a place", "a centre and a radius as in 1,2,3,10")                 \
+    Y(X, RADIUS, "radius", "radius queries", "balls of radius queries, and the points found in them", ROLE_RADIUS,     \
+      "X,Y,Z,R", RADIUS, "print and draw the points at a distance of at most R from a position",                       \
+      "a centre and a radius as in 1,2,3,10")                                                                          \
     Y(X, KNEAREST, "knearest", "k-nearest queries", "lines to the k nearest points, with their ranks", ROLE_KNEAREST,  \
       NULL, KNEAREST, NULL, NULL)                                                                                      \
     Y(X, NEAREST, "nearest", "nearest queries", "a line to the nearest point", ROLE_NEAREST, "X,Y,Z[,K]", KNEAREST,    \
-      "print and draw the point nearest to a place, or the K nearest",                                                 \
-      "a place, and how many neighbours, where that is not 1, as in 1,2,3 or 1,2,3,8")
+      "print and draw the point nearest to a position, or the K nearest points",                                       \
+      "a position, and the number of neighbours if it is not 1, as in 1,2,3 or 1,2,3,8")
 
 #define QUERY_LAYER(X, kind, name, words, help, role, ...) X(kind, name, words, help, role, false, true)
 

@@ -52,7 +52,7 @@ theme_role theme_node_kind_role(unsigned kind)
     return (theme_role)(ROLE_KIND + (kind < THEME_NODE_KINDS ? kind : THEME_NODE_KINDS - 1));
 }
 
-unsigned theme_doubling_step(uint64_t amount, unsigned shift)
+unsigned theme_step_of_doubling_ramp(uint64_t amount, unsigned shift)
 {
     unsigned step = 0;
     for (; amount > 0 && step < THEME_NODE_DEPTHS - 1; amount >>= shift)
@@ -60,7 +60,7 @@ unsigned theme_doubling_step(uint64_t amount, unsigned shift)
     return step;
 }
 
-unsigned theme_fraction_step(uint64_t amount, uint64_t whole)
+unsigned theme_step_of_even_ramp(uint64_t amount, uint64_t whole)
 {
     const unsigned last = THEME_NODE_DEPTHS - 1;
     return amount >= whole ? last : (unsigned)((amount * last + whole - 1) / whole);

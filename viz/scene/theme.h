@@ -124,13 +124,13 @@ theme_role theme_node_kind_role(unsigned kind);
 
 /* Returns the step of the ramp for an amount. Each step begins at 2^shift times the amount at which the previous step
  * begins. With a shift of 1 the steps are 0, 1, 2 to 3, 4 to 7 ... 256 and more. */
-unsigned theme_doubling_step(uint64_t amount, unsigned shift);
+unsigned theme_step_of_doubling_ramp(uint64_t amount, unsigned shift);
 
 /* Returns the step of the ramp for the part `amount` of `whole`. Only the amount 0 has the first step. The other steps
  * divide the whole into equal parts; an amount above `whole` has the last step. `whole` must be below 2^60. */
-unsigned theme_fraction_step(uint64_t amount, uint64_t whole);
+unsigned theme_step_of_even_ramp(uint64_t amount, uint64_t whole);
 
-/* The least amount in the last step of theme_doubling_step() with a shift of 1. */
+/* The least amount in the last step of theme_step_of_doubling_ramp() with a shift of 1. */
 #define THEME_MOST_POINTS (1u << (THEME_NODE_DEPTHS - 2))
 
 /* The role of nodes under COLORING_PLAIN. */

@@ -21,29 +21,30 @@
 #define VIEW_COLORING_MAP(X)                                                                                           \
     X(COLORING_DEPTH, "depth", "its depth in the tree")                                                                \
     X(COLORING_OCCUPANCY, "occupancy",                                                                                 \
-      "the number of points of a leaf relative to its capacity; of a foreign leaf, in powers of two")                  \
-    X(COLORING_PLAIN, "plain", "no meaning: all nodes have one colour")                                                \
-    X(COLORING_KIND, "kind", "the kind of a foreign node, by its word")
+      "the number of points in a leaf, relative to its capacity; for a foreign leaf, in powers of two")                \
+    X(COLORING_PLAIN, "plain", "nothing: all nodes have the same colour")                                              \
+    X(COLORING_KIND, "kind", "the kind of a foreign node")
 
 /* The trees whose nodes are shown if the session has foreign nodes. Columns: value, name on the command line,
  * description in --help. */
 #define VIEW_TREE_MAP(X)                                                                                               \
-    X(TREE_AUTO, "auto", "foreign nodes from the first tick that has any; Octreel's nodes before")                     \
+    X(TREE_AUTO, "auto", "Octreel's nodes until a tick has foreign nodes, and from then on the foreign nodes")         \
     X(TREE_OWN, "own", "only Octreel's nodes")                                                                         \
     X(TREE_FOREIGN, "foreign", "only foreign nodes")                                                                   \
     X(TREE_BOTH, "both", "both")
 
 /* What a point's colour shows. Columns: value, name on the command line, description in --help. */
 #define VIEW_POINT_COLOR_MAP(X)                                                                                        \
-    X(POINTS_BY_PLAIN, "plain", "no meaning: all points have one colour")                                              \
-    X(POINTS_BY_HEIGHT, "height", "its height, which is z")                                                            \
+    X(POINTS_BY_PLAIN, "plain", "nothing: all points have the same colour")                                            \
+    X(POINTS_BY_HEIGHT, "height", "its height, the z coordinate")                                                      \
     X(POINTS_BY_X, "x", "its x")                                                                                       \
     X(POINTS_BY_Y, "y", "its y")                                                                                       \
     X(POINTS_BY_Z, "z", "its z")                                                                                       \
-    X(POINTS_BY_FILE, "file", "its own colour from its file or session")                                               \
-    X(POINTS_BY_LEAF, "leaf", "its leaf: alternately dark and light, in the point's own colour or that of height")     \
+    X(POINTS_BY_FILE, "file", "its own colour, from the file or the session")                                          \
+    X(POINTS_BY_LEAF, "leaf",                                                                                          \
+      "its leaf: leaves are alternately dark and light, in the point's own colour or the colour of its height")        \
     X(POINTS_BY_DEPTH, "depth", "the depth of its leaf in the tree")                                                   \
-    X(POINTS_BY_DENSITY, "density", "the number of points on its pixel")                                               \
+    X(POINTS_BY_DENSITY, "density", "the number of points in its pixel")                                               \
     X(POINTS_BY_CLASS, "class", "its class, as in LAS: ground, vegetation, buildings, water")                          \
     X(POINTS_BY_INTENSITY, "intensity", "its intensity")                                                               \
     X(POINTS_BY_ID, "id", "its id; in a cloud, its row in the file")
@@ -51,7 +52,7 @@
 /* How points show their distance from the eye. Columns: value, name on the command line, description in --help. */
 #define VIEW_SHADE_MAP(X)                                                                                              \
     X(SHADE_BANDS, "bands", "eight bands, darker with distance")                                                       \
-    X(SHADE_EDL, "edl", "eye-dome lighting: points behind nearer ones are darker, which shows surfaces")               \
+    X(SHADE_EDL, "edl", "eye-dome lighting: points behind nearer points are darker, which shows surfaces")             \
     X(SHADE_NONE, "none", "not at all")
 
 /* Where the diagram of the tree is drawn. Columns: value, name on the command line, description in --help. */

@@ -14,7 +14,7 @@
 #define OCTREE_STATUS_MAP(X)                                                                                           \
     X(OK, "ok", "done")                                                                                                \
     X(NOT_FOUND, "not_found", "the tree has no such point or node")                                                    \
-    X(DUPLICATE, "duplicate", "the id is taken: in a tree at the same position, in a game at any position")            \
+    X(DUPLICATE, "duplicate", "a point with this id already exists (in a tree: at the same position)")                 \
     X(FULL, "full", "the leaf is full and cannot be split any further")                                                \
     X(OUTSIDE, "outside", "the position is outside the world")                                                         \
     X(NOT_FINITE, "not_finite", "a number is NaN or infinite")                                                         \

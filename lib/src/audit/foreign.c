@@ -45,14 +45,14 @@ int foreign_compare_keys(const void *a, const void *b)
     return p->id != q->id ? (p->id > q->id) - (p->id < q->id) : (p->place > q->place) - (p->place < q->place);
 }
 
-static size_t find_place(const list *keys, uint64_t id)
+static size_t find_node_place(const list *keys, uint64_t id)
 {
     const foreign_key *items = keys->items;
-    const size_t first = find_first_word(items, sizeof *items, keys->count, id);
+    const size_t first = find_item_by_first_word(items, sizeof *items, keys->count, id);
     return first < keys->count && items[first].id == id ? items[first].place : SIZE_MAX;
 }
 
-static octree_status list_keys(arena *memory, const octree_foreign_tree *tree, list *keys, size_t *fault)
+static octree_status list_node_keys(arena *memory, const octree_foreign_tree *tree, list *keys, size_t *fault)
 {
     bool sorted = true;
     for (size_t i = 0; i < tree->node_count; i++) {
@@ -76,15 +76,15 @@ static octree_status list_keys(arena *memory, const octree_foreign_tree *tree, l
     return OCTREE_OK;
 }
 
-static octree_status list_places(arena *memory, const octree_foreign_tree *tree, list *places, const list *keys,
-                                 size_t *fault)
+static octree_status list_node_places(arena *memory, const octree_foreign_tree *tree, list *places, const list *keys,
+                                      size_t *fault)
 {
     for (size_t i = 0; i < tree->node_count; i++) {
         const octree_foreign_node *node = &tree->nodes[i];
         octree_foreign_place place = {.node = node, .parent = SIZE_MAX, .depth = DEPTH_UNKNOWN, .leaf = true};
         *fault = i;
         if (node->has_parent) {
-            place.parent = find_place(keys, node->parent);
+            place.parent = find_node_place(keys, node->parent);
             if (place.parent == SIZE_MAX)
                 return OCTREE_NOT_FOUND;
         }
@@ -124,9 +124,9 @@ static octree_status index_nodes(arena *memory, const octree_foreign_tree *tree,
     *fault = 0;
     if (!tree->nodes && tree->node_count)
         return OCTREE_NULL_ARGUMENT;
-    octree_status status = list_keys(memory, tree, keys, fault);
+    octree_status status = list_node_keys(memory, tree, keys, fault);
     if (status == OCTREE_OK)
-        status = list_places(memory, tree, places, keys, fault);
+        status = list_node_places(memory, tree, places, keys, fault);
     octree_foreign_place *items = places->items;
     list path = {0};
     for (size_t i = 0; status == OCTREE_OK && i < places->count; i++) {
@@ -278,15 +278,15 @@ void foreign_release(foreign *f)
 
 size_t foreign_find_node(const foreign *f, uint64_t id)
 {
-    return find_place(&f->keys, id);
+    return find_node_place(&f->keys, id);
 }
 
 size_t foreign_first_holding(const foreign *f, uint64_t point)
 {
-    return find_first_word(f->holdings.items, sizeof(foreign_holding), f->holdings.count, point);
+    return find_item_by_first_word(f->holdings.items, sizeof(foreign_holding), f->holdings.count, point);
 }
 
-void foreign_publish(foreign *f)
+void foreign_update_state(foreign *f)
 {
     octree_foreign_state *state = &f->state;
     if (!state->given)

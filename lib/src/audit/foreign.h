@@ -39,7 +39,7 @@ typedef struct foreign_mark {
  * there are no nodes yet. */
 typedef struct foreign {
     arena *memory;
-    octree_foreign_state state; /* the part that a tick shows; foreign_publish() sets its pointers */
+    octree_foreign_state state; /* the part that a tick shows; foreign_update_state() sets its pointers */
     octree_foreign_node *nodes; /* a copy of the nodes, in one memory block with the ids of their points */
     size_t size;                /* the size of this memory block in bytes */
     list places;                /* a list of octree_foreign_place, in the order of the nodes */
@@ -86,6 +86,6 @@ bool foreign_check_nodes(foreign *f, const audited_points *points);
 bool foreign_record_query(foreign *f, judge *j, const judged_query *about, size_t answer);
 
 /* Set the pointers and counts of f->state. The lists must not grow after this call until the next tick. */
-void foreign_publish(foreign *f);
+void foreign_update_state(foreign *f);
 
 #endif

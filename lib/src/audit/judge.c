@@ -451,7 +451,8 @@ static void list_best_answer(judge_state *s, point_test *is_lost, void *context)
     foreign->count = foreign->count < exact->count ? foreign->count : exact->count;
 }
 
-bool judge_without(judge *j, const judged_query *about, point_test *is_lost, point_visit *report, void *context)
+bool judge_without_lost_points(judge *j, const judged_query *about, point_test *is_lost, point_visit *report,
+                               void *context)
 {
     octree_judgement made = {.judged = true};
     judge_state s;

@@ -63,7 +63,8 @@ typedef bool point_visit(const octree_point *point, void *context);
  * answer is wrong, call `report` for each lost point that it lacks. False when there is no memory or `report` returned
  * false. Cost: that of judge_answer(). If an exact neighbour is lost, also a search of a ball that contains all exact
  * neighbours. */
-bool judge_without(judge *j, const judged_query *about, point_test *is_lost, point_visit *report, void *context);
+bool judge_without_lost_points(judge *j, const judged_query *about, point_test *is_lost, point_visit *report,
+                               void *context);
 
 /* Set the pointers of these answers' judgements to their parts of `given` and `wrong`. These two lists must not grow
  * any more in this tick. */

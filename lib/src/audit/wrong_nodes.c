@@ -9,8 +9,8 @@
  * The idea: decide which nodes hold a point. A node holds the points that it lists. A leaf that lists nothing holds all
  * points in its box. By these rules a point is lost if no node holds it. A query that prunes a node loses the points
  * that are held only below pruned nodes; the nearest node that the query named, from the holder up, decides. The prune
- * is wrong only if even the best answer without the lost points is wrong (judge_without), so a lucky prune is never
- * reported. The cost is that of sorting the listed ids, and one judgement for each query that pruned nodes.
+ * is wrong only if even the best answer without the lost points is wrong (judge_without_lost_points), so a lucky prune
+ * is never reported. The cost is that of sorting the listed ids, and one judgement for each query that pruned nodes.
  */
 #include "foreign.h"
 #include "octree/octree.h"
@@ -46,7 +46,7 @@ const char *octree_wrong_node_words(octree_wrong_node_kind kind)
     return (unsigned)kind < OCTREE_WRONG_NODE_KINDS ? wrong_node_rows[kind].words : NULL;
 }
 
-static octree_foreign_place *places_of(const foreign *f)
+static octree_foreign_place *foreign_places(const foreign *f)
 {
     return f->places.items;
 }
@@ -57,8 +57,8 @@ static bool report_wrong_node(foreign *f, size_t place, octree_wrong_node wrong)
 {
     f->state.wrong[wrong.kind]++;
     if (place != SIZE_MAX) {
-        wrong.node = places_of(f)[place].node->id;
-        places_of(f)[place].wrong |= 1u << wrong.kind;
+        wrong.node = foreign_places(f)[place].node->id;
+        foreign_places(f)[place].wrong |= 1u << wrong.kind;
     }
     return f->wrong.count == OCTREE_LISTED_WRONG_NODES || list_push(f->memory, &f->wrong, &wrong, sizeof wrong);
 }
@@ -100,7 +100,7 @@ static bool is_within_parent(const octree_foreign_node *child, const octree_fore
 
 static bool check_boxes_in_parents(foreign *f)
 {
-    const octree_foreign_place *places = places_of(f);
+    const octree_foreign_place *places = foreign_places(f);
     bool ok = true;
     for (size_t i = 0; ok && i < f->places.count; i++)
         if (places[i].parent != SIZE_MAX && !is_within_parent(places[i].node, places[places[i].parent].node))
@@ -111,7 +111,7 @@ static bool check_boxes_in_parents(foreign *f)
 /* Check the points that a node lists. False when there is no memory. */
 static bool check_listed_points(foreign *f, const audited_points *points, size_t place)
 {
-    const octree_foreign_node *node = places_of(f)[place].node;
+    const octree_foreign_node *node = foreign_places(f)[place].node;
     bool ok = true;
     for (size_t i = 0; ok && i < node->points.count; i++) {
         octree_point point;
@@ -138,7 +138,7 @@ static int compare_by_place(const void *a, const void *b)
 
 /* Report the points that a node lists more than once, sorted by node and then by point. f->holdings is sorted
  * already. */
-static bool report_repeated(foreign *f)
+static bool report_repeated_points(foreign *f)
 {
     const foreign_holding *items = f->holdings.items;
     bool ok = true;
@@ -154,7 +154,7 @@ static bool report_repeated(foreign *f)
     return ok;
 }
 
-static bool is_listed(const foreign *f, uint64_t point)
+static bool is_listed_by_leaf(const foreign *f, uint64_t point)
 {
     const size_t first = foreign_first_holding(f, point);
     return first < f->holdings.count && ((const foreign_holding *)f->holdings.items)[first].id == point;
@@ -175,17 +175,17 @@ typedef struct holding_search {
     bool failed; /* true: there was no memory */
 } holding_search;
 
-static bool is_own_point(const audited_points *points, uint64_t id)
+static bool is_audited_point(const audited_points *points, uint64_t id)
 {
     return points->own_id && *points->own_id == id;
 }
 
 /* An octree_point_visitor: collect the point if no node lists it. */
-static bool collect_unlisted(const octree_point *point, void *context)
+static bool collect_unlisted_point(const octree_point *point, void *context)
 {
     holding_search *s = context;
     foreign *f = s->foreign;
-    const bool listed = is_own_point(s->points, point->id) || is_listed(f, point->id);
+    const bool listed = is_audited_point(s->points, point->id) || is_listed_by_leaf(f, point->id);
     s->failed =
         !listed && !list_push(f->memory, &f->unlisted, &(unlisted_point){point->id, false}, sizeof(unlisted_point));
     return !s->failed;
@@ -218,7 +218,7 @@ static octree_box enlarged_box(const octree_foreign_node *leaf)
 
 static void mark_points_in_boxes(holding_search *search)
 {
-    const octree_foreign_place *places = places_of(search->foreign);
+    const octree_foreign_place *places = foreign_places(search->foreign);
     for (size_t i = 0; search->lost > 0 && i < search->foreign->places.count; i++) {
         if (!holds_by_box(&places[i]))
             continue;
@@ -235,7 +235,7 @@ static bool find_lost_points(foreign *f, const audited_points *points)
     static const octree_box all = {{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}};
     holding_search search = {.foreign = f, .points = points};
     f->unlisted.count = 0;
-    octree_range(points->tree, &all, collect_unlisted, &search);
+    octree_range(points->tree, &all, collect_unlisted_point, &search);
     search.lost = f->unlisted.count;
     const unlisted_point *unlisted = f->unlisted.items;
     list_sort(&f->unlisted, sizeof *unlisted, compare_first_words);
@@ -258,8 +258,8 @@ void foreign_begin_tick(foreign *f)
         return;
     const size_t *visit = f->visits.items;
     for (size_t i = 0; i < f->visits.count; i++) {
-        places_of(f)[visit[i]].visits = 0;
-        places_of(f)[visit[i]].wrong &= ~(unsigned)FROM_QUERIES;
+        foreign_places(f)[visit[i]].visits = 0;
+        foreign_places(f)[visit[i]].wrong &= ~(unsigned)FROM_QUERIES;
     }
     f->visits.count = 0;
     state->fresh = false;
@@ -268,18 +268,18 @@ void foreign_begin_tick(foreign *f)
 }
 
 /* Find the wrong nodes that can be found without queries. False when there is no memory. */
-static bool find_standing_faults(foreign *f, const audited_points *points)
+static bool find_wrong_nodes_without_queries(foreign *f, const audited_points *points)
 {
     octree_foreign_state *state = &f->state;
     memset(state->wrong, 0, sizeof state->wrong);
     f->wrong.count = f->holdings.count = 0;
     for (size_t i = 0; i < f->places.count; i++)
-        places_of(f)[i].wrong = 0;
+        foreign_places(f)[i].wrong = 0;
     bool ok = check_boxes_in_parents(f);
     for (size_t i = 0; ok && i < f->places.count; i++)
         ok = check_listed_points(f, points, i);
     list_sort(&f->holdings, sizeof(foreign_holding), foreign_compare_keys);
-    f->checked = ok && report_repeated(f) && find_lost_points(f, points);
+    f->checked = ok && report_repeated_points(f) && find_lost_points(f, points);
     f->standing = f->wrong.count;
     memcpy(f->standing_counts, state->wrong, sizeof state->wrong);
     f->version = octree_version(points->tree);
@@ -291,7 +291,7 @@ bool foreign_check_nodes(foreign *f, const audited_points *points)
     if (!f->state.given)
         return true;
     if (!f->checked || f->version != octree_version(points->tree))
-        return find_standing_faults(f, points);
+        return find_wrong_nodes_without_queries(f, points);
     f->wrong.count = f->standing;
     memcpy(f->state.wrong, f->standing_counts, sizeof f->standing_counts);
     return true;
@@ -306,7 +306,7 @@ typedef struct node_query {
     size_t answer; /* the index of the query's answer among those of the tick */
 } node_query;
 
-static foreign_mark *marks_of(const foreign *f)
+static foreign_mark *foreign_marks(const foreign *f)
 {
     return f->marks.items;
 }
@@ -319,10 +319,10 @@ static bool record_node_visit(const node_query *q, octree_node_visit visit, uint
     if (place == SIZE_MAX)
         return report_wrong_node(
             f, place, (octree_wrong_node){.kind = OCTREE_NODE_UNKNOWN_NODE, .node = id, .answer = q->answer});
-    octree_foreign_place *node = &places_of(f)[place];
+    octree_foreign_place *node = &foreign_places(f)[place];
     f->state.visits[visit] += !(node->visits >> visit & 1);
     node->visits |= 1u << visit;
-    foreign_mark *mark = &marks_of(f)[place];
+    foreign_mark *mark = &foreign_marks(f)[place];
     const bool first = mark->query != f->query;
     /* a node that the query both pruned and visited does not count as pruned */
     if (first || mark->visit == OCTREE_NODE_PRUNED)
@@ -334,13 +334,13 @@ static bool record_node_visit(const node_query *q, octree_node_visit visit, uint
  * query names counts, on the way from `place` up to the root. */
 static size_t find_pruned_ancestor(const foreign *f, size_t place)
 {
-    while (place != SIZE_MAX && marks_of(f)[place].query != f->query)
-        place = places_of(f)[place].parent;
-    return place != SIZE_MAX && marks_of(f)[place].visit == OCTREE_NODE_PRUNED ? place : SIZE_MAX;
+    while (place != SIZE_MAX && foreign_marks(f)[place].query != f->query)
+        place = foreign_places(f)[place].parent;
+    return place != SIZE_MAX && foreign_marks(f)[place].visit == OCTREE_NODE_PRUNED ? place : SIZE_MAX;
 }
 
 /* The index of the next node that holds a point; SIZE_MAX if there are no more. *at is 0 before the first call. */
-static size_t next_holder(const foreign *f, const octree_point *point, size_t *at)
+static size_t find_next_holding_leaf(const foreign *f, const octree_point *point, size_t *at)
 {
     const foreign_holding *items = f->holdings.items;
     const size_t first = foreign_first_holding(f, point->id);
@@ -348,7 +348,7 @@ static size_t next_holder(const foreign *f, const octree_point *point, size_t *a
         const size_t i = first + (*at)++;
         return i < f->holdings.count && items[i].id == point->id ? items[i].place : SIZE_MAX;
     }
-    for (const octree_foreign_place *places = places_of(f); *at < f->places.count; ++*at)
+    for (const octree_foreign_place *places = foreign_places(f); *at < f->places.count; ++*at)
         if (holds_by_box(&places[*at]) && foreign_node_contains(places[*at].node, point->position))
             return (*at)++;
     return SIZE_MAX;
@@ -359,9 +359,9 @@ static bool is_pruned(const octree_point *point, void *context)
 {
     const node_query *q = context;
     size_t at = 0, holders = 0;
-    if (is_own_point(q->points, point->id))
+    if (is_audited_point(q->points, point->id))
         return false;
-    for (size_t place; (place = next_holder(q->foreign, point, &at)) != SIZE_MAX; holders++)
+    for (size_t place; (place = find_next_holding_leaf(q->foreign, point, &at)) != SIZE_MAX; holders++)
         if (find_pruned_ancestor(q->foreign, place) == SIZE_MAX)
             return false;
     return holders > 0;
@@ -373,10 +373,10 @@ static bool report_pruned(const octree_point *point, void *context)
 {
     const node_query *q = context;
     size_t at = 0;
-    for (size_t place; (place = next_holder(q->foreign, point, &at)) != SIZE_MAX;) {
+    for (size_t place; (place = find_next_holding_leaf(q->foreign, point, &at)) != SIZE_MAX;) {
         const size_t pruned = find_pruned_ancestor(q->foreign, place);
         const octree_wrong_node wrong = {.kind = OCTREE_NODE_PRUNED_POINT, .point = point->id, .answer = q->answer};
-        foreign_mark *mark = &marks_of(q->foreign)[pruned];
+        foreign_mark *mark = &foreign_marks(q->foreign)[pruned];
         if (!mark->reported && !report_wrong_node(q->foreign, pruned, wrong))
             return false;
         mark->reported = true;
@@ -394,5 +394,5 @@ bool foreign_record_query(foreign *f, judge *j, const judged_query *about, size_
         for (size_t i = 0; ok && i < query->visits[visit].count; i++)
             ok = record_node_visit(&q, (octree_node_visit)visit, query->visits[visit].ids[i]);
     const bool prunes = query->visits[OCTREE_NODE_PRUNED].count > 0;
-    return ok && (!prunes || judge_without(j, about, is_pruned, report_pruned, &q));
+    return ok && (!prunes || judge_without_lost_points(j, about, is_pruned, report_pruned, &q));
 }

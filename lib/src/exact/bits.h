@@ -63,7 +63,7 @@ static inline uint64_t bits_spread(uint64_t x)
 }
 
 /* Returns `mask` if the condition holds, else 0. The function has no branch. */
-static inline unsigned bits_if(bool condition, unsigned mask)
+static inline unsigned mask_if(bool condition, unsigned mask)
 {
     return (0u - condition) & mask;
 }

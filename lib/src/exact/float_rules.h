@@ -25,16 +25,16 @@
 #include <string.h>
 
 #if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
-#error "Octreel's answers are exact: it must not be compiled with -ffast-math or -ffinite-math-only"
+#error "Octreel must not be compiled with -ffast-math or -ffinite-math-only, because its answers are exact"
 #endif
 /* Accepted values of FLT_EVAL_METHOD. 0: each type is evaluated in its own precision. 1: floats are evaluated as
  * doubles (s390x under -std=c17), which does no harm, because the library computes in double. 16 to 64: only types of
  * fewer bits than this number are widened. The value 2, long double, is not supported. */
 #if FLT_EVAL_METHOD < 0 || FLT_EVAL_METHOD == 2 || FLT_EVAL_METHOD > 64
 #if defined(__i386__)
-#error "Octreel needs doubles that are evaluated as doubles, which the x87 does not: compile with -msse2 -mfpmath=sse"
+#error "Octreel needs arithmetic in double precision, which the x87 unit does not have: use -msse2 -mfpmath=sse"
 #else
-#error "Octreel needs doubles that are evaluated as doubles: this compiler does not do so here (see FLT_EVAL_METHOD)"
+#error "Octreel needs arithmetic in double precision, which this compiler does not use (see FLT_EVAL_METHOD)"
 #endif
 #endif
 
@@ -66,7 +66,7 @@ static inline double subnormal_count(double x)
 
 /* Returns count * 2^-1074, rounded to nearest even, as the product of the two numbers would be rounded. |count| must be
  * below 2^51. */
-static inline double subnormal_of(double count)
+static inline double subnormal_from_count(double count)
 {
     const double sum = fabs(count) + 0x1p52; /* adding 2^52 rounds to an integer */
     uint64_t bits;

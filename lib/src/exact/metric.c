@@ -44,7 +44,7 @@ metric metric_make(double scale, bool subnormal, const double target[3])
 #ifdef OCTREE_SSE2
 /* Compute the squared distances of two points from the target at once. Not valid for worlds of subnormal
  * coordinates. */
-static inline __m128d square_pair(const double a[3], const double b[3], const __m128d target[3], __m128d scale)
+static inline __m128d compute_pair_squares(const double a[3], const double b[3], const __m128d target[3], __m128d scale)
 {
     const __m128d xy_a = _mm_loadu_pd(a), xy_b = _mm_loadu_pd(b), z = _mm_loadh_pd(_mm_load_sd(&a[2]), &b[2]);
     const __m128d x = _mm_sub_pd(_mm_mul_pd(_mm_unpacklo_pd(xy_a, xy_b), scale), target[0]);
@@ -60,7 +60,7 @@ typedef struct pair_scan {
 
 static inline void scan_pair(pair_scan *s, const octree_point *points, unsigned i, double squares[])
 {
-    const __m128d pair = square_pair(points[i].position, points[i + 1].position, s->target, s->scale);
+    const __m128d pair = compute_pair_squares(points[i].position, points[i + 1].position, s->target, s->scale);
     s->within |= (uint64_t)_mm_movemask_pd(_mm_cmpngt_pd(pair, s->reach)) << i;
     s->least = _mm_min_pd(pair, s->least);
     _mm_storeu_pd(&squares[i], pair);
@@ -144,7 +144,7 @@ static double subnormal_length(const double gap[3])
 {
     const double counts[3] = {subnormal_count(gap[0]), subnormal_count(gap[1]), subnormal_count(gap[2])};
     const double length = vector_length(counts);
-    return length < 0x1p51 ? subnormal_of(length) : ldexp(length, -1074);
+    return length < 0x1p51 ? subnormal_from_count(length) : ldexp(length, -1074);
 }
 
 double metric_distance(const double a[3], const double b[3])

@@ -22,7 +22,7 @@ typedef struct ends {
     double a, b, p, q;
 } ends;
 
-static ends ends_on_axis(const sweep *box, const double from[3], const double to[3], int axis)
+static ends make_ends_on_axis(const sweep *box, const double from[3], const double to[3], int axis)
 {
     return (ends){box->from[axis], box->to[axis], from[axis], to[axis]};
 }
@@ -68,12 +68,12 @@ static bool intersect_axis(moments *known, const ends *e, double size)
 }
 
 /* Returns 1 if box and point touch, 0 if they do not, and -1 if doubles do not decide. */
-static int test_in_doubles(const sweep *box, const double from[3], const double to[3])
+static int test_contact_in_doubles(const sweep *box, const double from[3], const double to[3])
 {
     moments known = {.enter = 0, .leave = 1};
     int result = 1;
     for (int i = 0; i < 3; i++) {
-        const ends e = ends_on_axis(box, from, to, i);
+        const ends e = make_ends_on_axis(box, from, to, i);
         const bool rests = e.a == e.b && e.p == e.q;
         const int answer = rests ? test_axis_at_rest(&e, box->size) : intersect_axis(&known, &e, box->size) ? 1 : -1;
         if (answer == 0)
@@ -127,7 +127,7 @@ static bool touches_exactly(const sweep *box, const double from[3], const double
     ends e[3];
     int way[3];
     for (int i = 0; i < 3; i++) {
-        e[i] = ends_on_axis(box, from, to, i);
+        e[i] = make_ends_on_axis(box, from, to, i);
         way[i] = motion_sign(&e[i]);
         /* on an axis at rest, the two tests check both sides of the same relative position */
         const int side = way[i] ? way[i] : 1;
@@ -143,6 +143,6 @@ static bool touches_exactly(const sweep *box, const double from[3], const double
 
 bool sweep_touches(const sweep *box, const double from[3], const double to[3])
 {
-    const int result = test_in_doubles(box, from, to);
+    const int result = test_contact_in_doubles(box, from, to);
     return result < 0 ? touches_exactly(box, from, to) : result == 1;
 }

@@ -219,7 +219,7 @@ static bool check_foreign_nodes(octree_game *game, const octree_foreign_tree *re
 
 /* Check the foreign nodes. Then ask the queries and list the shapes: those of the tick first, then those of every tick.
  * False when there is no memory. */
-static bool ask_and_show(octree_game *game, const octree_input *input)
+static bool ask_queries_and_list_shapes(octree_game *game, const octree_input *input)
 {
     const octree_input always = session_input(game->session, OCTREE_EVERY_TICK);
     return check_foreign_nodes(game, input->foreign) && game_ask_by_key(game) &&
@@ -253,20 +253,20 @@ static void publish_tick(octree_game *game)
     GAME_SHOWN_LISTS(PUBLISH)
 #undef PUBLISH
     game->tick.hit_from = game->tick.swept ? game->hit_from.items : NULL;
-    foreign_publish(&game->foreign);
+    foreign_update_state(&game->foreign);
     game->tick.foreign = game->foreign.state;
     if (game->tick.foreign.wrong_count)
         game->tick.events |= OCTREE_EVENT_WRONG;
 }
 
 /* Finish a tick. In a gap, no collision is tested, no query asked and no shape listed. Returns OK or NO_MEMORY. */
-static octree_status finish_tick(octree_game *game, const octree_input *input)
+static octree_status ask_and_publish_tick(octree_game *game, const octree_input *input)
 {
     bool ok = true;
     game->tick.gap = input->gap ? strcpy(game->gap, input->gap->why) : NULL;
     if (game->tick.number == 0 && game->tick.has_player && !input->gap)
         ok = test_collision(game, game->tick.player);
-    ok = ok && (input->gap ? game_finish_queries(game) : ask_and_show(game, input));
+    ok = ok && (input->gap ? game_finish_queries(game) : ask_queries_and_list_shapes(game, input));
     ok = ok && summarize_tree(game) && game_list_movers(game);
     if (ok)
         publish_tick(game);
@@ -301,7 +301,7 @@ static octree_status start_game(octree_game *game)
         return status;
     update_player(game);
     const octree_input input = session_input(session, 0);
-    return finish_tick(game, &input);
+    return ask_and_publish_tick(game, &input);
 }
 
 octree_status octree_game_create(const octree_session *session, octree_game **game)
@@ -387,13 +387,13 @@ static bool play_changes(octree_game *game, const octree_input *input)
 /* Play one tick with the given input. If `given` is null, use the session's input. */
 static octree_status play_tick(octree_game *game, char key, const octree_input *given)
 {
-    if (is_visited(game->tree))
+    if (is_running_callback(game->tree))
         return OCTREE_BUSY;
     if (key == 'q') {
         game->quit = true;
         return OCTREE_OK;
     }
-    if (!game_is_key(key))
+    if (!is_game_key(key))
         return OCTREE_BAD_KEY;
     const octree_input own = session_input(game->session, game->tick.number + 1), *input = given ? given : &own;
     begin_tick(game, input->gap ? '.' : key);
@@ -402,7 +402,7 @@ static octree_status play_tick(octree_game *game, char key, const octree_input *
         update_player(game);
     else if (!play_changes(game, input))
         return OCTREE_NO_MEMORY;
-    return finish_tick(game, input);
+    return ask_and_publish_tick(game, input);
 }
 
 octree_status octree_game_step(octree_game *game, char key)

@@ -35,7 +35,7 @@ static octree_status check_player(const octree_player *player, const octree *tre
     return status;
 }
 
-bool game_is_key(char key)
+bool is_game_key(char key)
 {
     return key && strchr("dweasfn.", key);
 }
@@ -43,7 +43,7 @@ bool game_is_key(char key)
 static octree_status check_keys(const char *keys)
 {
     for (const char *key = keys; key && *key && *key != 'q'; key++)
-        if (!game_is_key(*key))
+        if (!is_game_key(*key))
             return OCTREE_BAD_KEY;
     return OCTREE_OK;
 }
@@ -140,8 +140,8 @@ octree_status game_check_session(const octree_session *s, const octree *tree)
 /* Return the items that belong to a tick, and store their number in *found. Null if there are none. */
 static const void *find_items_of_tick(const void *items, size_t size, size_t count, uint64_t tick, size_t *found)
 {
-    const size_t first = find_first_word(items, size, count, tick);
-    *found = (tick < OCTREE_EVERY_TICK ? find_first_word(items, size, count, tick + 1) : count) - first;
+    const size_t first = find_item_by_first_word(items, size, count, tick);
+    *found = (tick < OCTREE_EVERY_TICK ? find_item_by_first_word(items, size, count, tick + 1) : count) - first;
     return *found ? (const char *)items + first * size : NULL;
 }
 

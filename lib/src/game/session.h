@@ -10,7 +10,7 @@
 octree_input session_input(const octree_session *session, uint64_t tick);
 
 /* Whether a key can be the key of a tick. All keys in game.h can, except q. */
-bool game_is_key(char key);
+bool is_game_key(char key);
 
 /* Check a session whose tree could be created. Errors: those of octree_game_create. */
 octree_status game_check_session(const octree_session *session, const octree *tree);

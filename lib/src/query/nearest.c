@@ -51,7 +51,7 @@ typedef struct search {
 static inline void sort_two_labeled(double *a, double *b, uint8_t *of_a, uint8_t *of_b)
 {
     const double lesser = *b < *a ? *b : *a, greater = *b < *a ? *a : *b;
-    const uint8_t change = (uint8_t)bits_if(*b < *a, *of_a ^ *of_b);
+    const uint8_t change = (uint8_t)mask_if(*b < *a, *of_a ^ *of_b);
     *a = lesser;
     *b = greater;
     *of_a ^= change;
@@ -313,10 +313,10 @@ static size_t search_tree(const octree *tree, const double target[3], size_t k, 
     neighbor_heap_begin(&s.found, how, radius, neighbors, k);
     s.meter = (meter){.how = how};
     s.open = 0;
-    const unsigned begun = how->trace ? begin_visit(tree) : 0;
+    const unsigned begun = how->trace ? begin_callbacks(tree) : 0;
     search_from_root(&s);
     if (how->trace)
-        end_visit(begun);
+        end_callbacks(begun);
     neighbor_heap_finish(&s.found);
     meter_report(&s.meter);
     return s.found.count;
@@ -400,7 +400,8 @@ typedef struct target_batch {
 static void find_codes_of_share(size_t number, void *context)
 {
     const target_batch *b = context;
-    for (size_t i = share_start(b->count, b->tasks, number); i < share_start(b->count, b->tasks, number + 1); i++) {
+    for (size_t i = find_share_start(b->count, b->tasks, number); i < find_share_start(b->count, b->tasks, number + 1);
+         i++) {
         uint32_t keys[3];
         find_nearest_keys(b->tree, b->targets[i], keys);
         b->order[i] = (morton_item){morton_interleave(keys), (uint32_t)i, MORTON_NEW};
@@ -410,10 +411,10 @@ static void find_codes_of_share(size_t number, void *context)
 static void search_targets_of_share(size_t number, void *context)
 {
     target_batch *b = context;
-    const size_t end = share_start(b->count, b->tasks, number + 1);
+    const size_t end = find_share_start(b->count, b->tasks, number + 1);
     octree_search how = b->how;
     how.cost = how.cost ? &b->costs[number] : NULL;
-    for (size_t i = share_start(b->count, b->tasks, number); i < end; i++) {
+    for (size_t i = find_share_start(b->count, b->tasks, number); i < end; i++) {
         octree_neighbor nearest;
         const uint32_t place = b->order[i].place;
         if (i + PREFETCH_AHEAD < end) {

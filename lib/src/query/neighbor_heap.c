@@ -25,13 +25,13 @@
 
 /* Set the reach of the search. With k neighbours found, the farthest one limits it. In FAST mode nodes keep the
  * tolerance of EXACT mode, because the bound of epsilon and the order of siblings (nearest.c) depend on it. */
-static void set_reach(neighbor_heap *h, double worst)
+static void set_search_reach(neighbor_heap *h, double worst)
 {
     h->point_reach = h->how.mode == OCTREE_FAST ? worst : metric_above(worst);
     h->node_reach = metric_above(worst * h->shrink);
 }
 
-static bool keeps_few(const neighbor_heap *h)
+static bool keeps_few_neighbors(const neighbor_heap *h)
 {
     return h->k <= FEW_NEIGHBORS;
 }
@@ -73,7 +73,7 @@ static inline int compare_neighbors(const neighbor_heap *h, const octree_point *
 
 /* ---- Up to 32 neighbours: a sorted array of keys -------------------------------------------------------------- */
 
-static unsigned slot_of_key(double key)
+static unsigned find_slot_of_key(double key)
 {
     uint64_t bits;
     memcpy(&bits, &key, sizeof bits);
@@ -91,7 +91,7 @@ static double make_slot_key(double square, unsigned place)
 
 /* Return a limit: a neighbour with a smaller square or key is certainly nearer than the neighbour with `key`. Each key
  * is off by at most 2^-47 of itself, and metric_below() covers the errors of the squares. */
-static double certainly_below(double key)
+static double find_certainly_nearer_limit(double key)
 {
     return key * (1 - 0x1p-45) - 0x1p-998;
 }
@@ -104,10 +104,10 @@ static RARE bool is_nearer(const neighbor_heap *h, const octree_point *point, do
 /* Compare the neighbours that two keys belong to, exactly. */
 static int compare_keys(const neighbor_heap *h, double a, double b)
 {
-    const unsigned place = slot_of_key(a);
-    if (a < certainly_below(b))
+    const unsigned place = find_slot_of_key(a);
+    if (a < find_certainly_nearer_limit(b))
         return -1;
-    return is_nearer(h, h->few.points[place], h->few.squares[place], slot_of_key(b)) ? -1 : 1;
+    return is_nearer(h, h->few.points[place], h->few.squares[place], find_slot_of_key(b)) ? -1 : 1;
 }
 
 static void begin_few_neighbors(neighbor_heap *h)
@@ -143,10 +143,10 @@ static inline void insert_key(double *keys, size_t last, double key)
 
 /* The keys of the last neighbours may be too close to decide which is farthest. Move the one that is farthest by exact
  * comparison to the end. */
-static RARE void settle_last(const neighbor_heap *h, double *keys, size_t last)
+static RARE void move_farthest_to_end(const neighbor_heap *h, double *keys, size_t last)
 {
     size_t farthest = last;
-    const double close = certainly_below(keys[last]);
+    const double close = find_certainly_nearer_limit(keys[last]);
     for (size_t i = last - 1; keys[i] >= close; i--)
         farthest = compare_keys(h, keys[farthest], keys[i]) < 0 ? i : farthest;
     const double key = keys[farthest];
@@ -159,10 +159,10 @@ static void add_to_few_neighbors(neighbor_heap *h, const octree_point *point, do
 {
     few_neighbors *f = &h->few;
     const size_t last = FEW_FIRST - 1 + h->k;
-    const unsigned place = slot_of_key(f->keys[last]);
+    const unsigned place = find_slot_of_key(f->keys[last]);
     if (h->count < h->k)
         h->count++;
-    else if (!(square < certainly_below(f->keys[last])) && !is_nearer(h, point, square, place))
+    else if (!(square < find_certainly_nearer_limit(f->keys[last])) && !is_nearer(h, point, square, place))
         return;
     f->points[place] = point;
     f->squares[place] = square;
@@ -170,9 +170,9 @@ static void add_to_few_neighbors(neighbor_heap *h, const octree_point *point, do
     insert_key(f->keys, last, make_slot_key(square < METRIC_FINITE ? square : METRIC_FINITE, place));
     if (h->count < h->k)
         return;
-    if (f->keys[last - 1] >= certainly_below(f->keys[last]))
-        settle_last(h, f->keys, last);
-    set_reach(h, f->squares[slot_of_key(f->keys[last])]);
+    if (f->keys[last - 1] >= find_certainly_nearer_limit(f->keys[last]))
+        move_farthest_to_end(h, f->keys, last);
+    set_search_reach(h, f->squares[find_slot_of_key(f->keys[last])]);
 }
 
 /* Sort the neighbours exactly and store them in the caller's array. */
@@ -186,7 +186,7 @@ static void sort_few_neighbors(const neighbor_heap *h, double *keys)
         keys[at] = key;
     }
     for (size_t i = 0; i < h->count; i++)
-        h->items[i].point = *h->few.points[slot_of_key(keys[i])];
+        h->items[i].point = *h->few.points[find_slot_of_key(keys[i])];
 }
 
 /* ---- More than 32 neighbours: a binary heap ------------------------------------------------------------------- */
@@ -228,7 +228,7 @@ static RARE void add_to_heap(neighbor_heap *h, const octree_point *point, double
     else if (compare_items(h, &found, &h->items[0]) < 0)
         sink_in_heap(h, &found, h->count);
     if (h->count == h->k)
-        set_reach(h, h->items[0].distance);
+        set_search_reach(h, h->items[0].distance);
 }
 
 static void sort_heap(const neighbor_heap *h)
@@ -253,7 +253,7 @@ void neighbor_heap_begin(neighbor_heap *h, const octree_search *how, double radi
     h->items = room;
     h->count = 0;
     h->k = k;
-    if (keeps_few(h))
+    if (keeps_few_neighbors(h))
         begin_few_neighbors(h);
 }
 
@@ -261,7 +261,7 @@ void neighbor_heap_add(neighbor_heap *h, const octree_point *point, double squar
 {
     if (is_skipped(h, point) || !is_within_radius(h, point, square))
         return;
-    if (keeps_few(h))
+    if (keeps_few_neighbors(h))
         add_to_few_neighbors(h, point, square);
     else
         add_to_heap(h, point, square);
@@ -281,7 +281,7 @@ static RARE void sort_by_distance(neighbor_heap *h)
 void neighbor_heap_finish(neighbor_heap *h)
 {
     bool ascend = true;
-    if (keeps_few(h))
+    if (keeps_few_neighbors(h))
         sort_few_neighbors(h, h->few.keys + FEW_FIRST);
     else
         sort_heap(h);

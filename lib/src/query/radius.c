@@ -33,8 +33,8 @@ static octant_masks find_octant_masks(const ball *b, const ball_cell *c)
     unsigned meets = 0, inside = 0;
     for (unsigned octant = 0; octant < 8; octant++) {
         const unsigned x = octant >> 2, y = octant >> 1 & 1, z = octant & 1;
-        meets |= bits_if(!((c->half[0][x] + c->half[1][y]) + c->half[2][z] > b->reach), 1u << octant);
-        inside |= bits_if((far[0][x] + far[1][y]) + far[2][z] < b->whole, 1u << octant);
+        meets |= mask_if(!((c->half[0][x] + c->half[1][y]) + c->half[2][z] > b->reach), 1u << octant);
+        inside |= mask_if((far[0][x] + far[1][y]) + far[2][z] < b->whole, 1u << octant);
     }
     return (octant_masks){(uint8_t)meets, (uint8_t)inside};
 }
@@ -103,7 +103,7 @@ static octant_masks measure_root(ball *b, const octree *tree)
     return (octant_masks){!(near > b->reach), far < b->whole};
 }
 
-static double square_of(double length)
+static double square_length(double length)
 {
     return length * length;
 }
@@ -115,10 +115,10 @@ static void search_ball(const octree *tree, const double center[3], double radiu
     b.metric = metric_make(tree->scale, is_subnormal_world(tree), center);
     b.mode = how->mode;
     b.radius = radius;
-    b.square = square_of(radius * tree->scale);
+    b.square = square_length(radius * tree->scale);
     b.reach = metric_above(b.square);
     /* Lengths are scaled before they are added, because their sum may overflow. */
-    b.whole = metric_below(square_of(radius * tree->scale + how->epsilon * tree->scale));
+    b.whole = metric_below(square_length(radius * tree->scale + how->epsilon * tree->scale));
     region r = {tree, &b, enter_ball_cell, scan_ball_points, visit, context, .meter.how = how};
     region_search(&r, measure_root(&b, tree));
 }

@@ -42,7 +42,7 @@ static bool visit_points_below(region *r, const node *n)
 
 static bool take_whole_node(region *r, const node *n, octree_address address)
 {
-    meter_take_whole(&r->meter, address);
+    meter_count_whole_node(&r->meter, address);
     if (r->visit)
         return visit_points_below(r, n);
     r->count += n->count;
@@ -129,12 +129,12 @@ static void descend_from_root(region *r, octant_masks root)
 
 void region_search(region *r, octant_masks root)
 {
-    const unsigned begun = begin_visit(r->tree);
+    const unsigned begun = begin_callbacks(r->tree);
     if (root.meets & 1)
         descend_from_root(r, root);
     else
         meter_prune_root(&r->meter);
-    end_visit(begun);
+    end_callbacks(begun);
     meter_report(&r->meter);
 }
 
@@ -200,9 +200,9 @@ octant_masks box_shape_enter(void *shape, const octree *tree, unsigned depth, un
         const uint8_t below = octants_beside[i][0], above = octants_beside[i][1];
         s->low[depth][i] = low;
         /* The node itself meets the box, so only its middle plane decides which octants do. */
-        meets &= bits_if(s->near.min[i] < middle, below) | bits_if(middle <= s->near.max[i], above);
-        inside &= (bits_if(s->whole.min[i] < low, below) & bits_if(middle <= s->whole.max[i], below)) |
-                  (bits_if(s->whole.min[i] < middle, above) & bits_if(high <= s->whole.max[i], above));
+        meets &= mask_if(s->near.min[i] < middle, below) | mask_if(middle <= s->near.max[i], above);
+        inside &= (mask_if(s->whole.min[i] < low, below) & mask_if(middle <= s->whole.max[i], below)) |
+                  (mask_if(s->whole.min[i] < middle, above) & mask_if(high <= s->whole.max[i], above));
     }
     return (octant_masks){(uint8_t)meets, (uint8_t)inside};
 }

@@ -84,7 +84,7 @@ static inline void meter_visit(meter *m, octree_address address)
 }
 
 /* Record a node that is taken whole, because it is inside the region. */
-static inline void meter_take_whole(meter *m, octree_address address)
+static inline void meter_count_whole_node(meter *m, octree_address address)
 {
     m->count.taken++;
     meter_trace(m, address, OCTREE_TRACE_TAKEN);

@@ -68,7 +68,7 @@ typedef struct axis_view {
     double error; /* the largest error of the position of a plane */
 } axis_view;
 
-static axis_view view_axis(const metric *m, const axis *a, double start, double end)
+static axis_view make_axis_view(const metric *m, const axis *a, double start, double end)
 {
     axis_view o = {
         .step = end - start, .low = metric_scaled(m, a->min) - start, .high = metric_scaled(m, a->max) - start};
@@ -110,7 +110,7 @@ static bool hull_make(hull *h, const octree *tree, const sweep *box)
     const metric end = metric_make(scale, is_subnormal_world(tree), box->to);
     h->metric = metric_make(scale, is_subnormal_world(tree), box->from);
     for (int i = 0; i < 3; i++)
-        view[i] = view_axis(&h->metric, &tree->axes[i], h->metric.scaled[i], end.scaled[i]);
+        view[i] = make_axis_view(&h->metric, &tree->axes[i], h->metric.scaled[i], end.scaled[i]);
     h->face_count = 0;
     for (int k = 0; k < 3; k++) {
         const int i = (k + 1) % 3, j = (k + 2) % 3;
@@ -134,14 +134,14 @@ static octant_masks hull_octants(const hull *h, const int32_t low[3], unsigned d
             const int upper_i = column >> 1, upper_j = column & 1;
             const unsigned octants = octants_beside[f->i][upper_i] & octants_beside[f->j][upper_j];
             const double side = fabs((middle + (upper_j ? y : -y)) - (upper_i ? x : -x));
-            misses |= bits_if(side > f->reach + grown, octants);
-            leaves |= bits_if(!(side + grown < f->whole), octants);
+            misses |= mask_if(side > f->reach + grown, octants);
+            leaves |= mask_if(!(side + grown < f->whole), octants);
         }
     }
     return (octant_masks){(uint8_t)~misses, (uint8_t)~leaves};
 }
 
-static double hull_side(const hull *h, const hull_faces *f, const double p[3])
+static double measure_side_of_face(const hull *h, const hull_faces *f, const double p[3])
 {
     const double x = metric_scaled(&h->metric, p[f->i]) - h->metric.scaled[f->i];
     const double y = metric_scaled(&h->metric, p[f->j]) - h->metric.scaled[f->j];
@@ -169,11 +169,11 @@ static octant_masks enter_swept_cell(void *shape, const octree *tree, unsigned d
 }
 
 /* Whether the moving box touches a point that lies in the box around the step. */
-static bool is_touched(const swept_shape *s, const double p[3])
+static bool is_point_touched(const swept_shape *s, const double p[3])
 {
     bool certain = true;
     for (unsigned k = 0; k < s->hull.face_count; k++) {
-        const double side = fabs(hull_side(&s->hull, &s->hull.faces[k], p));
+        const double side = fabs(measure_side_of_face(&s->hull, &s->hull.faces[k], p));
         if (side > s->hull.faces[k].reach)
             return false;
         certain = certain && side < s->hull.faces[k].whole;
@@ -187,7 +187,7 @@ static uint64_t scan_swept_points(const void *shape, const octree_point *points,
     uint64_t found = 0;
     for (uint64_t left = box_shape_scan(&s->around, points, count); left; left &= left - 1) {
         const unsigned i = bits_lowest(left);
-        found |= (uint64_t)is_touched(s, points[i].position) << i;
+        found |= (uint64_t)is_point_touched(s, points[i].position) << i;
     }
     return found;
 }

@@ -87,13 +87,13 @@ static void collect_valid_range(batch *b, size_t first, size_t end)
 }
 
 /* Collect the items of one part of the batch. The items are stored from the index of the part's first point on. */
-static void collect_valid_part(size_t number, void *context)
+static void collect_valid_points_of_part(size_t number, void *context)
 {
     division *d = context;
     batch *b = &d->parts[number].batch;
-    const size_t first = share_start(b->count, d->tasks, number);
+    const size_t first = find_share_start(b->count, d->tasks, number);
     b->valid = (span){b->valid.items + first, 0};
-    collect_valid_range(b, first, share_start(b->count, d->tasks, number + 1));
+    collect_valid_range(b, first, find_share_start(b->count, d->tasks, number + 1));
 }
 
 /* Append the items of a part to the items of the previous parts, so that no gap is left between them. */
@@ -111,7 +111,7 @@ static void collect_valid_items(batch *b)
         collect_valid_range(b, 0, b->count);
         return;
     }
-    run_parts(b, collect_valid_part);
+    run_task_for_each_part(b, collect_valid_points_of_part);
     for (unsigned i = 0; i < d->tasks; i++)
         append_part_items(&b->valid, d->parts[i].batch.valid);
 }
@@ -124,7 +124,7 @@ static bool sort_items(batch *b)
     if (!spare)
         return false;
     const size_t unsorted = b->tree->root.count == 0 ? unsorted_limit(b->tree) : 0;
-    const bool differ = unsorted > 0 && ids_ascend(b);
+    const bool differ = unsorted > 0 && are_ids_ascending(b);
     b->repeated =
         morton_sort_tasks(b->tree, &b->tree->store.memory, b->valid.items, spare, b->valid.count, unsorted, differ);
     if (!b->spare)
@@ -158,7 +158,7 @@ octree_status prepare_batch(batch *b)
     b->store = &b->tree->store;
     if (!decide_remake(b))
         return OCTREE_NO_MEMORY;
-    create_division(b);
+    divide_work_of_batch(b);
     return b->remakes ? OCTREE_OK : collect_batch_points(b);
 }
 
@@ -167,15 +167,15 @@ static void find_cells_of_share(size_t number, void *context)
 {
     const batch *b = context;
     const unsigned tasks = count_tasks(b->tree, b->count);
-    const size_t end = share_start(b->count, tasks, number + 1);
-    for (size_t i = share_start(b->count, tasks, number); i < end; i += GRID_TOGETHER)
+    const size_t end = find_share_start(b->count, tasks, number + 1);
+    for (size_t i = find_share_start(b->count, tasks, number); i < end; i += GRID_TOGETHER)
         find_grid_cells(b, b->points + i, end - i < GRID_TOGETHER ? end - i : GRID_TOGETHER, b->cells + i,
                         b->statuses ? b->statuses + i : NULL);
 }
 
 octree_status collect_batch_points(batch *b)
 {
-    if (b->inserts && b->tree->root.count == 0 && ids_ascend(b) && !choose_grid(b, b->count))
+    if (b->inserts && b->tree->root.count == 0 && are_ids_ascending(b) && !choose_grid(b, b->count))
         return OCTREE_NO_MEMORY;
     if (b->grid > 0) {
         b->cells = arena_allocate(&b->store->memory, b->count * sizeof *b->cells);
@@ -203,7 +203,7 @@ void release_repetitions(batch *b)
 void release_batch(batch *b)
 {
     release_repetitions(b);
-    release_division(b);
+    release_work_division(b);
     release_items(b, b->lists, shared_list_count(b));
     arena_free(&b->tree->store.memory, b->cells, b->count * sizeof *b->cells);
 }
@@ -247,7 +247,7 @@ static bool drop_repeated_items(batch *b, morton_item *items, size_t count, size
         const uint32_t first = leaf_find(&distinct, point->position, point->id);
         if (first == LEAF_NONE) {
             items[distinct.count] = items[i];
-            leaf_append_in_room(&distinct, point);
+            leaf_append_unchecked(&distinct, point);
             continue;
         }
         const repetition r = {items[i].place, items[first].place};
@@ -387,8 +387,8 @@ static bool visit_leaves_by_tasks(batch *b, leaf_visitor *visitor)
     const bool ok = add_visit_jobs(b, &b->tree->root, 0, b->valid);
     if (ok) {
         d->visitor = visitor;
-        share_jobs(d);
-        run_parts(b, visit_leaves_of_part);
+        assign_jobs_to_tasks(d);
+        run_task_for_each_part(b, visit_leaves_of_part);
     }
     for (unsigned i = 0; ok && i < d->tasks; i++) {
         const batch *part = &d->parts[i].batch;

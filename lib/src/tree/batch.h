@@ -121,7 +121,7 @@ void release_batch(batch *b);
 
 /* Returns whether the ids of the batch are strictly ascending, as sequence numbers are. If so, no point occurs
  * twice. */
-bool ids_ascend(const batch *b);
+bool are_ids_ascending(const batch *b);
 
 /* Set *differ to whether all ids of the batch differ. If all differ, no change depends on another change, unless a leaf
  * is full. Returns false if memory runs out. */

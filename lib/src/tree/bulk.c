@@ -240,7 +240,7 @@ static octree_status check_arguments(const batch *b, octree_change_kind kind)
         return OCTREE_NULL_ARGUMENT;
     if (b->count >= UINT32_MAX)
         return OCTREE_TOO_MANY;
-    return is_visited(b->tree) ? OCTREE_BUSY : OCTREE_OK;
+    return is_running_callback(b->tree) ? OCTREE_BUSY : OCTREE_OK;
 }
 
 /* Returns whether a position of the caller is that of a stored point, in the memory of its leaf, as in the array
@@ -274,15 +274,15 @@ octree_status insert_in_morton_order(batch *b)
 
 static octree_status change_by_kind(batch *b, octree_change_kind kind)
 {
-    const bool few = kind != OCTREE_MOVED && are_few(b->tree, b->count);
+    const bool few = kind != OCTREE_MOVED && is_small_batch(b->tree, b->count);
     bool differ = false;
     switch (kind) {
     case OCTREE_INSERTED:
-        return few ? insert_few(b) : insert_in_morton_order(b);
+        return few ? insert_small_batch(b) : insert_in_morton_order(b);
     case OCTREE_REMOVED:
         if (few && !check_ids_differ(b, &differ))
             return OCTREE_NO_MEMORY;
-        return differ ? remove_few(b) : change_in_morton_order(b, remove_valid_points);
+        return differ ? remove_small_batch(b) : change_in_morton_order(b, remove_valid_points);
     default:
         return change_in_morton_order(b, move_valid_points);
     }
@@ -292,15 +292,15 @@ static octree_status change_by_kind(batch *b, octree_change_kind kind)
 
 /* Returns whether a coordinate of a position is zero. Only zeros, +0 and -0, are equal but have different bits. A
  * position without zeros has the same bits as the equal stored position. */
-static bool has_zero(const double position[3])
+static bool has_zero_coordinate(const double position[3])
 {
     return position[0] == 0 || position[1] == 0 || position[2] == 0;
 }
 
-static bool have_zeros(const octree_point *points, size_t count)
+static bool any_has_zero_coordinate(const octree_point *points, size_t count)
 {
     size_t i = 0;
-    while (i < count && !has_zero(points[i].position))
+    while (i < count && !has_zero_coordinate(points[i].position))
         i++;
     return i < count;
 }
@@ -310,7 +310,7 @@ static void copy_stored_signs(const octree *tree, octree_point *points, size_t c
 {
     found_point found;
     for (size_t i = 0; i < count; i++)
-        if (has_zero(points[i].position) && check_in_world(tree, points[i].position) == OCTREE_OK &&
+        if (has_zero_coordinate(points[i].position) && check_in_world(tree, points[i].position) == OCTREE_OK &&
             find_point(tree, points[i].position, points[i].id, &found))
             points[i] = stored_point(&found);
 }
@@ -329,12 +329,13 @@ static void log_move(const batch *b, size_t i, moved_points *moved)
 {
     octree_point old = b->points[i], made = {.id = old.id};
     memcpy(made.position, b->to[i], sizeof made.position);
-    const uint32_t index = has_zero(old.position) ? leaf_find(&moved->points, old.position, old.id) : LEAF_NONE;
+    const uint32_t index =
+        has_zero_coordinate(old.position) ? leaf_find(&moved->points, old.position, old.id) : LEAF_NONE;
     if (index != LEAF_NONE) {
         old = leaf_points(&moved->points)[index];
         leaf_remove(moved->store, &moved->points, index);
     }
-    if (has_zero(made.position))
+    if (has_zero_coordinate(made.position))
         moved->complete = leaf_append(moved->store, &moved->points, &made);
     change_log_append(b->tree, OCTREE_MOVED, &old, made.position);
 }
@@ -375,7 +376,7 @@ static octree_status change_many(batch b, octree_change_kind kind, size_t *done)
     const bool in_tree = b.count > 0 && lies_in_tree_memory(b.tree, b.points->position);
     const bool to_in_tree = b.count > 0 && b.to && lies_in_tree_memory(b.tree, b.to[0]);
     bool logs = change_log_is_on(log) && b.count <= change_log_limit(b.tree);
-    const bool signs = logs && kind != OCTREE_INSERTED && have_zeros(b.points, b.count);
+    const bool signs = logs && kind != OCTREE_INSERTED && any_has_zero_coordinate(b.points, b.count);
     const size_t copies_size = in_tree || signs ? b.count * sizeof *b.points : 0;
     const size_t to_size = to_in_tree ? b.count * sizeof *b.to : 0;
     const size_t statuses_size = logs && !b.statuses ? b.count * sizeof *b.statuses : 0;

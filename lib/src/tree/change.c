@@ -102,8 +102,8 @@ static bool make_split_node(octree *tree, node *made, const node *full, const oc
         return false;
     }
     for (uint32_t i = 0; i < full->count; i++)
-        leaf_append_in_room(child_at(made, find_octant(s, leaf_points(full)[i].position)), &leaf_points(full)[i]);
-    leaf_append_in_room(child_at(made, find_octant(s, point->position)), point);
+        leaf_append_unchecked(child_at(made, find_octant(s, leaf_points(full)[i].position)), &leaf_points(full)[i]);
+    leaf_append_unchecked(child_at(made, find_octant(s, point->position)), point);
     return true;
 }
 
@@ -114,7 +114,7 @@ static bool make_grown_leaf(octree *tree, node *made, const node *full, const oc
     if (!leaf_create(&tree->store, made, full->count + 1))
         return false;
     leaf_append_all(made, full, NULL);
-    leaf_append_in_room(made, point);
+    leaf_append_unchecked(made, point);
     return true;
 }
 

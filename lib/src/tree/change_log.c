@@ -97,9 +97,9 @@ bool octree_changes_since(const octree *tree, size_t log_name, octree_cursor *cu
     *cursor = (octree_cursor){name, log->next};
     if (since.log != name || since.position < log->first || since.position > log->next)
         return false;
-    const unsigned begun = begin_visit(tree);
+    const unsigned begun = begin_callbacks(tree);
     for (uint64_t i = since.position; i < log->next; i++)
         visit(&log->items[i & (log->room - 1)], context);
-    end_visit(begun);
+    end_callbacks(begun);
     return true;
 }

@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-void create_division(batch *b)
+void divide_work_of_batch(batch *b)
 {
     const unsigned tasks = count_tasks(b->tree, b->count);
     b->division = tasks > 1 ? arena_allocate(&b->store->memory, sizeof *b->division) : NULL;
@@ -15,7 +15,7 @@ void create_division(batch *b)
     b->division->grain = b->count / tasks / 2 + 1;
 }
 
-void release_division(batch *b)
+void release_work_division(batch *b)
 {
     arena_free(&b->store->memory, b->division, sizeof *b->division);
     b->division = NULL;
@@ -33,8 +33,8 @@ void create_part_pools(batch *b, size_t expected)
         store *own = &d->parts[i].store;
         d->parts[i].batch = (batch){.store = own};
         own->memory = (arena){.allocator = whole->memory.allocator, .shared = &whole->memory};
-        pool_borrow(&own->nodes, &own->memory, &whole->nodes, expected / d->tasks / 16);
-        pool_borrow(&own->points, &own->memory, &whole->points, expected / d->tasks);
+        pool_init_borrowing(&own->nodes, &own->memory, &whole->nodes, expected / d->tasks / 16);
+        pool_init_borrowing(&own->points, &own->memory, &whole->points, expected / d->tasks);
     }
 }
 
@@ -47,7 +47,7 @@ void join_part_pools(batch *b)
     }
 }
 
-void run_parts(batch *b, octree_task *task)
+void run_task_for_each_part(batch *b, octree_task *task)
 {
     division *d = b->division;
     for (unsigned i = 0; i < d->tasks; i++) {
@@ -70,7 +70,7 @@ bool add_job(batch *b, const node *old, cell c, span leaving, span arriving)
     return list_push(&b->store->memory, &b->division->work.jobs, &j, sizeof j);
 }
 
-void share_jobs(division *d)
+void assign_jobs_to_tasks(division *d)
 {
     const job *jobs = d->work.jobs.items;
     const size_t count = d->work.jobs.count;
@@ -79,7 +79,7 @@ void share_jobs(division *d)
         total += jobs[i].leaving.count + jobs[i].arriving.count;
     for (unsigned task = 0; task < d->tasks; task++) {
         d->starts[task] = next;
-        for (; next < count && sum < share_start(total, d->tasks, task + 1); next++)
+        for (; next < count && sum < find_share_start(total, d->tasks, task + 1); next++)
             sum += jobs[next].leaving.count + jobs[next].arriving.count;
     }
     d->starts[d->tasks] = count;

@@ -61,8 +61,8 @@ typedef struct division {
 } division;
 
 /* Divide a batch into parts if the batch is large, if the tree has an executor, and if there is enough memory. */
-void create_division(batch *b);
-void release_division(batch *b);
+void divide_work_of_batch(batch *b);
+void release_work_division(batch *b);
 
 /* Create the memory pools of the parts. All parts together expect to store `expected` additional points.
  * join_part_pools() later joins these pools to the tree's pools. */
@@ -71,14 +71,14 @@ void join_part_pools(batch *b);
 
 /* Run a task for each part. The task's context is the division. Each part becomes a copy of the batch, but keeps its
  * own plan. */
-void run_parts(batch *b, octree_task *task);
+void run_task_for_each_part(batch *b, octree_task *task);
 
 /* Add a job. Returns false if memory runs out. */
 bool add_job(batch *b, const node *old, cell c, span leaving, span arriving);
 
 /* Assign the jobs to the tasks: set `starts`, so that each task gets adjacent jobs with about the same number of
  * items. */
-void share_jobs(division *d);
+void assign_jobs_to_tasks(division *d);
 
 /* is_planned_by_job() returns whether a job has planned the successor of a node with this many items. If so,
  * take_job_result() stores the successor in *made. Results must be taken in the order of the jobs. */

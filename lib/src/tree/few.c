@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* few.c - batches of few points in a large tree: insert_few() and remove_few().
+/* few.c - batches of few points in a large tree: insert_small_batch() and remove_small_batch().
  *
  * Problem: of a thousand changes in a tree of a million points, hardly two change the same leaf. Sorting the changes
  * (batch.c) gains nothing. Making the changes one by one waits for memory at every level of every descent.
@@ -11,7 +11,7 @@
  * only then changes anything.
  *
  * Cost: the cost of single changes without most of the waiting for memory. This is faster than sorting for batches of
- * up to a twentieth of the stored points. are_few() contains the measured limits.
+ * up to a twentieth of the stored points. is_small_batch() contains the measured limits.
  */
 #include "few.h"
 #include "tasks.h"
@@ -25,7 +25,7 @@ enum {
     FEW_OF_CACHED = 8,
 };
 
-bool are_few(const octree *tree, size_t count)
+bool is_small_batch(const octree *tree, size_t count)
 {
     const uint32_t stored = tree->root.count;
     return count > 0 && count_tasks(tree, count) == 1 && count < stored / (stored < CACHED ? FEW_OF_CACHED : FEW) &&
@@ -90,7 +90,7 @@ typedef struct insertions {
 } insertions;
 
 /* Insert a point into the leaf at the end of its path. No node moves in memory, so that the paths of other points stay
- * valid. The number of points cannot overflow, because are_few() has checked it. */
+ * valid. The number of points cannot overflow, because is_small_batch() has checked it. */
 static octree_status insert_at_path_end(octree *tree, const octree_point *point, const descents *w, size_t i)
 {
     node *leaf = w->nodes[w->depths[i]][i];
@@ -142,7 +142,7 @@ static void undo_insertions(const batch *b, const octree_status *statuses)
         }
 }
 
-octree_status insert_few(batch *b)
+octree_status insert_small_batch(batch *b)
 {
     arena *memory = &b->tree->store.memory;
     const size_t count = b->count, points_size = count * sizeof *b->points, size = 2 * count * sizeof *b->statuses;
@@ -297,7 +297,7 @@ static void carry_out_removals(removals *r)
     }
 }
 
-octree_status remove_few(batch *b)
+octree_status remove_small_batch(batch *b)
 {
     arena *memory = &b->tree->store.memory;
     removals r = {.batch = b, .found = arena_allocate(memory, b->count * sizeof *r.found)};

@@ -6,14 +6,14 @@
 #include "batch.h"
 
 /* Returns whether `count` points are so few that the functions below are faster than sorting. */
-bool are_few(const octree *tree, size_t count);
+bool is_small_batch(const octree *tree, size_t count);
 
 /* Insert points. A point whose leaf has room is inserted at once. The other points are inserted as one batch at the
  * end. */
-octree_status insert_few(batch *b);
+octree_status insert_small_batch(batch *b);
 
 /* Remove points. All ids of the batch must differ. */
-octree_status remove_few(batch *b);
+octree_status remove_small_batch(batch *b);
 
 /* Insert any number of points in Morton order (bulk.c). */
 octree_status insert_in_morton_order(batch *b);

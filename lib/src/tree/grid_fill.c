@@ -159,8 +159,8 @@ static void count_points_of_share(size_t number, void *context)
     const filling *f = context;
     const uint32_t *cells = f->whole->cells;
     uint32_t *counts = f->shares + number * cell_count_at(f->depth);
-    const size_t end = share_start(f->count, f->tasks, number + 1);
-    for (size_t i = share_start(f->count, f->tasks, number); i < end; i++)
+    const size_t end = find_share_start(f->count, f->tasks, number + 1);
+    for (size_t i = find_share_start(f->count, f->tasks, number); i < end; i++)
         if (cells[i] != GRID_NONE)
             counts[cells[i]]++;
 }
@@ -213,7 +213,7 @@ static bool make_grid_children(filling *f, cell c, size_t index, node *made)
     const uint32_t *parts = f->counts[c.depth + 1] + 8 * index;
     unsigned octants = 0;
     for (unsigned octant = 0; octant < 8; octant++)
-        octants |= bits_if(parts[octant] > 0, 1u << octant);
+        octants |= mask_if(parts[octant] > 0, 1u << octant);
     const unsigned children = bits_count8(octants);
     node *group = pool_allocate(&f->whole->store->nodes, children);
     *made = (node){.below = group, .count = f->counts[c.depth][index], .octants = (uint8_t)octants};
@@ -267,7 +267,8 @@ static void write_points_of_share(size_t number, void *context)
     const filling *f = context;
     const batch *b = f->whole;
     octree_point **next = f->next + number * cell_count_at(f->depth);
-    const size_t first = share_start(f->count, f->tasks, number), end = share_start(f->count, f->tasks, number + 1);
+    const size_t first = find_share_start(f->count, f->tasks, number),
+                 end = find_share_start(f->count, f->tasks, number + 1);
     /* The task's share may begin with points of the caller's array, up to `middle`. Copies of stored points follow. */
     const size_t middle = end < b->count ? end : first < b->count ? b->count : first;
     if (first < middle)

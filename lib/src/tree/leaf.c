@@ -27,7 +27,7 @@ static uint32_t *hash_slots_of(const octree_point *points)
     return (uint32_t *)(uintptr_t)(points + hashed_header_of(points)->room);
 }
 
-static uint32_t home_slot(const octree_point *points, const double position[3], uint64_t id)
+static uint32_t find_home_slot(const octree_point *points, const double position[3], uint64_t id)
 {
     uint64_t digest = octree_digest_word(OCTREE_DIGEST_START, id);
     for (int i = 0; i < 3; i++)
@@ -61,11 +61,11 @@ static void release_hashed_block(arena *memory, octree_point *points)
 
 /* Returns the slot of a pair (position, id). If the pair is missing, returns the empty slot at which the search
  * ends. */
-static uint32_t find_slot(const octree_point *points, const double position[3], uint64_t id)
+static uint32_t find_hash_slot(const octree_point *points, const double position[3], uint64_t id)
 {
     const uint32_t *slots = hash_slots_of(points);
     const uint32_t mask = hashed_header_of(points)->mask;
-    uint32_t slot = home_slot(points, position, id);
+    uint32_t slot = find_home_slot(points, position, id);
     for (; slots[slot]; slot = (slot + 1) & mask) {
         const octree_point *point = &points[slots[slot] - 1];
         if (point->id == id && same_position(point->position, position))
@@ -77,7 +77,7 @@ static uint32_t find_slot(const octree_point *points, const double position[3], 
 uint32_t leaf_find_hashed(const node *leaf, const double position[3], uint64_t id)
 {
     const octree_point *points = leaf_points(leaf);
-    return hash_slots_of(points)[find_slot(points, position, id)] - 1;
+    return hash_slots_of(points)[find_hash_slot(points, position, id)] - 1;
 }
 
 /* Empty a slot of the hash table and close the gap. Each later entry moves into the gap, unless the gap lies before the
@@ -88,7 +88,7 @@ static void clear_slot(octree_point *points, uint32_t gap)
     const uint32_t mask = hashed_header_of(points)->mask;
     for (uint32_t slot = (gap + 1) & mask; slots[slot]; slot = (slot + 1) & mask) {
         const octree_point *point = &points[slots[slot] - 1];
-        const uint32_t home = home_slot(points, point->position, point->id);
+        const uint32_t home = find_home_slot(points, point->position, point->id);
         if (((slot - home) & mask) >= ((slot - gap) & mask)) {
             slots[gap] = slots[slot];
             gap = slot;
@@ -99,11 +99,11 @@ static void clear_slot(octree_point *points, uint32_t gap)
 
 static void remove_from_hashed(octree_point *points, uint32_t count, uint32_t index)
 {
-    clear_slot(points, find_slot(points, points[index].position, points[index].id));
+    clear_slot(points, find_hash_slot(points, points[index].position, points[index].id));
     const uint32_t last = count - 1;
     if (index == last)
         return;
-    const uint32_t slot = find_slot(points, points[last].position, points[last].id);
+    const uint32_t slot = find_hash_slot(points, points[last].position, points[last].id);
     points[index] = points[last];
     hash_slots_of(points)[slot] = index + 1;
 }
@@ -148,7 +148,7 @@ void leaf_release(store *s, const node *leaf)
         pool_free(&s->points, leaf->below, leaf->room);
 }
 
-static uint32_t current_room(const node *leaf)
+static uint32_t current_block_room(const node *leaf)
 {
     return is_hashed(leaf) ? hashed_header_of(leaf->below)->room : leaf->room;
 }
@@ -162,14 +162,14 @@ static void append_leaf_points(node *leaf, const node *from, const octree_point 
     }
     for (uint32_t i = 0; i < from->count; i++)
         if (&leaf_points(from)[i] != except)
-            leaf_append_in_room(leaf, &leaf_points(from)[i]);
+            leaf_append_unchecked(leaf, &leaf_points(from)[i]);
 }
 
 void leaf_append_hashed(node *leaf, const octree_point *point)
 {
     octree_point *points = leaf_points(leaf);
     points[leaf->count] = *point;
-    hash_slots_of(points)[find_slot(points, point->position, point->id)] = ++leaf->count;
+    hash_slots_of(points)[find_hash_slot(points, point->position, point->id)] = ++leaf->count;
 }
 
 /* Move the points of a leaf into a new block with room for `count` points. Returns false if memory runs out. */
@@ -186,14 +186,14 @@ static bool change_leaf_room(store *s, node *leaf, uint32_t count)
 
 bool leaf_append(store *s, node *leaf, const octree_point *point)
 {
-    if (leaf->count == current_room(leaf)) {
+    if (leaf->count == current_block_room(leaf)) {
         /* A hashed leaf doubles its room, so that the cost of copying is O(1) per insertion, amortized. */
         /* unreachable: a test would need 2^31 points in one leaf, 64 GiB */
         const uint32_t doubled = leaf->count > UINT32_MAX / 2 ? UINT32_MAX : 2 * leaf->count;
         if (!change_leaf_room(s, leaf, leaf->count < POOL_MAX_UNITS ? leaf->count + 1 : doubled))
             return false;
     }
-    leaf_append_in_room(leaf, point);
+    leaf_append_unchecked(leaf, point);
     return true;
 }
 

@@ -122,7 +122,7 @@ bool leaf_append(store *s, node *leaf, const octree_point *point);
 
 /* Append a point to a leaf that has room. The leaf must not hold the point yet. Cannot fail. */
 void leaf_append_hashed(node *leaf, const octree_point *point);
-static inline void leaf_append_in_room(node *leaf, const octree_point *point)
+static inline void leaf_append_unchecked(node *leaf, const octree_point *point)
 {
     if (leaf->room == LEAF_HASHED)
         leaf_append_hashed(leaf, point);

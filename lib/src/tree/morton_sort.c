@@ -170,7 +170,8 @@ static void count_digits(size_t number, void *context)
     const pass *p = context;
     uint32_t *counts = p->counts[number];
     memset(counts, 0, sizeof p->counts[number]);
-    for (size_t i = share_start(p->count, p->tasks, number); i < share_start(p->count, p->tasks, number + 1); i++)
+    for (size_t i = find_share_start(p->count, p->tasks, number); i < find_share_start(p->count, p->tasks, number + 1);
+         i++)
         counts[digit_of(p, &p->from[i])]++;
 }
 
@@ -178,7 +179,8 @@ static void scatter_items_of_share(size_t number, void *context)
 {
     const pass *p = context;
     uint32_t *next = p->counts[number];
-    for (size_t i = share_start(p->count, p->tasks, number); i < share_start(p->count, p->tasks, number + 1); i++)
+    for (size_t i = find_share_start(p->count, p->tasks, number); i < find_share_start(p->count, p->tasks, number + 1);
+         i++)
         p->to[next[digit_of(p, &p->from[i])]++] = p->from[i];
 }
 
@@ -221,7 +223,7 @@ static void assign_cells_to_tasks(pass *p)
     unsigned digit = 0;
     for (unsigned task = 0; task < p->tasks; task++) {
         p->cells[task] = digit;
-        while (digit < DIGITS && p->ends[digit + 1] <= share_start(p->count, p->tasks, task + 1))
+        while (digit < DIGITS && p->ends[digit + 1] <= find_share_start(p->count, p->tasks, task + 1))
             digit++;
     }
     p->cells[p->tasks] = DIGITS;

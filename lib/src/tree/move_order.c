@@ -57,7 +57,7 @@ static uint32_t find_or_add(node *table, const octree_point *point)
     const uint32_t index = leaf_find(table, point->position, point->id);
     if (index != LEAF_NONE)
         return index;
-    leaf_append_in_room(table, point);
+    leaf_append_unchecked(table, point);
     return table->count - 1;
 }
 
@@ -194,8 +194,8 @@ static bool can_overfill_leaf(const batch *b, const node *leaf, cell c, span arr
     const size_t capacity = b->tree->def.leaf_capacity;
     const uint64_t first = morton_interleave(c.low);
     const uint64_t end = first + (UINT64_C(1) << 3 * (OCTREE_MAX_DEPTH - c.depth));
-    const size_t start = find_first_word(b->valid.items, sizeof *b->valid.items, b->valid.count, first);
-    const size_t moved = find_first_word(b->valid.items, sizeof *b->valid.items, b->valid.count, end) - start;
+    const size_t start = find_item_by_first_word(b->valid.items, sizeof *b->valid.items, b->valid.count, first);
+    const size_t moved = find_item_by_first_word(b->valid.items, sizeof *b->valid.items, b->valid.count, end) - start;
     const size_t sum = leaf->count + moved + arriving.count, room = 2 * sum * sizeof(morton_item);
     arena *memory = &b->store->memory;
     /* unreachable: size_t has 64 bits, and leaves and batches have at most UINT32_MAX points */

@@ -93,8 +93,8 @@ static bool run_jobs(batch *b)
 {
     job_list *work = &b->division->work;
     const job *jobs = work->jobs.items;
-    share_jobs(b->division);
-    run_parts(b, plan_jobs_of_part);
+    assign_jobs_to_tasks(b->division);
+    run_task_for_each_part(b, plan_jobs_of_part);
     work->ready = true;
     for (size_t i = 0; i < work->jobs.count; i++)
         work->ready = work->ready && jobs[i].ok;

@@ -28,7 +28,7 @@ static void add_exactly(double a, double b, double sum[2])
 
 /* Returns a double with only the 31 most significant bits of `value`. The product of the result and a key, which has 22
  * bits, is exact. */
-static double high_31_bits(double value)
+static double keep_high_31_bits(double value)
 {
     uint64_t bits;
     memcpy(&bits, &value, sizeof bits);
@@ -39,7 +39,7 @@ static double high_31_bits(double value)
 
 /* Set the range of fractions of a guessed key for which the key is certain. Rounding to fixed point adds one more
  * error. In subnormal worlds no guess is certain, because the guess is computed from a different product. */
-static void set_certain_range(axis *a)
+static void set_range_of_certain_keys(axis *a)
 {
     static const double first = (double)PLANE_GRID;
     const double error = a->guess_error * (double)(UINT64_C(1) << PLANE_FRACTION) + 2;
@@ -62,7 +62,7 @@ axis axis_make(double min, double max)
     double half[2];
     add_exactly(high, low, a.center);
     add_exactly(high, -low, half);
-    a.half[0] = high_31_bits(half[0]);
+    a.half[0] = keep_high_31_bits(half[0]);
     a.half[1] = half[0] - a.half[0];
     a.half[2] = half[1];
     a.guess_error = 0x1p-29 + 2 * (fmax(fabs(min), fabs(max)) * 0x1p-52 + 0x1p-1074) * a.keys_per_unit;
@@ -70,7 +70,7 @@ axis axis_make(double min, double max)
         a.keys_per_unit = (double)PLANE_GRID / subnormal_count(max - min);
         a.guess_error = 0x1p-29 + 4 * a.keys_per_unit;
     }
-    set_certain_range(&a);
+    set_range_of_certain_keys(&a);
     a.plain = a.unit == 1 && a.center[1] == 0 && a.half[1] == 0 && a.half[2] == 0;
     return a;
 }
@@ -80,7 +80,7 @@ double plane_at_precisely(const axis *a, double t)
     double sum[2];
     add_exactly(a->center[0], a->half[0] * t, sum);
     const double rest = sum[1] + (a->center[1] + (a->half[1] * t + a->half[2] * t));
-    return a->subnormal ? subnormal_of(sum[0] + rest) : (sum[0] + rest) * a->unit;
+    return a->subnormal ? subnormal_from_count(sum[0] + rest) : (sum[0] + rest) * a->unit;
 }
 
 /* Find the largest key whose plane is at most x, by binary search. */
@@ -116,26 +116,26 @@ uint32_t plane_key_near(const axis *a, double x)
 #ifdef OCTREE_SSE2
 
 /* One step of bits_spread() for two words at once. */
-static inline __m128i spread_step(__m128i x, int shift, uint64_t mask)
+static inline __m128i spread_bits_step(__m128i x, int shift, uint64_t mask)
 {
     return _mm_and_si128(_mm_or_si128(x, _mm_slli_epi64(x, shift)), _mm_set1_epi64x((long long)mask));
 }
 
-static inline __m128i spread_two(__m128i x)
+static inline __m128i spread_bits_of_two_keys(__m128i x)
 {
-    x = spread_step(x, 32, UINT64_C(0x001f00000000ffff));
-    x = spread_step(x, 16, UINT64_C(0x001f0000ff0000ff));
-    x = spread_step(x, 8, UINT64_C(0x100f00f00f00f00f));
-    x = spread_step(x, 4, UINT64_C(0x10c30c30c30c30c3));
-    return spread_step(x, 2, UINT64_C(0x1249249249249249));
+    x = spread_bits_step(x, 32, UINT64_C(0x001f00000000ffff));
+    x = spread_bits_step(x, 16, UINT64_C(0x001f0000ff0000ff));
+    x = spread_bits_step(x, 8, UINT64_C(0x100f00f00f00f00f));
+    x = spread_bits_step(x, 4, UINT64_C(0x10c30c30c30c30c3));
+    return spread_bits_step(x, 2, UINT64_C(0x1249249249249249));
 }
 
 /* Insert two zero bits before each bit of two numbers, each of at most 8 bits. */
-static inline __m128i spread_two_bytes(__m128i x)
+static inline __m128i spread_bits_of_two_bytes(__m128i x)
 {
-    x = spread_step(x, 8, UINT64_C(0x100f00f00f00f00f));
-    x = spread_step(x, 4, UINT64_C(0x10c30c30c30c30c3));
-    return spread_step(x, 2, UINT64_C(0x1249249249249249));
+    x = spread_bits_step(x, 8, UINT64_C(0x100f00f00f00f00f));
+    x = spread_bits_step(x, 4, UINT64_C(0x10c30c30c30c30c3));
+    return spread_bits_step(x, 2, UINT64_C(0x1249249249249249));
 }
 
 /* The constants of an axis. Each constant is stored twice, so that SSE2 processes two positions at once. */
@@ -144,7 +144,7 @@ typedef struct axis_pair {
     __m128i sure_from, sure_last;
 } axis_pair;
 
-static inline void duplicate_axes(const axis axes[3], axis_pair pairs[3])
+static inline void make_axis_pairs(const axis axes[3], axis_pair pairs[3])
 {
     for (int i = 0; i < 3; i++)
         pairs[i] = (axis_pair){_mm_set1_pd(axes[i].min), _mm_set1_pd(axes[i].keys_per_unit),
@@ -152,9 +152,9 @@ static inline void duplicate_axes(const axis axes[3], axis_pair pairs[3])
                                _mm_set1_epi64x((long long)(axes[i].sure_span - 1))};
 }
 
-/* Compute plane_fixed() of two coordinates at once. In *unsure, the highest bit of each 64-bit half is set as
- * plane_unsure() sets it. */
-static inline __m128i fixed_of_two(const axis_pair *a, double p, double q, __m128i *unsure)
+/* Compute plane_fixed_point_key() of two coordinates at once. In *unsure, the highest bit of each 64-bit half is set as
+ * plane_mark_uncertain() sets it. */
+static inline __m128i compute_fixed_keys_of_two(const axis_pair *a, double p, double q, __m128i *unsure)
 {
     const __m128i fraction = _mm_set1_epi64x((long long)PLANE_FRACTION_MASK);
     const __m128d above = _mm_sub_pd(_mm_set_pd(q, p), a->min);
@@ -167,46 +167,47 @@ static inline __m128i fixed_of_two(const axis_pair *a, double p, double q, __m12
 }
 
 /* For each 64-bit half of a vector: set all bits if the half's highest bit is set, else clear all bits. */
-static inline __m128i all_ones_if_unsure(__m128i unsure)
+static inline __m128i fill_lanes_if_uncertain(__m128i unsure)
 {
     return _mm_sub_epi64(_mm_setzero_si128(), _mm_srli_epi64(unsure, 63));
 }
 
 /* Compute the Morton codes of two positions. A code is MORTON_UNSURE if a guessed key of the position is not
  * certain. */
-static inline void codes_of_two(const axis_pair axes[3], const double *p, const double *q, uint64_t codes[2])
+static inline void compute_codes_of_two_points(const axis_pair axes[3], const double *p, const double *q,
+                                               uint64_t codes[2])
 {
     __m128i sums = _mm_setzero_si128(), unsure = sums;
     for (int i = 0; i < 3; i++) {
-        const __m128i fixed = fixed_of_two(&axes[i], p[i], q[i], &unsure);
-        sums = _mm_or_si128(_mm_slli_epi64(sums, 1), spread_two(_mm_srli_epi64(fixed, PLANE_FRACTION)));
+        const __m128i fixed = compute_fixed_keys_of_two(&axes[i], p[i], q[i], &unsure);
+        sums = _mm_or_si128(_mm_slli_epi64(sums, 1), spread_bits_of_two_keys(_mm_srli_epi64(fixed, PLANE_FRACTION)));
     }
-    _mm_storeu_si128((__m128i *)codes, _mm_or_si128(sums, all_ones_if_unsure(unsure)));
+    _mm_storeu_si128((__m128i *)codes, _mm_or_si128(sums, fill_lanes_if_uncertain(unsure)));
 }
 
 /* Compute the grid cells of two positions, from the most significant bits of each key. A cell is GRID_UNSURE if a
  * guessed key of the position is not certain. */
-static inline void cells_of_two(const axis_pair axes[3], unsigned depth, const double *p, const double *q,
-                                uint32_t cells[2])
+static inline void compute_cells_of_two_points(const axis_pair axes[3], unsigned depth, const double *p,
+                                               const double *q, uint32_t cells[2])
 {
     const __m128i shift = _mm_cvtsi32_si128((int)(PLANE_FIXED_BITS - depth));
     __m128i sums = _mm_setzero_si128(), unsure = sums;
     for (int i = 0; i < 3; i++) {
-        const __m128i fixed = fixed_of_two(&axes[i], p[i], q[i], &unsure);
-        sums = _mm_or_si128(_mm_slli_epi64(sums, 1), spread_two_bytes(_mm_srl_epi64(fixed, shift)));
+        const __m128i fixed = compute_fixed_keys_of_two(&axes[i], p[i], q[i], &unsure);
+        sums = _mm_or_si128(_mm_slli_epi64(sums, 1), spread_bits_of_two_bytes(_mm_srl_epi64(fixed, shift)));
     }
-    const __m128i both = _mm_or_si128(sums, all_ones_if_unsure(unsure));
+    const __m128i both = _mm_or_si128(sums, fill_lanes_if_uncertain(unsure));
     _mm_storel_epi64((__m128i *)cells, _mm_shuffle_epi32(both, _MM_SHUFFLE(3, 3, 2, 0)));
 }
 
 #else
 
-static inline uint64_t code_if_sure(const axis axes[3], const double p[3])
+static inline uint64_t compute_code_if_certain(const axis axes[3], const double p[3])
 {
     uint64_t code = 0, unsure = 0;
     for (int i = 0; i < 3; i++) {
-        const uint64_t fixed = plane_fixed(&axes[i], p[i]);
-        unsure |= plane_unsure(axes[i].sure_span, fixed);
+        const uint64_t fixed = plane_fixed_point_key(&axes[i], p[i]);
+        unsure |= plane_mark_uncertain(axes[i].sure_span, fixed);
         code = code << 1 | bits_spread(fixed >> PLANE_FRACTION);
     }
     return code | (0 - (unsure >> 63));
@@ -214,21 +215,22 @@ static inline uint64_t code_if_sure(const axis axes[3], const double p[3])
 
 typedef axis axis_pair;
 
-static inline void duplicate_axes(const axis axes[3], axis_pair pairs[3])
+static inline void make_axis_pairs(const axis axes[3], axis_pair pairs[3])
 {
     memcpy(pairs, axes, 3 * sizeof *pairs);
 }
 
-static inline void codes_of_two(const axis axes[3], const double *p, const double *q, uint64_t codes[2])
+static inline void compute_codes_of_two_points(const axis axes[3], const double *p, const double *q, uint64_t codes[2])
 {
-    codes[0] = code_if_sure(axes, p);
-    codes[1] = code_if_sure(axes, q);
+    codes[0] = compute_code_if_certain(axes, p);
+    codes[1] = compute_code_if_certain(axes, q);
 }
 
-static inline void cells_of_two(const axis axes[3], unsigned depth, const double *p, const double *q, uint32_t cells[2])
+static inline void compute_cells_of_two_points(const axis axes[3], unsigned depth, const double *p, const double *q,
+                                               uint32_t cells[2])
 {
     const unsigned shift = 3 * (OCTREE_MAX_DEPTH - depth);
-    const uint64_t codes[2] = {code_if_sure(axes, p), code_if_sure(axes, q)};
+    const uint64_t codes[2] = {compute_code_if_certain(axes, p), compute_code_if_certain(axes, q)};
     for (int i = 0; i < 2; i++)
         cells[i] = codes[i] == MORTON_UNSURE ? GRID_UNSURE : (uint32_t)(codes[i] >> shift);
 }
@@ -239,11 +241,11 @@ void compute_morton_codes(const axis axes[3], const double *positions, size_t st
 {
     axis_pair pairs[3];
     uint64_t last[2];
-    duplicate_axes(axes, pairs);
+    make_axis_pairs(axes, pairs);
     for (; count >= 2; count -= 2, codes += 2, positions += 2 * stride)
-        codes_of_two(pairs, positions, positions + stride, codes);
+        compute_codes_of_two_points(pairs, positions, positions + stride, codes);
     if (count > 0) {
-        codes_of_two(pairs, positions, positions, last);
+        compute_codes_of_two_points(pairs, positions, positions, last);
         codes[0] = last[0];
     }
 }
@@ -253,11 +255,11 @@ void compute_grid_cells(const axis axes[3], unsigned depth, const double *positi
 {
     axis_pair pairs[3];
     uint32_t last[2];
-    duplicate_axes(axes, pairs);
+    make_axis_pairs(axes, pairs);
     for (; count >= 2; count -= 2, cells += 2, positions += 2 * stride)
-        cells_of_two(pairs, depth, positions, positions + stride, cells);
+        compute_cells_of_two_points(pairs, depth, positions, positions + stride, cells);
     if (count > 0) {
-        cells_of_two(pairs, depth, positions, positions, last);
+        compute_cells_of_two_points(pairs, depth, positions, positions, last);
         cells[0] = last[0];
     }
 }

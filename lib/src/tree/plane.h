@@ -75,7 +75,7 @@ uint32_t plane_key_near(const axis *a, double x);
 #define PLANE_FIXED_BITS (OCTREE_MAX_DEPTH + PLANE_FRACTION)
 
 /* Returns the guessed key in fixed point, minus its possible error. */
-static inline uint64_t plane_fixed(const axis *a, double x)
+static inline uint64_t plane_fixed_point_key(const axis *a, double x)
 {
     const double guess = (x - a->min) * a->keys_per_unit + (double)PLANE_GRID;
     uint64_t bits;
@@ -85,7 +85,7 @@ static inline uint64_t plane_fixed(const axis *a, double x)
 
 /* The highest bit of the result is set if the guessed key is not certain. The bit is always set for a coordinate
  * outside the world. */
-static inline uint64_t plane_unsure(uint64_t span, uint64_t fixed)
+static inline uint64_t plane_mark_uncertain(uint64_t span, uint64_t fixed)
 {
     return (span - 1 - (fixed & PLANE_FRACTION_MASK)) | (0 - (fixed >> PLANE_FIXED_BITS));
 }
@@ -97,8 +97,8 @@ static inline uint64_t plane_unsure(uint64_t span, uint64_t fixed)
  * ideal position. */
 static inline uint32_t plane_key(const axis *a, double x)
 {
-    const uint64_t fixed = plane_fixed(a, x);
-    return plane_unsure(a->sure_span, fixed) >> 63 ? plane_key_near(a, x) : (uint32_t)(fixed >> PLANE_FRACTION);
+    const uint64_t fixed = plane_fixed_point_key(a, x);
+    return plane_mark_uncertain(a->sure_span, fixed) >> 63 ? plane_key_near(a, x) : (uint32_t)(fixed >> PLANE_FRACTION);
 }
 
 /* A cell: the number of its lowest grid plane on each axis, and its depth. */

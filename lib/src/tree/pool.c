@@ -137,12 +137,12 @@ void pool_free(pool *p, void *block, unsigned units)
     add_free_block(p, block, units);
 }
 
-static uint64_t *unit_bits_of(struct slab *slab)
+static uint64_t *bit_map_of_slab(struct slab *slab)
 {
     return (uint64_t *)(slab + 1);
 }
 
-static size_t bit_words_for(size_t units)
+static size_t count_bit_map_words(size_t units)
 {
     return (units + 63) / 64;
 }
@@ -213,16 +213,16 @@ static void mark_free_blocks(pool *p, struct slab **sorted)
         while (p->free_blocks[units - 1]) {
             const unsigned char *block = take_first_free_block(p, units);
             slab = find_slab(p, sorted, block, slab);
-            mark_units(unit_bits_of(slab), (size_t)(block - slab->first) / p->unit, units);
+            mark_units(bit_map_of_slab(slab), (size_t)(block - slab->first) / p->unit, units);
         }
 }
 
 /* Return the bits of 64 units from `unit` on. Bits beyond the last unit are 0. */
 static uint64_t read_marks(struct slab *slab, size_t unit)
 {
-    const uint64_t *bits = unit_bits_of(slab) + unit / 64;
+    const uint64_t *bits = bit_map_of_slab(slab) + unit / 64;
     const unsigned shift = unit % 64;
-    const bool more = shift > 0 && unit / 64 + 1 < bit_words_for(slab->units);
+    const bool more = shift > 0 && unit / 64 + 1 < count_bit_map_words(slab->units);
     return bits[0] >> shift | (more ? bits[1] << (64 - shift) : 0);
 }
 
@@ -243,7 +243,7 @@ static void join_free_blocks(pool *p)
 {
     struct slab **sorted = sort_slabs(p);
     for (struct slab *slab = p->slabs; slab; slab = slab->next)
-        memset(unit_bits_of(slab), 0, bit_words_for(slab->units) * sizeof(uint64_t));
+        memset(bit_map_of_slab(slab), 0, count_bit_map_words(slab->units) * sizeof(uint64_t));
     mark_free_blocks(p, sorted);
     for (struct slab *slab = p->slabs; slab; slab = slab->next)
         add_free_runs(p, slab);
@@ -265,7 +265,7 @@ static size_t next_slab_bytes(const pool *p)
 static bool add_slab(pool *p)
 {
     const size_t units = next_slab_bytes(p) / p->unit;
-    const size_t header = sizeof(struct slab) + bit_words_for(units) * sizeof(uint64_t);
+    const size_t header = sizeof(struct slab) + count_bit_map_words(units) * sizeof(uint64_t);
     const size_t size = header + CACHE_LINE + units * p->unit;
     struct slab *slab = arena_allocate(p->memory, size);
     if (!slab)
@@ -304,7 +304,7 @@ static bool is_worth_joining(const pool *p)
 }
 
 /* Take a free block from the pool that lends blocks. Returns null if that pool has no suitable block. */
-static void *borrow_block(pool *p, unsigned units)
+static void *take_block_of_lender(pool *p, unsigned units)
 {
     arena_lock(p->memory->shared);
     void *block = take_free_block(p->lender, units);
@@ -316,7 +316,7 @@ void *pool_allocate(pool *p, unsigned units)
 {
     void *block = take_free_block(p, units);
     if (!block && p->borrows) {
-        block = borrow_block(p, units);
+        block = take_block_of_lender(p, units);
     } else if (!block && !p->lender && p->fresh_units < units && is_worth_joining(p)) {
         join_free_blocks(p);
         block = take_free_block(p, units);
@@ -333,17 +333,17 @@ void *pool_allocate(pool *p, unsigned units)
 
 /* ---- Pools of tasks ----------------------------------------------------------------------------------------- */
 
-static bool is_much_free(const pool *p)
+static bool has_many_free_units(const pool *p)
 {
     return p->free_units + p->fresh_units > p->total_units / 8;
 }
 
-void pool_borrow(pool *p, arena *memory, pool *lender, size_t expected_units)
+void pool_init_borrowing(pool *p, arena *memory, pool *lender, size_t expected_units)
 {
     pool_init(p, memory, lender->unit);
     p->expected = expected_units;
     p->lender = lender;
-    p->borrows = is_much_free(lender);
+    p->borrows = has_many_free_units(lender);
 }
 
 /* Move the unused units of the newest slab to the free lists. Later allocations use the first of these units first. */
@@ -358,7 +358,7 @@ static void free_unused_units(pool *p)
 
 void pool_prepare_lending(pool *p)
 {
-    if (!is_much_free(p))
+    if (!has_many_free_units(p))
         return;
     free_unused_units(p);
     if (is_worth_joining(p))
@@ -393,7 +393,7 @@ void pool_join(pool *lender, pool *p)
     lender->available |= p->available;
     lender->free_units += p->free_units;
     lender->freed_units += p->freed_units;
-    pool_borrow(p, p->memory, lender, 0);
+    pool_init_borrowing(p, p->memory, lender, 0);
 }
 
 void *list_append(arena *memory, list *l, size_t item_size)
@@ -425,7 +425,7 @@ void list_sort(list *l, size_t item_size, int (*compare)(const void *a, const vo
         qsort(l->items, l->count, item_size, compare);
 }
 
-static uint64_t first_word(const void *item)
+static uint64_t read_first_word(const void *item)
 {
     uint64_t word;
     memcpy(&word, item, sizeof word);
@@ -434,15 +434,15 @@ static uint64_t first_word(const void *item)
 
 int compare_first_words(const void *a, const void *b)
 {
-    return (first_word(a) > first_word(b)) - (first_word(a) < first_word(b));
+    return (read_first_word(a) > read_first_word(b)) - (read_first_word(a) < read_first_word(b));
 }
 
-size_t find_first_word(const void *items, size_t item_size, size_t count, uint64_t word)
+size_t find_item_by_first_word(const void *items, size_t item_size, size_t count, uint64_t word)
 {
     size_t first = 0;
     while (first < count) {
         const size_t middle = first + (count - first) / 2;
-        if (first_word((const char *)items + middle * item_size) < word)
+        if (read_first_word((const char *)items + middle * item_size) < word)
             first = middle + 1;
         else
             count = middle;

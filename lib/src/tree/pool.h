@@ -78,7 +78,7 @@ void pool_free(pool *p, void *block, unsigned units);
  * Because of borrowing, the total memory depends slightly on the order of tasks. A fixed share of the free blocks for
  * each task would avoid this dependence, but would need more memory: if points always arrive in one region, the pool of
  * that region would grow with each batch while the shares of other regions stay unused. */
-void pool_borrow(pool *p, arena *memory, pool *lender, size_t expected_units);
+void pool_init_borrowing(pool *p, arena *memory, pool *lender, size_t expected_units);
 void pool_join(pool *lender, pool *p);
 
 /* Prepare a pool for lending blocks to the pools of tasks. If much of the pool is free, move all of its free units into
@@ -110,9 +110,9 @@ void list_release(arena *memory, list *l, size_t item_size);
 void list_sort(list *l, size_t item_size, int (*compare)(const void *a, const void *b));
 
 /* Functions for items that begin with a uint64_t. compare_first_words() compares two such items, for qsort().
- * find_first_word() searches `count` items in ascending order, and returns the index of the first item whose word is at
- * least `word`. */
+ * find_item_by_first_word() searches `count` items in ascending order, and returns the index of the first item whose
+ * word is at least `word`. */
 int compare_first_words(const void *a, const void *b);
-size_t find_first_word(const void *items, size_t item_size, size_t count, uint64_t word);
+size_t find_item_by_first_word(const void *items, size_t item_size, size_t count, uint64_t word);
 
 #endif

@@ -55,7 +55,7 @@ typedef struct remake {
 
 /* ---- The table of ids --------------------------------------------------------------------------------------- */
 
-bool ids_ascend(const batch *b)
+bool are_ids_ascending(const batch *b)
 {
     for (size_t i = 1; i < b->count; i++)
         if (b->points[i].id <= b->points[i - 1].id)
@@ -118,7 +118,7 @@ static bool set_id_bits(const batch *b, id_table *t, bool *differ)
 }
 
 /* Enter all ids into the hash table. Returns false if two ids are equal. */
-static bool enter_ids_by_hash(const batch *b, id_table *t)
+static bool add_ids_to_hash_table(const batch *b, id_table *t)
 {
     for (size_t i = 0; i < b->count; i++) {
         const size_t slot = find_id_slot(t, b->points, b->points[i].id);
@@ -152,7 +152,7 @@ static bool fill_id_table(const batch *b, id_table *t, size_t reach, bool *diffe
     if (!t->places)
         return false;
     memset(t->places, 0, t->slot_count * sizeof *t->places);
-    *differ = enter_ids_by_hash(b, t);
+    *differ = add_ids_to_hash_table(b, t);
     t->stored_count = t->slot_count;
     return true;
 }
@@ -160,7 +160,7 @@ static bool fill_id_table(const batch *b, id_table *t, size_t reach, bool *diffe
 bool check_ids_differ(const batch *b, bool *differ)
 {
     id_table t = {0};
-    *differ = ids_ascend(b);
+    *differ = are_ids_ascending(b);
     const bool ok = *differ || fill_id_table(b, &t, 64, differ);
     release_id_table(&b->tree->store.memory, &t);
     return ok;
@@ -188,7 +188,7 @@ static void find_staying_cells(const remake *r, size_t first, size_t count)
     find_grid_cells(r->whole, r->staying + first, count, r->cells + r->count + first, NULL);
 }
 
-static void separate_moving_in_leaf(const remake *r, const node *leaf, findings *f)
+static void separate_moving_points_in_leaf(const remake *r, const node *leaf, findings *f)
 {
     /* a local copy, so that the compiler knows that the stores below do not change the table */
     const id_table ids = r->ids;
@@ -204,26 +204,26 @@ static void separate_moving_in_leaf(const remake *r, const node *leaf, findings 
     f->looked_up += leaf->count;
 }
 
-static void separate_moving_below(const remake *r, const node *n, findings *f)
+static void separate_moving_points_below(const remake *r, const node *n, findings *f)
 {
     const unsigned children = bits_count8(n->octants);
     for (unsigned i = 0; i < children; i++) {
         if (i + 1 < children && !children_of(n)[i + 1].octants)
             leaf_prefetch(&children_of(n)[i + 1]);
-        separate_moving_below(r, &children_of(n)[i], f);
+        separate_moving_points_below(r, &children_of(n)[i], f);
     }
     if (children == 0)
-        separate_moving_in_leaf(r, n, f);
+        separate_moving_points_in_leaf(r, n, f);
 }
 
-static void separate_moving_of_share(size_t number, void *context)
+static void separate_moving_points_of_share(size_t number, void *context)
 {
     remake *r = context;
     const subtree *s = first_subtree(&r->stored, number), *end = first_subtree(&r->stored, number + 1);
     findings *f = &r->found[number];
     *f = (findings){.first = s < end ? s->before : 0};
     for (; s < end; s++)
-        separate_moving_below(r, s->node, f);
+        separate_moving_points_below(r, s->node, f);
     find_staying_cells(r, f->first, f->stay);
     for (size_t at = f->stay; at < f->looked_up; at++)
         r->cells[r->count + f->first + at] = GRID_NONE;
@@ -286,8 +286,8 @@ static void check_move_group(const remake *r, size_t first, size_t count, findin
 static void check_moves_of_share(size_t number, void *context)
 {
     remake *r = context;
-    const size_t end = share_start(r->count, r->move_tasks, number + 1);
-    for (size_t i = share_start(r->count, r->move_tasks, number); i < end; i += GRID_TOGETHER)
+    const size_t end = find_share_start(r->count, r->move_tasks, number + 1);
+    for (size_t i = find_share_start(r->count, r->move_tasks, number); i < end; i += GRID_TOGETHER)
         check_move_group(r, i, end - i < GRID_TOGETHER ? end - i : GRID_TOGETHER, &r->found[number]);
 }
 
@@ -358,7 +358,7 @@ static octree_status check_moves_and_build(remake *r, bool *settled)
     divide_tree(&r->stored, b->tree, NULL, NULL);
     r->move_tasks = count_tasks(b->tree, r->count);
     memset(r->found, 0, sizeof r->found);
-    run_tasks(b->tree, separate_moving_of_share, r->stored.tasks, r);
+    run_tasks(b->tree, separate_moving_points_of_share, r->stored.tasks, r);
     run_tasks(b->tree, check_moves_of_share, r->move_tasks, r);
     b->done = 0;
     for (unsigned i = 0; i < TASKS_AT_MOST; i++) {

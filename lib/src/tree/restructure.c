@@ -91,7 +91,7 @@ static bool make_leaf_of_items(batch *b, span items, node *made)
     }
     for (size_t i = 0; i < taken; i++) {
         const octree_point point = point_of_item(b, &items.items[i]);
-        leaf_append_in_room(made, &point);
+        leaf_append_unchecked(made, &point);
     }
     for (size_t i = taken; i < items.count; i++)
         set_item_status(b, &items.items[i], OCTREE_FULL);
@@ -100,23 +100,23 @@ static bool make_leaf_of_items(batch *b, span items, node *made)
 
 /* Append the points of one leaf to another leaf, except the leaving points. The list `leaving` is sorted by the points'
  * index in the leaf. */
-static void append_staying(node *made, const node *leaf, span leaving)
+static void append_staying_points(node *made, const node *leaf, span leaving)
 {
     for (uint32_t i = 0; i < leaf->count; i++) {
         if (leaving.count > 0 && leaving.items->index == i) {
             leaving.items++;
             leaving.count--;
         } else {
-            leaf_append_in_room(made, &leaf_points(leaf)[i]);
+            leaf_append_unchecked(made, &leaf_points(leaf)[i]);
         }
     }
 }
 
-static void append_arriving(batch *b, node *made, span arriving)
+static void append_arriving_points(batch *b, node *made, span arriving)
 {
     for (size_t i = 0; i < arriving.count; i++) {
         const octree_point point = arriving_point(b, &arriving.items[i]);
-        leaf_append_in_room(made, &point);
+        leaf_append_unchecked(made, &point);
     }
 }
 
@@ -124,8 +124,8 @@ static bool remake_leaf(batch *b, const node *old, span leaving, span arriving, 
 {
     if (!leaf_create(b->store, made, (uint32_t)(old->count - leaving.count + arriving.count)))
         return false;
-    append_staying(made, old, leaving);
-    append_arriving(b, made, arriving);
+    append_staying_points(made, old, leaving);
+    append_arriving_points(b, made, arriving);
     return true;
 }
 
@@ -239,7 +239,7 @@ static bool is_leaving(span leaving, uint32_t index)
 }
 
 /* Remove from `arriving` the items of points that the leaf already holds, unless these points leave the leaf. */
-static void drop_already_stored(batch *b, const node *leaf, span leaving, span *arriving)
+static void drop_stored_arrivals(batch *b, const node *leaf, span leaving, span *arriving)
 {
     size_t left = 0;
     for (size_t i = 0; i < arriving->count; i++) {
@@ -256,7 +256,7 @@ static void drop_already_stored(batch *b, const node *leaf, span leaving, span *
 }
 
 /* Set `overflow` if arriving points might meet a full leaf when they are moved one by one in some order. */
-static void note_overflow(batch *b, const node *old, cell c, span arriving)
+static void record_possible_overflow(batch *b, const node *old, cell c, span arriving)
 {
     b->overflow = b->overflow || (b->to && can_overflow(b, old, c, arriving));
 }
@@ -265,10 +265,10 @@ static bool change_leaf(batch *b, const node *old, cell c, span leaving, span ar
 {
     sort_by_index(leaving);
     if (b->may_be_stored && arriving.count > 0)
-        drop_already_stored(b, old, leaving, &arriving);
+        drop_stored_arrivals(b, old, leaving, &arriving);
     if (leaving.count + arriving.count == 0)
         return true;
-    note_overflow(b, old, c, arriving);
+    record_possible_overflow(b, old, c, arriving);
     const size_t count = old->count - leaving.count + arriving.count;
     if (!fits_leaf(b->tree, count))
         return divide_leaf(b, old, c, leaving, arriving, made);
@@ -278,30 +278,30 @@ static bool change_leaf(batch *b, const node *old, cell c, span leaving, span ar
 }
 
 /* Append to a leaf the points in and below a node that stay. */
-static void append_staying_below(const node *old, unsigned depth, span leaving, node *made)
+static void append_staying_points_below(const node *old, unsigned depth, span leaving, node *made)
 {
     if (!old->octants) {
         sort_by_index(leaving);
-        append_staying(made, old, leaving);
+        append_staying_points(made, old, leaving);
         return;
     }
     span shares[8];
     divide_items_by_octant(leaving, depth, shares);
     for (unsigned octant = 0; octant < 8; octant++)
         if (old->octants >> octant & 1)
-            append_staying_below(child_at(old, octant), depth + 1, shares[octant], made);
+            append_staying_points_below(child_at(old, octant), depth + 1, shares[octant], made);
 }
 
 /* Merge a node whose remaining points fit into one leaf. The new leaf is *made. Returns false if memory runs out. */
 static bool merge_into_leaf(batch *b, const node *old, cell c, span leaving, span arriving, node *made)
 {
-    note_overflow(b, old, c, arriving);
+    record_possible_overflow(b, old, c, arriving);
     if (!leaf_create(b->store, made, (uint32_t)(old->count - leaving.count + arriving.count)))
         return false;
-    append_staying_below(old, c.depth, leaving, made);
+    append_staying_points_below(old, c.depth, leaving, made);
     if (b->may_be_stored)
-        drop_already_stored(b, made, (span){NULL, 0}, &arriving);
-    append_arriving(b, made, arriving);
+        drop_stored_arrivals(b, made, (span){NULL, 0}, &arriving);
+    append_arriving_points(b, made, arriving);
     return true;
 }
 
@@ -396,7 +396,7 @@ bool change_node(batch *b, const node *old, cell c, span leaving, span arriving,
     if (is_planned_by_job(b, leaving.count + arriving.count))
         return take_job_result(b, made);
     if (is_emptied) {
-        note_overflow(b, old, c, arriving);
+        record_possible_overflow(b, old, c, arriving);
         return build_node(b, c, arriving, made);
     }
     if (!old->octants)

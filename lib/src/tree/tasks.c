@@ -54,13 +54,13 @@ void run_tasks(const octree *tree, octree_task *task, unsigned count, void *cont
     tasks all = {.task = task, .context = context, .count = count};
     for (unsigned number = 0; number < count; number++)
         atomic_init(&all.started[number], false);
-    const unsigned begun = begin_visit(tree);
+    const unsigned begun = begin_callbacks(tree);
     if (executor->run && count > 1)
         call_executor(executor, count, &all);
     for (unsigned number = 0; number < count; number++)
         if (!atomic_load_explicit(&all.started[number], memory_order_relaxed))
             task(number, context);
-    end_visit(begun);
+    end_callbacks(begun);
 }
 
 /* Replace a subtree in the list by the subtrees of its children. */
@@ -99,7 +99,7 @@ void divide_tree(forest *f, const octree *tree, subtree_opener *open, void *cont
 
 const subtree *first_subtree(const forest *f, size_t number)
 {
-    const size_t before = share_start(f->tree->root.count, f->tasks, number);
+    const size_t before = find_share_start(f->tree->root.count, f->tasks, number);
     const subtree *first = f->subtrees;
     while (first < f->subtrees + f->count && first->before < before)
         first++;

@@ -20,7 +20,7 @@ void run_tasks(const octree *tree, octree_task *task, unsigned count, void *cont
 
 /* Divide `things` items among tasks. Returns the index of the first item of the task with this number. The task's items
  * end where the items of the next task begin. */
-static inline size_t share_start(size_t things, unsigned tasks, size_t number)
+static inline size_t find_share_start(size_t things, unsigned tasks, size_t number)
 {
     const size_t more = things % tasks;
     return things / tasks * number + (number < more ? number : more);

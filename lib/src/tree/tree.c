@@ -91,7 +91,7 @@ octree_status octree_clear(octree *tree)
 {
     if (!tree)
         return OCTREE_NULL_ARGUMENT;
-    if (is_visited(tree))
+    if (is_running_callback(tree))
         return OCTREE_BUSY;
     store_release(&tree->store, &tree->root);
     change_log_stop(&tree->changes, &tree->store.memory);
@@ -163,10 +163,10 @@ octree_status rebuild_tree(octree *tree, const octree_def *def)
     status = OCTREE_NO_MEMORY;
     if (points) {
         /* mark `tree` as visited, because its executor runs tasks of the other tree */
-        const unsigned begun = begin_visit(tree);
+        const unsigned begun = begin_callbacks(tree);
         node_copy_points(&tree->root, points);
         status = insert_all_points(other, points, count);
-        end_visit(begun);
+        end_callbacks(begun);
     }
     arena_free(&other->store.memory, points, size);
     if (status == OCTREE_OK)
@@ -180,7 +180,7 @@ octree_status octree_reworld(octree *tree, const octree_box *world)
     RETURN_IN_DEFAULT_MODE(octree_status, octree_reworld, tree, world);
     if (!tree || !world)
         return OCTREE_NULL_ARGUMENT;
-    if (is_visited(tree))
+    if (is_running_callback(tree))
         return OCTREE_BUSY;
     octree_def def = tree->def;
     def.world = *world;
@@ -192,7 +192,7 @@ octree_status octree_compact(octree *tree)
     RETURN_IN_DEFAULT_MODE(octree_status, octree_compact, tree);
     if (!tree)
         return OCTREE_NULL_ARGUMENT;
-    return is_visited(tree) ? OCTREE_BUSY : rebuild_tree(tree, &tree->def);
+    return is_running_callback(tree) ? OCTREE_BUSY : rebuild_tree(tree, &tree->def);
 }
 
 /* ---- Finding ------------------------------------------------------------------------------------------------ */

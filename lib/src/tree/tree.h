@@ -60,7 +60,7 @@ octree_status check_position(const octree *tree, const double position[3]);
 static inline octree_status check_change(const octree *tree, const double position[3])
 {
     const octree_status status = check_position(tree, position);
-    return status == OCTREE_OK && is_visited(tree) ? OCTREE_BUSY : status;
+    return status == OCTREE_OK && is_running_callback(tree) ? OCTREE_BUSY : status;
 }
 
 /* Insert a point with a valid position and its Morton code. Returns OK, DUPLICATE, FULL, NO_MEMORY or TOO_MANY. If

@@ -243,11 +243,11 @@ static octree_status choose_by_sample(octree *tree, const octree_mix *mix, size_
     arena *memory = &tree->store.memory;
     const size_t size = ((s.mix.k > s.mix.hits ? s.mix.k : s.mix.hits) + 1) * sizeof *s.neighbors;
     /* mark `tree` as visited, because its executor runs tasks of the trial trees */
-    const unsigned begun = begin_visit(tree);
+    const unsigned begun = begin_callbacks(tree);
     s.neighbors = arena_allocate(memory, size);
     const bool ok = s.neighbors && make_sample(&s, tree);
     const octree_status status = ok ? choose_capacity(&s, tree->def, capacity) : OCTREE_NO_MEMORY;
-    end_visit(begun);
+    end_callbacks(begun);
     arena_free(memory, s.neighbors, size);
     arena_free(memory, s.points, s.room * sizeof *s.points);
     return status;
@@ -262,7 +262,7 @@ octree_status octree_tune(octree *tree, const octree_mix *mix)
         return OCTREE_BAD_CAPACITY;
     const octree_mix asked = mix ? *mix : octree_mix_default();
     octree_def def = tree->def;
-    octree_status status = is_visited(tree) ? OCTREE_BUSY : check_mix(&asked);
+    octree_status status = is_running_callback(tree) ? OCTREE_BUSY : check_mix(&asked);
     /* the tree has no points, so it gets the default capacity */
     def.leaf_capacity = octree_def_default().leaf_capacity;
     if (status == OCTREE_OK && octree_count(tree) > 0)

@@ -4,7 +4,7 @@
 
 THREAD_LOCAL visits visits_of_thread;
 
-bool is_listed_visit(const octree *tree)
+bool is_tree_in_callback_list(const octree *tree)
 {
     unsigned i = 0;
     if (visits_of_thread.depth > VISITS_AT_MOST)

@@ -38,8 +38,8 @@ typedef struct visits {
 
 extern THREAD_LOCAL visits visits_of_thread;
 
-/* Must be called before callbacks of the tree. Returns the argument for end_visit(). */
-static inline unsigned begin_visit(const octree *tree)
+/* Must be called before callbacks of the tree. Returns the argument for end_callbacks(). */
+static inline unsigned begin_callbacks(const octree *tree)
 {
     const unsigned depth = visits_of_thread.depth;
     if (depth < VISITS_AT_MOST)
@@ -48,17 +48,17 @@ static inline unsigned begin_visit(const octree *tree)
     return depth;
 }
 
-static inline void end_visit(unsigned begun)
+static inline void end_callbacks(unsigned begun)
 {
     visits_of_thread.depth = begun;
 }
 
-bool is_listed_visit(const octree *tree);
+bool is_tree_in_callback_list(const octree *tree);
 
 /* Returns whether this thread is running a callback of the tree. */
-static inline bool is_visited(const octree *tree)
+static inline bool is_running_callback(const octree *tree)
 {
-    return visits_of_thread.depth > 0 && is_listed_visit(tree);
+    return visits_of_thread.depth > 0 && is_tree_in_callback_list(tree);
 }
 
 #endif

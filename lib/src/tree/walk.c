@@ -73,9 +73,9 @@ octree_status octree_walk(const octree *tree, octree_node_visitor visit, void *c
     if (!tree || !visit)
         return OCTREE_NULL_ARGUMENT;
     walk w = {.tree = tree, .visit = visit, .context = context};
-    const unsigned begun = begin_visit(tree);
+    const unsigned begun = begin_callbacks(tree);
     walk_subtree(&w, &tree->root, OCTREE_ROOT, root_cell(), &tree->def.world);
-    end_visit(begun);
+    end_callbacks(begun);
     return OCTREE_OK;
 }
 

@@ -150,7 +150,7 @@ static void a_text_that_stops_within_an_object_is_broken(void **state)
     assert_next(&p, "{}", 1);
     end_text(&p);
     assert_int_equal(json_stream_read_object(&p.stream, &p.reader), JSON_STREAM_BROKEN);
-    assert_string_equal(p.error.text, "pipe:3: the text stops in the middle of the object that begins here");
+    assert_string_equal(p.error.text, "pipe:3: the text ends inside the object that begins in this line");
     close_pipe(&p);
 }
 

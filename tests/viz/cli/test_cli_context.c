@@ -174,7 +174,7 @@ static void egl_without_a_driver_is_an_error(void **state)
     snprintf(path, sizeof path, "__EGL_VENDOR_LIBRARY_DIRS=%s", own->name);
     const command_setting bare = {.environment = {path}};
     const place folder = place_in(own, "film");
-    assert_not_drawn(&bare, "--fill gl --context egl", &folder, "EGL gives no OpenGL context");
+    assert_not_drawn(&bare, "--fill gl --context egl", &folder, "EGL cannot create an OpenGL context");
 }
 
 static const command_setting softpipe = {.environment = {"GALLIUM_DRIVER=softpipe"}};

@@ -104,7 +104,7 @@ static void errors_are_printed_with_status_2(void **state)
     assert_trouble(&result, "not a PNG file, a folder, or a baseline");
     assert_int_equal(truncate(p.b.path, 120), 0);
     result = run_octreel(NULL, "diff %s %s", p.a.path, p.b.path);
-    assert_trouble(&result, "b.png: the file is cut short");
+    assert_trouble(&result, "b.png: the file is truncated");
 }
 
 static void other_frames_are_compared_beside_an_unreadable_one(void **state)
@@ -115,7 +115,7 @@ static void other_frames_are_compared_beside_an_unreadable_one(void **state)
     command_result result = run_octreel(NULL, "diff %s %s", a.path, b.path);
     assert_int_equal(result.status, 2);
     assert_non_null(strstr(result.err, "octreel: "));
-    assert_non_null(strstr(result.err, "2.png: the file is cut short\n"));
+    assert_non_null(strstr(result.err, "2.png: the file is truncated\n"));
     assert_non_null(strstr(result.out, "trouble: 1 of 3 frames, 1 cannot be read, 1 the same by its bytes\n"));
     assert_non_null(strstr(result.out, "  3.png: 1 of 384 pixels differ"));
     command_release(&result);
@@ -129,7 +129,7 @@ static void unreadable_frames_are_listed(void **state)
     assert_int_equal(truncate(place_below(b.path, "2.png").path, 120), 0);
     command_result result = run_octreel(NULL, "diff %s %s", a.path, b.path);
     assert_int_equal(result.status, 2);
-    assert_non_null(strstr(result.err, "1.png: the file is cut short (and 1 more)\n"));
+    assert_non_null(strstr(result.err, "1.png: the file is truncated (and 1 more)\n"));
     assert_non_null(strstr(result.out, "trouble: 2 frames, 2 cannot be read\n  1.png: cannot be read: "));
     assert_non_null(strstr(result.out, "\n  2.png: cannot be read: "));
     command_release(&result);
@@ -208,7 +208,7 @@ static void json_is_printed_for_errors_too(void **state)
     json_t *object = json_read(result.out);
     assert_string_equal(json_string_value(json_member(object, "verdict")), "trouble");
     const json_t *finding = json_array_get(json_member(object, "findings"), 0);
-    assert_non_null(strstr(json_string_value(json_member(finding, "trouble")), "cut short"));
+    assert_non_null(strstr(json_string_value(json_member(finding, "trouble")), "truncated"));
     json_decref(object);
     command_release(&result);
 }

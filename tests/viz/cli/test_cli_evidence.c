@@ -77,7 +77,7 @@ static void reports_are_written_if_a_frame_is_unreadable(void **state)
     command_result result =
         run_octreel(NULL, "diff %s %s -o %s --junit %s", t.a.path, t.b.path, t.out.path, t.xml.path);
     assert_int_equal(result.status, 2);
-    assert_contains(result.err, "1.png: the file is cut short");
+    assert_contains(result.err, "1.png: the file is truncated");
     command_release(&result);
     char *xml = file_read(t.xml.path, NULL);
     assert_xml_count(xml, "error", 1);

@@ -383,7 +383,7 @@ static void invalid_options_are_refused_in_one_sentence(void **state)
         {"--slice z=99", "outside the world"},
         {"--region 9,9,9,10,10,10", "outside the world"},
         {"--depth 2:5", "--depths"},
-        {"--depth 3 --depths 4", "the tree ends at depth 3"},
+        {"--depth 3 --depths 4", "the deepest level of the tree is 3"},
         {"second.txt third.txt", "inspect: unexpected argument \"second.txt\"; for several files: for f in *.pcd; do "},
         {"--node root --node 3", "--node can be given only once; found root and 3"},
     };

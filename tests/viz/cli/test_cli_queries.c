@@ -245,11 +245,11 @@ static void json_contains_notes_about_answers(void **state)
 static void invalid_queries_are_refused_in_one_sentence(void **state)
 {
     static const char *const rows[][2] = {
-        {"--nearest 1,2", "--nearest takes a place"},
-        {"--nearest 1,2,3,4,5", "--nearest takes a place"},
-        {"--nearest=", "--nearest takes a place"},
-        {"--nearest 1,,3", "--nearest takes a place"},
-        {"--nearest 1,2,x", "--nearest takes a place, and how many neighbours, where that is not 1, as in 1,2,3 or "
+        {"--nearest 1,2", "--nearest takes a position"},
+        {"--nearest 1,2,3,4,5", "--nearest takes a position"},
+        {"--nearest=", "--nearest takes a position"},
+        {"--nearest 1,,3", "--nearest takes a position"},
+        {"--nearest 1,2,x", "--nearest takes a position, and the number of neighbours if it is not 1, as in 1,2,3 or "
                             "1,2,3,8, not \"1,2,x\""},
         {"--nearest nan,2,3", "not \"nan,2,3\""},
         {"--nearest 1,inf,3", "not \"1,inf,3\""},

@@ -137,10 +137,9 @@ static void ticks_before_malformed_text_are_a_whole_recording(void **state)
 {
     BROKEN("", "", "standard input:1: holds no session");
     BROKEN("", "\nhello\n" MOVE(1), "standard input:2: '{' expected near 'hello'");
-    BROKEN("", "{\"octreel\":\"session\",", "standard input:1: the text stops in the middle of the object");
+    BROKEN("", "{\"octreel\":\"session\",", "standard input:1: the text ends inside the object");
     BROKEN(HEADER, "{\"tick\":0,\"edits\":[]}\n", "standard input:2: edits: edits are not allowed in tick 0");
-    BROKEN(HEADER MOVE(1), "{\"tick\":2,\"ed",
-           "standard input:3: the text stops in the middle of the object that begins");
+    BROKEN(HEADER MOVE(1), "{\"tick\":2,\"ed", "standard input:3: the text ends inside the object that begins");
     BROKEN(HEADER MOVE(1), "segmentation fault\n", "standard input:3: '{' expected near 'segmentation'");
     BROKEN(HEADER MOVE(1), "{\"tick\":2\n" MOVE(3), "standard input:4: '}' expected near '{'");
     BROKEN(HEADER MOVE(1), "{\"tick\":2,\"edits\":[{\"move\":{\"id\":1,\"position\":[1,2]}}]}\n" MOVE(3),

@@ -131,7 +131,7 @@ static void everything_is_checked_before_the_first_write(void **state)
     assert_trouble(&result, "contains no PNG files");
     assert_int_equal(truncate(place_below(c.after.path, "4.png").path, 200), 0);
     result = run_octreel(NULL, "accept %s %s", c.before.path, c.after.path);
-    assert_trouble(&result, "4.png: the file is cut short");
+    assert_trouble(&result, "4.png: the file is truncated");
     assert_same_folders(c.before.path, untouched.path, NULL);
     result = run_octreel(NULL, "accept %s", c.before.path);
     assert_trouble(&result, "accept needs a reference and new frames; ");

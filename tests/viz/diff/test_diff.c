@@ -250,7 +250,7 @@ static void unreadable_frame_is_an_error(void **state)
     assert_int_equal(find_finding(&made, "1.png"), FOUND_UNREADABLE);
     assert_int_equal(find_finding(&made, "2.png"), FOUND_UNREADABLE);
     assert_int_equal(find_finding(&made, "3.png"), FOUND_SAME_BYTES);
-    assert_non_null(strstr(diff_find(&made.result, "1.png")->trouble, "1.png: the file is cut short"));
+    assert_non_null(strstr(diff_find(&made.result, "1.png")->trouble, "1.png: the file is truncated"));
     assert_int_equal(made.result.verdict, DIFF_TROUBLE);
     comparison_release(&made);
 }

@@ -126,7 +126,7 @@ static void driver_without_a_name_is_refused(void **state)
 
 static void incomplete_framebuffer_is_an_error(void **state)
 {
-    static const char why[] = "gives no framebuffer of 16 x 16 pixels";
+    static const char why[] = "cannot create a framebuffer of 16 x 16 pixels";
     (void)state;
     fault.largest_view = SIDE - 1;
     assert_refused(why);
@@ -197,7 +197,7 @@ static void osmesa_without_one_of_its_functions_is_refused(void **state)
     need(DRAW_OSMESA);
     for (size_t i = 0; i < sizeof functions / sizeof *functions; i++) {
         unknown = functions[i];
-        assert_not_opened(DRAW_OSMESA, "OSMesa gives no compatibility context");
+        assert_not_opened(DRAW_OSMESA, "OSMesa cannot create an OpenGL compatibility context");
     }
     unknown = NULL;
 }
@@ -211,7 +211,7 @@ static void egl_without_one_of_its_functions_is_refused(void **state)
     need(DRAW_EGL);
     for (size_t i = 0; i < sizeof functions / sizeof *functions; i++) {
         unknown = functions[i];
-        assert_not_opened(DRAW_EGL, "EGL gives no OpenGL context without a display");
+        assert_not_opened(DRAW_EGL, "EGL cannot create an OpenGL context without a display");
     }
     unknown = NULL;
 }
@@ -263,7 +263,7 @@ static void egl_failure_at_any_call_is_an_error(void **state)
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         unknown = rows[i].name;
         instead = rows[i].refuse;
-        assert_not_opened(DRAW_EGL, "EGL gives no OpenGL context without a display");
+        assert_not_opened(DRAW_EGL, "EGL cannot create an OpenGL context without a display");
     }
     unknown = NULL;
     instead = NULL;

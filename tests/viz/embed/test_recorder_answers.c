@@ -95,7 +95,8 @@ static void answers_that_a_session_file_cannot_hold_are_refused(void **state)
     const place folder = place_in(*state, "film");
     octreel_recorder *recorder = open_small(folder.path, 0);
     assert_int_equal(ask_all(recorder, UINT64_C(1) << 53), OCTREEL_BAD_QUERY);
-    assert_string_equal(octreel_recorder_error(recorder), "queries[0]: an id is not below 2^53, as files need it");
+    assert_string_equal(octreel_recorder_error(recorder),
+                        "queries[0]: an id is 2^53 or larger, which session files cannot store");
     octree_query query = {.kind = OCTREE_QUERY_NEAREST, .answered = true, .answer_count = 1};
     const octreel_tick_info about = {.queries = &query, .query_count = 1};
     assert_int_equal(octreel_recorder_tick(recorder, NULL, &about), OCTREEL_BAD_QUERY);

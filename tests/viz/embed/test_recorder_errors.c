@@ -218,8 +218,8 @@ static void refuse_trees(octreel_recorder *recorder, const octree *tree)
     octree *others[] = {make_tree(cube(-8, 9), 1, 2, OCTREE_GROW), make_tree(cube(-9, 8), 1, 2, OCTREE_GROW),
                         make_tree(def.world, 2, 2, OCTREE_GROW), make_tree(def.world, 1, 3, OCTREE_GROW),
                         make_tree(def.world, 1, 2, OCTREE_REFUSE)};
-    static const char *const differences[] = {"world on x is [-8, 9]", "world on x is [-9, 8]", "leaf_capacity is 2",
-                                              "max_depth is 3", "full_leaf"};
+    static const char *const differences[] = {"world on axis x is [-8, 9]", "world on axis x is [-9, 8]",
+                                              "leaf_capacity is 2", "max_depth is 3", "full_leaf"};
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {
         assert_refused(recorder, others[i], NULL, OCTREEL_OTHER_TREE, differences[i]);
         octree_destroy(others[i]);
@@ -227,7 +227,7 @@ static void refuse_trees(octreel_recorder *recorder, const octree *tree)
     octree *twice = make_tree(def.world, 1, 2, OCTREE_GROW);
     for (uint64_t i = 0; i < 300; i++)
         assert_int_equal(octree_insert(twice, (double[]){1, 2, (double)i / 100}, i % 299), OCTREE_OK);
-    assert_refused(recorder, twice, NULL, OCTREEL_DUPLICATE_ID, "one id: 0");
+    assert_refused(recorder, twice, NULL, OCTREEL_DUPLICATE_ID, "same id: 0");
     octree_destroy(twice);
     octree *large = make_tree(def.world, 1, 2, OCTREE_GROW);
     assert_int_equal(octree_insert(large, (double[]){1, 2, 3}, SESSION_ID_LIMIT), OCTREE_OK);

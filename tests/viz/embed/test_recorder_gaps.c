@@ -59,8 +59,7 @@ static void check_line(const char *line, size_t number, void *context)
     const char *pattern = context;
     char gap[200];
     snprintf(gap, sizeof gap, "{\"tick\": %zu, \"gap\": \"%s\"}", number,
-             pattern[number] == 'i' ? "two points of the tree have one id: 0"
-                                    : "queries[0]: a number is NaN or infinite");
+             pattern[number] == 'i' ? "two points have the same id: 0" : "queries[0]: a number is NaN or infinite");
     if (pattern[number] != '.')
         assert_string_equal(line, gap);
     else
@@ -88,7 +87,7 @@ static void refused_tick_is_a_gap_and_the_next_tick_keeps_its_number(void **stat
 {
     check_pattern(state, "..i.qq.i",
                   "4 of 8 ticks were refused and are gaps in the recording; the first is tick 2: two "
-                  "points of the tree have one id: 0");
+                  "points have the same id: 0");
 }
 
 static void gaps_at_the_beginning_are_recorded(void **state)
@@ -113,7 +112,7 @@ static void refused_ticks_alone_make_no_recording(void **state)
     octree *tree = make_tree(cube(-100, 100), 4, 8, OCTREE_GROW);
     octreel_recorder *recorder = open_small(tree, folder.path, 0);
     record_pattern(recorder, tree, "iq");
-    assert_ends(recorder, octreel_recorder_close(recorder), OCTREEL_NOTHING, "two points of the tree have one id: 0");
+    assert_ends(recorder, octreel_recorder_close(recorder), OCTREEL_NOTHING, "two points have the same id: 0");
     octreel_recorder_destroy(recorder);
     octree_destroy(tree);
     assert_false(file_exists(place_below(folder.path, "recording.json").path));
@@ -154,7 +153,7 @@ static void verify_and_record_report_gaps(void **state)
     assert_done(&result);
     assert_non_null(strstr(result.out, ": identical: 4 ticks, 3 frames\n"));
     assert_non_null(strstr(result.out, ": 1 of these ticks is a gap without data; the first is tick 2: two "
-                                       "points of the tree have one id: 0\n"));
+                                       "points have the same id: 0\n"));
     command_release(&result);
     result = run_octreel(NULL, "verify --json %s", folder.path);
     assert_non_null(strstr(result.out, "\"gaps\": 1"));

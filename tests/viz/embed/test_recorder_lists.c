@@ -234,13 +234,14 @@ static void invalid_lists_and_changes_are_refused_with_the_reason(void **state)
     about = (octreel_tick_info){.points = &infinite, .point_count = 1};
     assert_refused(&f, &about, OCTREEL_BAD_POINT, "points[0]: a coordinate is NaN or infinite");
     about.points = &large;
-    assert_refused(&f, &about, OCTREEL_BAD_ID, "points: an id is not below 2^53, as files need it: 9007199254740992");
+    assert_refused(&f, &about, OCTREEL_BAD_ID,
+                   "points: an id is 2^53 or larger, which session files cannot store: 9007199254740992");
     assert_int_equal(list_tick(&f, three, 3), OCTREEL_OK);
     about = (octreel_tick_info){.changes = &edit, .change_count = 1};
     assert_refused(&f, &about, OCTREEL_DUPLICATE_ID, "changes[0]: point 7 exists already");
     edit.body.id = UINT64_MAX;
     assert_refused(&f, &about, OCTREEL_BAD_ID,
-                   "changes[0]: an id is not below 2^53, as files need it: 18446744073709551615");
+                   "changes[0]: an id is 2^53 or larger, which session files cannot store: 18446744073709551615");
     edit = (octree_edit){.kind = OCTREE_EDIT_MOVE, .body = {.id = 8}};
     assert_refused(&f, &about, OCTREEL_NO_POINT, "changes[0]: point 8 does not exist");
     edit.kind = (octree_edit_kind)3;

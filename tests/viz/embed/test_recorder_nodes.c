@@ -139,7 +139,7 @@ static void invalid_nodes_are_refused_with_their_index(void **state)
     assert_bad(recorder, (octree_foreign_node){.id = 2, .box = {{NAN}, {0}}}, "nodes[1]: ");
     assert_bad(recorder, (octree_foreign_node){.id = 2, .has_parent = true, .parent = 2}, "nodes[1]: ");
     assert_bad(recorder, (octree_foreign_node){.id = 2, .has_points = true, .points = {&large, 1}},
-               "nodes[1]: an id is not below 2^53");
+               "nodes[1]: an id is 2^53 or larger");
     octreel_recorder_destroy(recorder);
 }
 

@@ -134,20 +134,21 @@ static void invalid_shapes_are_refused(void **state)
         {HEADER "\"shapes\":[{\"point\":[1,2]}]}", "2: shapes[0].point: expected"},
         {HEADER "\"shapes\":[{\"segment\":[1,2,3]}]}",
          "2: shapes[0].segment: expected two positions [[x, y, z], [x, y, z]], found a list of 3"},
-        {HEADER "\"shapes\":[{\"box\":{\"min\":[0,0,5],\"max\":[0,0,4]}}]}", "2: shapes[0].box: min is above max on z"},
+        {HEADER "\"shapes\":[{\"box\":{\"min\":[0,0,5],\"max\":[0,0,4]}}]}",
+         "2: shapes[0].box: min is above max on axis z"},
         {HEADER "\"shapes\":[{\"label\":\"a\"}]}", "2: shapes[0]: the member \"at\" is missing"},
         {HEADER "\"shapes\":[{\"label\":5,\"at\":[0,0,0]}]}", "2: shapes[0].label: expected a text, found 5"},
         {HEADER "\"shapes\":[{\"label\":\"\\u00e9\",\"at\":[0,0,0]}]}",
-         "2: shapes[0].label: a label must be printable ASCII, and byte 1 is not"},
+         "2: shapes[0].label: a label must be printable ASCII, but byte 1 is not"},
         {HEADER "\"shapes\":[{\"label\":\"a\\tb\",\"at\":[0,0,0]}]}",
-         "2: shapes[0].label: a label must be printable ASCII, and byte 2 is not"},
+         "2: shapes[0].label: a label must be printable ASCII, but byte 2 is not"},
         {HEADER "\"shapes\":[{\"segment\":[[0,0,0],[1,2]]}]}",
          "2: shapes[0].segment[1]: expected three numbers [x, y, z], found a list of 2"},
         {HEADER "\"shapes\":[{\"segment\":[[0,\"0\",0],[1,2,3]]}]}",
          "2: shapes[0].segment[0][1]: expected a number, found \"0\""},
         {HEADER "\"shapes\":[{\"segment\":5}]}", "2: shapes[0].segment: expected two positions"},
         {HEADER "\"shapes\":[{\"label\":\"12345678901234567890123456789012345678901234567\",\"at\":[0,0,0]}]}",
-         "2: shapes[0].label: a label has at most 46 characters, not 47"},
+         "2: shapes[0].label: a label may have at most 46 characters, but has 47"},
     };
     (void)state;
     assert_refuses_each(rows, sizeof rows / sizeof *rows);
@@ -185,7 +186,7 @@ static void header_with_bad_members_is_refused(void **state)
         {"{\"octreel\":\"tick\",\"version\":1}", "1: octreel: expected \"session\", found \"tick\""},
         {"{\"octreel\":\"session\"}", "1: the member \"version\" is missing"},
         {"{\"octreel\":\"session\",\n\"version\":3}", "2: version: session version 3 is newer than version 2, "
-                                                      "which this Octreel reads; use a newer Octreel"},
+                                                      "the newest that this Octreel reads; use a newer Octreel"},
         {"{\"octreel\":\"session\",\n\"version\":3, \"wind\": 3}", "2: version: session version"},
         {"{\"octreel\":\"session\",\"version\":1,\"nodes\":[]}",
          "1: version: session version 1 is not supported; rename \"nodes\" to \"foreign_nodes\" and set \"version\": "
@@ -344,7 +345,7 @@ static void bad_ticks_are_refused(void **state)
         {START "{\"tick\":1,\"queries\":[{\"nearest\":\"player\",\"at\":\"player\"}]}",
          "3: queries[0]: unknown member \"at\"; known: nearest"},
         {HEADER "\"queries\":[{\"range\":{\"min\":[0,0,5],\"max\":[0,0,4]}}]}",
-         "2: queries[0].range: min is above max on z"},
+         "2: queries[0].range: min is above max on axis z"},
         {HEADER "\"queries\":[{\"range\":{\"min\":[0,0,5],\"max\":[0,0,6]},\"at\":\"home\"}]}",
          "2: queries[0].at: expected \"player\", found \"home\""},
         {HEADER "\"queries\":[{\"knearest\":1.5,\"at\":\"player\"}]}",

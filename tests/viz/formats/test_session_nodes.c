@@ -100,7 +100,7 @@ static void invalid_nodes_are_refused_with_line_and_member(void **state)
     assert_refuses(HEADER ",\"foreign_nodes\":[" LEAF(",\"points\":7") "]}",
                    "s.json:2: foreign_nodes[0].points: expected a list of ids, found 7");
     assert_refuses(HEADER ",\"foreign_nodes\":[" LEAF(",\"kind\":\"1234567890123456\"") "]}",
-                   "s.json:2: foreign_nodes[0].kind: a node's kind has at most 15 characters, not 16");
+                   "s.json:2: foreign_nodes[0].kind: a node's kind may have at most 15 characters, but has 16");
     assert_refuses(
         HEADER ",\"foreign_nodes\":[" LEAF(",\"colour\":7") "]}",
         "s.json:2: foreign_nodes[0]: unknown member \"colour\"; known: id, parent, box, depth, points, kind, mode");

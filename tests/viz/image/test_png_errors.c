@@ -37,7 +37,7 @@ static void missing_file_and_folder_have_different_errors(void **state)
 static void file_that_is_not_a_png_is_refused(void **state)
 {
     png_bytes file = {.size = 0};
-    assert_bytes_unreadable(&file, temp_file(*state, "a.png"), "cut short");
+    assert_bytes_unreadable(&file, temp_file(*state, "a.png"), "truncated");
     png_bytes_put(&file, "P6 2 2 255\nabcdefghijkl", 23);
     assert_bytes_unreadable(&file, temp_file(*state, "a.png"), "PNG");
 }

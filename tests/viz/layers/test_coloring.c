@@ -88,11 +88,11 @@ static void occupancy_steps_without_a_capacity_are_powers_of_two(void **state)
     (void)state;
     static const size_t counts[] = {0, 1, 2, 4, 8, 16, 32, 64, 128, 256};
     for (unsigned step = 0; step < THEME_NODE_DEPTHS; step++) {
-        assert_int_equal(theme_doubling_step(counts[step], 1), step);
+        assert_int_equal(theme_step_of_doubling_ramp(counts[step], 1), step);
         if (step > 1)
-            assert_int_equal(theme_doubling_step(counts[step] - 1, 1), step - 1);
+            assert_int_equal(theme_step_of_doubling_ramp(counts[step] - 1, 1), step - 1);
     }
-    assert_int_equal(theme_doubling_step(SIZE_MAX, 1), THEME_NODE_DEPTHS - 1);
+    assert_int_equal(theme_step_of_doubling_ramp(SIZE_MAX, 1), THEME_NODE_DEPTHS - 1);
 }
 
 /* Leaves with more points than the capacity, as under OCTREE_GROW, have the last colour. */
@@ -123,7 +123,7 @@ static void occupancy_scale_ends_at_the_leaf_capacity(void **state)
                 {UINT32_MAX - 1, UINT32_MAX, 9},
                 {SIZE_MAX, UINT32_MAX, 9}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        assert_int_equal(theme_fraction_step(rows[i].amount, rows[i].whole), rows[i].step);
+        assert_int_equal(theme_step_of_even_ramp(rows[i].amount, rows[i].whole), rows[i].step);
 }
 
 int main(void)

@@ -125,9 +125,9 @@ static void foreign_nodes_are_coloured_by_kind_and_by_occupancy(void **state)
     v.coloring = COLORING_OCCUPANCY;
     show(&v, 0);
     assert_int_equal(find_only_box(&shown, LAYER_NODES, foreign_element(FOREIGN_ROOT))->style.role,
-                     theme_node_role(theme_doubling_step(8, 1)));
+                     theme_node_role(theme_step_of_doubling_ramp(8, 1)));
     assert_int_equal(find_only_box(&shown, LAYER_NODES, foreign_element(FOREIGN_LOW))->style.role,
-                     theme_node_role(theme_doubling_step(2, 1)));
+                     theme_node_role(theme_step_of_doubling_ramp(2, 1)));
     assert_true(says("foreign, 0-256+ points"));
     v.tree = TREE_BOTH;
     show(&v, 0);

@@ -226,8 +226,8 @@ static void class_kinds_follow_las(void **state)
                                         "other"};
     (void)state;
     for (unsigned i = 0; i < sizeof kinds / sizeof *kinds; i++)
-        assert_string_equal(class_kind_names[kind_of_class(i)], kinds[i]);
-    assert_string_equal(class_kind_names[kind_of_class(UINT16_MAX)], "other");
+        assert_string_equal(class_kind_names[find_class_color_kind(i)], kinds[i]);
+    assert_string_equal(class_kind_names[find_class_color_kind(UINT16_MAX)], "other");
 }
 
 int main(void)

@@ -114,7 +114,7 @@ static void every_mover_and_nothing_else_has_an_arrow(void **state)
         for (;; play_tick(game)) {
             build_tick(&s, &v, game);
             assert_int_equal(octree_game_tick(game)->mover_count, BODIES / 5 * 4);
-            check_tick(&s, game, velocity_ticks(game));
+            check_tick(&s, game, count_velocity_ticks(game));
             if (octree_game_over(game))
                 break;
         }
@@ -144,7 +144,7 @@ static void arrow_scale_makes_movement_visible(void **state)
         octree_game *game = start_game(&session);
         scene s = {0};
         build_tick(&s, &v, game);
-        assert_int_equal(velocity_ticks(game), cases[i].ticks);
+        assert_int_equal(count_velocity_ticks(game), cases[i].ticks);
         assert_true(says(&s, cases[i].text));
         check_tick(&s, game, cases[i].ticks);
         scene_release(&s);

@@ -291,16 +291,16 @@ static void filters_that_can_show_nothing_are_refused(void **state)
         {{0}, NULL},
         {{.slice = 'z', .slice_at = 10}, NULL},
         {{.slice = 'z', .slice_at = -10}, NULL},
-        {{.slice = 'z', .slice_at = 10.5}, "slice z = 10.5 lies outside the world, which reaches from -10 to 10"},
+        {{.slice = 'z', .slice_at = 10.5}, "slice z = 10.5 lies outside the world, which extends from -10 to 10"},
         {{.slice = 'x', .slice_at = -1e300}, "slice x = -1e+300"},
         {{.slice = 'y', .slice_at = 12345.678951}, "slice y = 12345.679 lies"},
         {{.by_region = true, .region = {{10, 10, 10}, {20, 20, 20}}}, NULL},
         {{.by_region = true, .region = {{-99, -99, -99}, {99, 99, 99}}}, NULL},
         {{.by_region = true, .region = {{0, 9876.5432151, 0}, {1, 12345.678951, 1}}},
-         "on y it reaches from 9876.54322 to 12345.679, and the world from -10 to 10"},
-        {{.by_region = true, .region = {{0, 0, -30}, {1, 1, -20}}}, "on z it reaches from -30 to -20"},
+         "on axis y the region extends from 9876.54322 to 12345.679, and the world from -10 to 10"},
+        {{.by_region = true, .region = {{0, 0, -30}, {1, 1, -20}}}, "on axis z the region extends from -30 to -20"},
         {{.by_depth = true, .min_depth = 6, .max_depth = 21}, NULL},
-        {{.by_depth = true, .min_depth = 7, .max_depth = 8}, "begins at 7, and the tree ends at depth 6"},
+        {{.by_depth = true, .min_depth = 7, .max_depth = 8}, "begins at 7, but the deepest level of the tree is 6"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         char text[FILTER_TEXT];

@@ -63,26 +63,25 @@ extern "C" {
     X(OK, "done")                                                                                                      \
     X(NULL_ARGUMENT, "a required pointer is null")                                                                     \
     X(BAD_OPTION, "an option of the recorder has an invalid value")                                                    \
-    X(BAD_FOLDER, "the folder cannot be recorded into")                                                                \
-    X(CANNOT_DRAW, "no renderer can draw this")                                                                        \
-    X(OTHER_TREE, "the tree has another world or other options than the recorder was opened for")                      \
-    X(TWO_SOURCES,                                                                                                     \
-      "a tick has more than one of tree, points and changes, or a recorder of trees got points or changes")            \
-    X(DUPLICATE_ID, "two points of the tree have one id")                                                              \
+    X(BAD_FOLDER, "no recording can be written into the folder")                                                       \
+    X(CANNOT_DRAW, "no renderer can draw the frames")                                                                  \
+    X(OTHER_TREE, "the tree's world or options differ from the definition with which the recorder was opened")         \
+    X(TWO_SOURCES, "a tick has more than one of tree, points and changes, or only some of the ticks have a tree")      \
+    X(DUPLICATE_ID, "two points have the same id")                                                                     \
     X(BAD_POINT, "a point or a change has a NaN or an infinity, or a change has an unknown kind")                      \
     X(NO_POINT, "a change moves or removes a point that does not exist")                                               \
-    X(BAD_ID, "an id is not below 2^53, as files need it")                                                             \
+    X(BAD_ID, "an id is 2^53 or larger, which session files cannot store")                                             \
     X(BAD_QUERY,                                                                                                       \
       "a query has a NaN, an infinity, a negative size, a box whose min is above its max, or an unknown skip")         \
     X(BAD_SHAPE, "a shape has a NaN, an infinity, a box whose min is above its max, or an invalid text")               \
     X(BAD_NODE, "a foreign node has an invalid box, id, parent, kind or list of points")                               \
-    X(BUSY, "the queue is full, and the recorder was told not to wait")                                                \
+    X(BUSY, "the queue is full, and never_wait is set")                                                                \
     X(BROKEN, "the recording failed at an earlier tick")                                                               \
     X(CLOSED, "the recorder is closed")                                                                                \
     X(NOTHING, "there is no tick to record")                                                                           \
     X(NO_RING, "the recorder has no ring")                                                                             \
     X(NO_MEMORY, "out of memory")                                                                                      \
-    X(GAPS, "refused ticks are gaps in the recording")
+    X(GAPS, "the recording is complete, but refused ticks are gaps in it")
 
 typedef enum octreel_status {
 #define OCTREEL_STATUS_ENUM(name, text) OCTREEL_##name,

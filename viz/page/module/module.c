@@ -73,7 +73,7 @@ static void clear_text(void)
 }
 
 /* Make the current error the text that web_text() returns. Returns false. */
-static bool fail(void)
+static bool report_error_text(void)
 {
     clear_text();
     return false;
@@ -92,12 +92,12 @@ static bool set_text(bool (*write)(FILE *out))
     }
     if (written)
         error_no_memory(&page.error);
-    return fail();
+    return report_error_text();
 }
 
 /* ---- The session -------------------------------------------------------------------------------------------- */
 
-static void close_all(void)
+static void close_game_and_picture(void)
 {
     if (page.open)
         playback_close(&page.playback);
@@ -113,10 +113,10 @@ bool web_open(size_t session, size_t recording)
 {
     view v;
     uint64_t every;
-    close_all();
+    close_game_and_picture();
     if (!recording_parse("the view", page.room + session, recording, &v, &every, &page.error) ||
         !session_parse("the session", "", page.room, session, &page.session, &page.error))
-        return fail();
+        return report_error_text();
     free(page.room);
     page.room = NULL;
     page.room_size = 0;
@@ -124,8 +124,8 @@ bool web_open(size_t session, size_t recording)
     page.open = playback_open(&page.playback, &page.session.session, &page.session.values, &v, &page.error);
     page.playback.history.changes.tracked = page.open;
     if (!page.open)
-        close_all();
-    return page.open || fail();
+        close_game_and_picture();
+    return page.open || report_error_text();
 }
 
 /* Play the next tick. `key` is the player's key press. If it is 0, the tick has the session's own key press, edits and
@@ -139,7 +139,7 @@ bool web_step(int key)
     p->view.layers |= page.summed_layers;
     const bool done = key ? playback_play_input(p, &input, &page.error) : playback_advance(p, &page.error);
     p->view.layers = layers;
-    return done || fail();
+    return done || report_error_text();
 }
 
 double web_tick(void)
@@ -206,7 +206,7 @@ bool web_view(size_t recording)
     view v, *now = &page.playback.view;
     uint64_t every;
     if (!recording_parse("the view", page.room, recording, &v, &every, &page.error) || !fit_view(&v))
-        return fail();
+        return report_error_text();
     if (v.width != now->width || v.height != now->height || v.aa != now->aa || view_is_rgb(&v) != view_is_rgb(now)) {
         picture_close(&page.playback.picture);
         free(page.rgba);
@@ -384,7 +384,7 @@ bool web_pick(int x, int y, int radius)
     picked.y = y;
     picked.radius = radius;
     if ((!page.drawn && !web_draw()) || x < 0 || y < 0 || x >= web_width() || y >= web_height())
-        return fail();
+        return report_error_text();
     return set_text(write_pick);
 }
 
@@ -394,14 +394,14 @@ bool web_ask(size_t size)
 {
     session_file asked;
     if (!session_parse("the query", "", page.room, size, &asked, &page.error))
-        return fail();
+        return report_error_text();
     const octree_status status = octree_game_ask(page.playback.game, asked.session.queries, asked.session.query_count);
     session_release(&asked);
     page.drawn = false;
     if (status == OCTREE_OK)
         return true;
     error_set(&page.error, "%s", octree_status_text(status));
-    return fail();
+    return report_error_text();
 }
 
 typedef struct point_search {
@@ -447,7 +447,7 @@ bool web_keys(double last, size_t count)
     char *keys = malloc(before + count + 1);
     if (!keys) {
         error_no_memory(&page.error);
-        return fail();
+        return report_error_text();
     }
     memset(keys, '.', before);
     if (known > 0)
