@@ -142,7 +142,7 @@ static void skip_blanks(json_stream *s, json_reader *r)
     for (; s->begin < s->size && is_blank(s->bytes[s->begin]); s->begin++)
         r->line += s->bytes[s->begin] == '\n';
     if (s->begin < s->size)
-        s->mark = 3; /* other text has begun, so no byte order mark is skipped any more */
+        s->mark = 3; /* other text has begun: as after a whole mark of 3 bytes, skip no more of it */
 }
 
 /* Continues the scan with the bytes that were read. Returns true if the end of the object was found, or if the

@@ -7,8 +7,8 @@
  *
  * The columns from the fourth on have the meaning of their names. Without names, the file's ending and the count of its
  * points may declare them (find_columns()). Otherwise three or four further columns are guessed to be colours, in
- * the case of four after an intensity. Every line must confirm the guess (decide_guess() gives the rules); otherwise
- * the columns are ignored. In both cases cloud.column_note says what was done.
+ * the case of four after an intensity. Every line must confirm the guess (settle_guessed_columns() gives the rules);
+ * otherwise the columns are ignored. In both cases cloud.column_note says what was done.
  */
 #include "cloud_format.h"
 #include "file.h"
@@ -254,7 +254,7 @@ static int find_ranges(double number)
            (number >= 0 && number <= 1 ? FRACTIONS : 0);
 }
 
-static void discard_guess(cloud_file *file, text_columns *columns)
+static void discard_guessed_columns(cloud_file *file, text_columns *columns)
 {
     cloud_discard_values(file);
     memset(file->out->out_of_range, 0, sizeof file->out->out_of_range);
@@ -263,7 +263,7 @@ static void discard_guess(cloud_file *file, text_columns *columns)
 }
 
 /* Compares the guess with the numbers of a line. If the numbers contradict the guess, discards it. */
-static void check_guess(cloud_file *file, text_columns *columns, size_t count, const double *numbers)
+static void check_guessed_columns(cloud_file *file, text_columns *columns, size_t count, const double *numbers)
 {
     double square = 0;
     columns->shifted &= find_ranges(numbers[CLOUD_INTENSITY]);
@@ -274,13 +274,13 @@ static void check_guess(cloud_file *file, text_columns *columns, size_t count, c
     }
     columns->no_normals |= fabs(square - 1) > 0.01;
     if (!columns->ranges || count != columns->place_count || (count == 4 && isnan(numbers[CLOUD_INTENSITY])))
-        discard_guess(file, columns);
+        discard_guessed_columns(file, columns);
 }
 
 /* Decides after the last line whether the columns are colours. Some channel must be bright. If the channels are
  * fractions, not all colours may have length 1, as normals do. If there are four columns, the first must have a
  * number outside the range of colour channels; otherwise the first three could be the colour. */
-static void decide_guess(cloud_file *file, text_columns *columns)
+static void settle_guessed_columns(cloud_file *file, text_columns *columns)
 {
     const int range = columns->ranges & BYTES ? BYTES : FRACTIONS;
     const bool bright = range == BYTES ? columns->brightest >= 128 : columns->brightest >= 0.5 && columns->no_normals;
@@ -299,7 +299,7 @@ static void decide_guess(cloud_file *file, text_columns *columns)
                  "the columns from the fourth on have no names and are ignored; add a first line with the names of all "
                  "columns, such as x y z r g b");
     if (!read)
-        discard_guess(file, columns);
+        discard_guessed_columns(file, columns);
 }
 
 /* ---- Whole file --------------------------------------------------------------------------------------------- */
@@ -357,7 +357,7 @@ static bool parse_point(cloud_file *file, cloud_span line, bool named, text_colu
     if (columns->place_count > 0) {
         const size_t count = parse_values(line, separator, columns, numbers);
         if (columns->guessed)
-            check_guess(file, columns, count, numbers);
+            check_guessed_columns(file, columns, count, numbers);
     }
     return cloud_add_point(file, numbers);
 }
@@ -418,7 +418,7 @@ static bool parse_text(cloud_file *file)
     text_columns columns = {0};
     const bool done = cloud_check_text(file) && parse_lines(file, &columns);
     if (done && columns.unnamed)
-        decide_guess(file, &columns);
+        settle_guessed_columns(file, &columns);
     return done;
 }
 

@@ -78,10 +78,11 @@ static bool open_sides(accepting *a, octreel_error *error)
     if (!diff_side_open(&a->reference, o->reference, &in_reference, error))
         return false;
     if (a->reference.kind == DIFF_RECORDING && a->frames.kind == DIFF_FOLDER)
-        return error_set(error,
-                         "%s is a recording and %s is not: its ticks would not match the new frames; record the "
-                         "session again and accept that",
-                         o->reference, o->frames);
+        return error_set(
+            error,
+            "%s is a recording and %s is not, so the ticks of the recording would not match the new frames; "
+            "record the session again and accept the new recording",
+            o->reference, o->frames);
     if (a->reference.kind == DIFF_FOLDER && a->reference.count == 0 && a->frames.kind == DIFF_RECORDING)
         a->reference = empty_side(o->reference, DIFF_RECORDING, a->frames.no_frames);
     return true;

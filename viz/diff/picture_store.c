@@ -30,7 +30,7 @@ static bool is_picture(const char *path, const frame_digest *digest, image_color
     if (!digest_picture(path, background, &found, error))
         return false;
     return found.pixels == digest->pixels ||
-           error_set(error, "%s: does not hold the picture of its name: its pixels have the digest %016" PRIx64, path,
+           error_set(error, "%s: the pixels do not match the file name: their digest is %016" PRIx64, path,
                      found.pixels);
 }
 

@@ -30,7 +30,7 @@ static const char *find_query_error(const octree_query *query, octree_player_kin
 }
 
 /* Check the queries and shapes one by one, so that the error can name the first invalid one. */
-octreel_status about_check(const octreel_tick_info *about, octree_player_kind player, octreel_error *error)
+octreel_status tick_info_check(const octreel_tick_info *about, octree_player_kind player, octreel_error *error)
 {
     if (!about)
         return OCTREEL_OK;
@@ -52,7 +52,7 @@ octreel_status about_check(const octreel_tick_info *about, octree_player_kind pl
 
 /* Check the foreign nodes, and that their ids are below SESSION_ID_LIMIT, because larger ids do not fit into the
  * recorder's files. */
-octreel_status about_check_nodes(const octreel_tick_info *about, octreel_error *error)
+octreel_status tick_info_check_nodes(const octreel_tick_info *about, octreel_error *error)
 {
     size_t place = 0;
     const octree_foreign_tree *tree = about ? about->foreign : NULL;

@@ -8,9 +8,9 @@
 
 /* Check the queries and the shapes. `player` is the recorder's kind of player, because a query at the player needs one.
  * Errors: NULL_ARGUMENT, BAD_QUERY, BAD_SHAPE. */
-octreel_status about_check(const octreel_tick_info *about, octree_player_kind player, octreel_error *error);
+octreel_status tick_info_check(const octreel_tick_info *about, octree_player_kind player, octreel_error *error);
 
 /* Check the foreign nodes. Errors: BAD_NODE, NO_MEMORY. */
-octreel_status about_check_nodes(const octreel_tick_info *about, octreel_error *error);
+octreel_status tick_info_check_nodes(const octreel_tick_info *about, octreel_error *error);
 
 #endif

@@ -302,7 +302,7 @@ static octreel_status read_tick(octreel_recorder *r, const octree *tree, const o
 {
     octreel_error why;
     const octreel_status read = contents_read(&r->contents, &r->settings.tree, tree, about, &why);
-    const octreel_status status = about_check(about, r->settings.player.kind, &r->error);
+    const octreel_status status = tick_info_check(about, r->settings.player.kind, &r->error);
     if (status != OCTREEL_OK)
         return status;
     if (read != OCTREEL_OK)
@@ -353,7 +353,7 @@ static octreel_status record_tick(octreel_recorder *r, const octreel_tick_info *
 static octreel_status accept_tick(octreel_recorder *r, const octree *tree, const octreel_tick_info *about)
 {
     octreel_error why;
-    const octreel_status nodes = about_check_nodes(about, &why);
+    const octreel_status nodes = tick_info_check_nodes(about, &why);
     octreel_status status = read_tick(r, tree, about);
     if (status == OCTREEL_OK && nodes != OCTREEL_OK) {
         status = nodes;

@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static bool is_about_all(const cause_group *group)
+static bool is_about_all_ticks(const cause_group *group)
 {
     return group->listed[0].tick == CAUSE_NO_TICK;
 }
@@ -21,7 +21,7 @@ static cause_group *find_group(const cause_facts *facts, const char *where, cons
                                bool about_all)
 {
     for (size_t i = 0; i < facts->count; i++)
-        if (is_group(&facts->groups[i], where, query, change) && is_about_all(&facts->groups[i]) == about_all)
+        if (is_group(&facts->groups[i], where, query, change) && is_about_all_ticks(&facts->groups[i]) == about_all)
             return &facts->groups[i];
     return NULL;
 }
@@ -64,7 +64,7 @@ const cause_group *cause_group_of(const cause_facts *facts, const char *where, c
 
 static bool is_before(const cause_group *a, const cause_group *b)
 {
-    return !is_about_all(b) && (is_about_all(a) || a->listed[0].tick < b->listed[0].tick);
+    return !is_about_all_ticks(b) && (is_about_all_ticks(a) || a->listed[0].tick < b->listed[0].tick);
 }
 
 /* Sort with an insertion sort, which is stable: groups that begin at the same tick keep their order. */
@@ -83,7 +83,7 @@ void cause_facts_sort(cause_facts *facts)
 static cause_group group_at_tick(const cause_group *group, uint64_t tick)
 {
     cause_group shown = *group;
-    if (is_about_all(group)) {
+    if (is_about_all_ticks(group)) {
         if (strcmp(group->where, "every") == 0 || strcmp(group->where, "ticks") == 0)
             shown.found = 0;
         return shown;

@@ -41,7 +41,7 @@ static const cause_row rows[] = {
     {"sampled.points.count", "number of points in the sample", OPTION},
     {"sampled.points.seed", "seed of the points", OPTION},
     {"sampled.velocities", "sample of velocities", OPTION},
-    {"sampled.velocities.speed", "speed of the velocities", OPTION},
+    {"sampled.velocities.speed", "length of the velocities", OPTION},
     {"sampled.velocities.seed", "seed of the velocities", OPTION},
     {"edits", "edit", BY_KEY},
     {"queries", "query", .plural = "queries", EVERY, .rule = CAUSE_QUERIES},

@@ -62,14 +62,14 @@ pair_look pair_examine(const explanation *e, const diff_pair *pair)
     return l;
 }
 
-static bool has_fault(const pair_look *l)
+static bool has_frame_fault(const pair_look *l)
 {
     return l->faults[0] != FAULT_NONE || l->faults[1] != FAULT_NONE;
 }
 
 static bool is_only_drawing_different(const explanation *e, const pair_look *l)
 {
-    return l->same_scene && !has_fault(l) && !cause_facts_show(&e->cause.view, 0);
+    return l->same_scene && !has_frame_fault(l) && !cause_facts_show(&e->cause.view, 0);
 }
 
 /* Print how a frame contradicts its text chunks or its recording. */
@@ -197,7 +197,7 @@ static bool may_be_right(const pair_look *l)
 
 static void print_cause(FILE *out, const explanation *e, const diff_pair *pair, const pair_look *l)
 {
-    const bool both = pair->a && pair->b, faulty = has_fault(l), drawn = is_only_drawing_different(e, l);
+    const bool both = pair->a && pair->b, faulty = has_frame_fault(l), drawn = is_only_drawing_different(e, l);
     const uint64_t tick = diff_pair_tick(pair);
     const cause_tick *details = cause_find_tick(&e->cause, tick); /* null if the frames are not from recordings */
     const bool prints_tick =
@@ -260,15 +260,15 @@ static bool print_key(FILE *out, const explanation *e, const diff_pair *pair, co
     if (pair->finding == FOUND_SIZE)
         fprintf(out, "%dx%d %dx%d, ", pair->about[0].width, pair->about[0].height, pair->about[1].width,
                 pair->about[1].height);
-    if (has_fault(l))
+    if (has_frame_fault(l))
         fprintf(out, "faults %d %d, ", (int)l->faults[0], (int)l->faults[1]);
     if (is_only_drawing_different(e, l))
         fputs("drawn", out);
     else if (e->recordings && !both)
         print_missing(out, &e->sides[pair->a ? 1 : 0], diff_pair_tick(pair));
-    else if (e->recordings && known && !has_fault(l))
+    else if (e->recordings && known && !has_frame_fault(l))
         fprintf(out, "recordings, %s", cause_origins_at(&e->cause.session.origins, diff_pair_tick(pair)));
-    else if (both_have_texts(l) && !has_fault(l))
+    else if (both_have_texts(l) && !has_frame_fault(l))
         print_origins_key(out, l);
     else if (pair->finding == FOUND_PIXELS || pair->finding == FOUND_WITHIN)
         print_tally(out, pair);

@@ -36,7 +36,7 @@ void write_title_text(pen *p, theme_role role, const char *text);
 /* Write a line of text and move to the next line. */
 void write_line(pen *p, theme_role role, const char *text);
 
-/* Return the number of characters for a row's detail beside a value of `value_length` characters. */
+/* Return how many characters a row has left for its detail, beside a value of `value_length` characters. */
 static inline int detail_room(const pen *p, size_t value_length)
 {
     const int room = p->letters - DETAIL - 1 - (int)value_length;

@@ -89,7 +89,8 @@ static uint64_t find_session_digest(playback *p)
     return p->session_digest;
 }
 
-/* Returns true if a frame is to be checked: the first and the last frame of a share, and every CHECK_EVERY-th frame. */
+/* Returns true if a frame is to be checked: the first and the last frame of a share, and every CHECK_EVERY-th frame.
+ * Every `every`-th tick has a frame. */
 static bool is_checked(const film_share *share, uint64_t frame, uint64_t every)
 {
     return frame % CHECK_EVERY == 0 || frame == (share->first + every - 1) / every ||

@@ -14,7 +14,7 @@ static bool has_split(const octree_tick *tick, octree_address node)
     return false;
 }
 
-bool is_node_explained(const octree_game *game, const octree_node *node)
+bool has_node_reason(const octree_game *game, const octree_node *node)
 {
     return node->leaf || has_split(octree_game_tick(game), node->address);
 }

@@ -16,7 +16,7 @@ typedef struct node_reason {
 } node_reason;
 
 /* Returns whether a node is explained: it is a leaf, or it split at the game's last tick. */
-bool is_node_explained(const octree_game *game, const octree_node *node);
+bool has_node_reason(const octree_game *game, const octree_node *node);
 
 /* Explain a node of the game's last tick. `changes` must be tracked since tick 0. Returns false if memory runs out.
  * Call node_reason_release() in either case. */

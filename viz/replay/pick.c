@@ -135,7 +135,7 @@ static bool explain_node(const pick *p, pick_element *e, const playback *from, o
 {
     text_stream s;
     const octree_node *node = &e->subject.node;
-    if (!e->subject.has_node || e->subject.gone || !is_node_explained(from->game, node) ||
+    if (!e->subject.has_node || e->subject.gone || !has_node_reason(from->game, node) ||
         is_node_known(p, node->address))
         return true;
     const bool found = node_reason_find(&e->reason, from->game, &from->history.changes, node);

@@ -56,7 +56,8 @@ static void print_points(FILE *out, const char *what, const octree_point *points
         fprintf(out, " and %zu more", count - printed);
 }
 
-/* If all missing or all extra points lie on the boundary of the region, print so, and how to ask for such an index. */
+/* If all missing or all extra points lie on the boundary of the region, print so, and the member of the query that
+ * accepts indexes that treat boundaries this way. */
 static void print_boundary(FILE *out, const octree_judgement *made, const char *region)
 {
     static const char *const habits[OCTREE_BOUNDS_KINDS] = {

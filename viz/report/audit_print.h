@@ -55,7 +55,7 @@ void audit_print_nodes_head(FILE *out, const audit_nodes *nodes);
 void audit_print_wrong_nodes(FILE *out, const audit_nodes *nodes, octree_wrong_node_kind kind);
 
 /* Print a wrong answer to a query of the kind `about`: its index among the answers of its tick, why it is wrong, its
- * missing and extra points, and the bounds that would make it right. */
+ * missing and extra points, and which bounds of the query, open or closed, would make it right. */
 void audit_print_case(FILE *out, const audit_case *c, const octree_query_traits *about);
 
 #endif

@@ -123,7 +123,9 @@ static bool check_folder_holds_no_side(const char *folder, const diff_side *side
     const int depth = find_depth(compared, &status);
     free(compared);
     return depth < 0 ||
-           error_set(error, "%s: %s is compared, and would be removed: choose another folder for evidence", folder,
+           error_set(error,
+                     "%s: %s is compared, and writing evidence would remove it: choose another folder for evidence",
+                     folder,
                      side->kind == DIFF_PICTURE ? "a picture in it"
                      : depth                    ? "a folder in it"
                                                 : "it");

@@ -20,7 +20,7 @@ typedef struct frame_group {
     const char *others;        /* the names of all frames except the first; "" if there is only one */
 } frame_group;
 
-/* The groups of all pairs for whose finding diff_is_listed() is true. */
+/* All pairs that reports list (see diff_is_listed()), in groups. */
 typedef struct frame_groups {
     frame_group *groups; /* in the order of their first pairs; owned */
     size_t count;

@@ -27,8 +27,8 @@
     X(NODES, "nodes", "nodes", "the boxes of the nodes", ROLE_NODE_PLAIN, true, true)                                  \
     X(VISIT_HEAT, "visit-heat", "heat", "leaves, by the number of ticks in which queries visited them", ROLE_NODE,     \
       false, false)                                                                                                    \
-    X(POINT_HEAT, "point-heat", "heat", "leaves, by their number of points, summed over all ticks", ROLE_NODE, false,  \
-      false)                                                                                                           \
+    X(POINT_HEAT, "point-heat", "heat", "leaves, by the number of their points, summed over all ticks", ROLE_NODE,     \
+      false, false)                                                                                                    \
     X(PRUNED, "pruned", "pruned nodes", "nodes that the tick's queries pruned", ROLE_NODE_2, true, true)               \
     X(VISITED, "visited", "visited nodes", "nodes that the tick's queries visited, or took whole", ROLE_NODE_2, false, \
       true)                                                                                                            \

@@ -184,9 +184,9 @@ typedef void (*octree_change_visitor)(const octree_change *change, void *context
  * more changes happened since the last call than a quarter of the points (at least 1024). Too many changes also end
  * logging until the next call.
  *
- * `log_name` names the log if this call starts a log. It must not be 0, and must never have been given to a log before:
- * use the next number of a sequence with a random start. The name tells this tree's log from logs of other trees, even
- * of a tree that is created later at the same address.
+ * `log_name` tells this tree's log from all other logs, even from that of a tree that is created later at the same
+ * address. It is used if this call starts a log. Give a number other than 0 that no log had before, such as the next
+ * number of a sequence with a random start.
  *
  * A tree logs nothing until the first call. Calls may run beside queries and on many threads, each with its own cursor.
  * Returns false for null. Cost: O(changes visited). A logged change costs some nanoseconds and 64 bytes, up to four

@@ -225,7 +225,8 @@ static double rounding_slack(const judge_state *s)
     return s->rounds ? 2 * largest_rounding(s->about->points->tree) : 0;
 }
 
-/* Visit the points whose judged positions may be in the region. The box is valid, so that the search cannot fail. */
+/* Visit the points that may be in the region once their positions are rounded as the foreign index rounds them. The box
+ * is valid, so the search cannot fail. */
 static void search_region(judge_state *s, octree_point_visitor visit)
 {
     const octree_box bound = query_rules_of(s->asked.kind)->bound(&s->asked, rounding_slack(s));

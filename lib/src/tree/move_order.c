@@ -138,7 +138,8 @@ static int compare_places(const void *a, const void *b)
     return (p > q) - (p < q);
 }
 
-/* List the stored points that leave and the points that arrive, according to which point is at each pair in the end. */
+/* List the stored points that leave and the moved points that arrive. For each pair of a position and an id, compare
+ * the owner before all moves with the owner after them. */
 static void list_leaving_and_arriving(const simulation *r)
 {
     batch *b = r->batch;

@@ -7,7 +7,7 @@
 #include "point_values.h"
 
 /* The words for sessions whose ticks are equal. */
-#define SAME_TICKS "no tick that both have differs"
+#define SAME_TICKS "the ticks that both sides have are equal"
 
 /* A session that a test may change in any part. */
 typedef struct variant {

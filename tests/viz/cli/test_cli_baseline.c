@@ -199,7 +199,7 @@ static void bad_picture_in_the_store_is_reported_without_changing_the_verdict(vo
     const place picture = only_picture(&s);
     snprintf(more, sizeof more, "--store %s -o %s", s.store.path, out.path);
     gallery_write(picture.path, 7, 0);
-    assert_diff(&s, &s.after, more, 1, ": does not hold the picture of its name: its pixels have the digest ");
+    assert_diff(&s, &s.after, more, 1, ": the pixels do not match the file name: their digest is ");
     assert_false(file_exists(place_below(out.path, "2.expected.png").path));
     assert_true(file_exists(place_below(out.path, "2.actual.png").path));
     assert_int_equal(truncate(picture.path, 60), 0);

@@ -172,7 +172,7 @@ static void unwritable_output_paths_are_errors(void **state)
         assert_trouble(&result, options[i][1]);
     }
     command_result result = run_octreel(NULL, "diff %s %s -o %s", t.a.path, t.b.path, t.b.path);
-    assert_trouble(&result, "it is compared, and would be removed");
+    assert_trouble(&result, "it is compared, and writing evidence would remove it");
     file_write_text(place_below(t.a.path, "notes").path, "mine");
     result = run_octreel(NULL, "diff %s %s -o %s", t.b.path, t.b.path, t.a.path);
     assert_trouble(&result, " but no evidence of octreel diff; choose a new or empty folder");

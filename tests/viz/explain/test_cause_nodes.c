@@ -106,7 +106,7 @@ static void different_visited_nodes_are_counted(void **state)
         "the query visited other nodes at tick 0 (visited 2, was 1); tick 0: another number of foreign "
         "nodes visited (2, was 1)");
     assert_change_headline_from(meet_one, meet_another,
-                                "the query visited other nodes at tick 0; no tick that both have differs");
+                                "the query visited other nodes at tick 0; the ticks that both sides have are equal");
     assert_change_headline_from(
         meet_one_always, meet_two_always,
         "3 queries visited other nodes, the first at tick 0 (visited 2, was 1); tick 0: another number of foreign "

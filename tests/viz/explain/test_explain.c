@@ -135,7 +135,7 @@ static void frames_that_differ_before_the_ticks_are_reported(void **state)
     comparison_of made = assert_explained(&a, &b, 10);
     assert_string_equal(
         made.why.headline,
-        "another collision box (45, was 30): no tick that both have differs; frames differ from tick 0 on");
+        "another collision box (45, was 30): the ticks that both sides have are equal; frames differ from tick 0 on");
     comparison_release(&made);
 }
 
@@ -219,7 +219,7 @@ static void lengths_of_recordings_are_reported(void **state)
     options.every = 2;
     const place b = film_into(*state, "b", &session, &options);
     comparison_of made = assert_explained(&a, &b, 10);
-    assert_contains(made.why.headline, "another last tick (2, was 4); no tick that both have differs; another "
+    assert_contains(made.why.headline, "another last tick (2, was 4); the ticks that both sides have are equal; another "
                                        "interval of frames (2, was 1)");
     assert_contains(find_cause_text(&made, "frame_000001.png"), "b has a frame every 2 ticks");
     assert_contains(find_cause_text(&made, "frame_000004.png"), "b ends at tick 2");

@@ -216,8 +216,8 @@ static void compared_pictures_are_not_removed(void **state)
     assert_folder_has(folder.path, "1.expected.png 2.actual.png evidence.txt");
     const place expected = place_below(folder.path, "1.expected.png"),
                 actual = place_below(folder.path, "2.actual.png");
-    assert_refused(folder.path, a.path, folder.path, "it is compared, and would be removed");
-    assert_refused(a.path, folder.path, folder.path, "it is compared, and would be removed");
+    assert_refused(folder.path, a.path, folder.path, "it is compared, and writing evidence would remove it");
+    assert_refused(a.path, folder.path, folder.path, "it is compared, and writing evidence would remove it");
     assert_refused(expected.path, actual.path, folder.path, "a picture in it is compared");
     assert_folder_has(folder.path, "1.expected.png 2.actual.png evidence.txt");
     const place inner = gallery_make(*state, "out/inner", "1.actual.png");

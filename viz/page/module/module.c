@@ -4,9 +4,9 @@
  * The page runs octreel's own code, so it needs no recorded frames and can show any view of any tick. This file is the
  * border between C and viewer/engine.js.
  *
- * Input: JavaScript calls web_room() to get a buffer, writes texts or numbers into the buffer, and passes their sizes
- * to the next call. Output: a function that returns bool stores its text, or its error if it returns false, in
- * web_text() until the next call. Numbers are returned as double, because 64-bit integers are inconvenient in
+ * Input: JavaScript calls web_reserve_buffer() to get a buffer, writes texts or numbers into the buffer, and passes
+ * their sizes to the next call. Output: a function that returns bool stores its text, or its error if it returns false,
+ * in web_text() until the next call. Numbers are returned as double, because 64-bit integers are inconvenient in
  * JavaScript. web_draw() returns the address of the pixels. Every function named web_* is exported.
  *
  * The pixels are the same as those of the PNG frames, because the same code makes them. Scenes use double arithmetic in
@@ -46,7 +46,7 @@ static web page;
 
 /* Returns the input buffer for the next call, with room for at least `size` + 1 bytes. Returns null if memory runs out.
  */
-char *web_room(size_t size)
+char *web_reserve_buffer(size_t size)
 {
     if (size + 1 > page.room_size) {
         free(page.room);

@@ -3,7 +3,7 @@
  *
  * The page does not imitate the program: the module is the same C, from reading session.json to filling pixels,
  * compiled for WebAssembly. It plays a session by itself and needs no recorded frame. Few things cross the border: texts (the
- * session, the view, a query; facts and picks as JSON) are copied as UTF-8 into a buffer that web_room() gives and are
+ * session, the view, a query; facts and picks as JSON) are copied as UTF-8 into a buffer that web_reserve_buffer() gives and are
  * read back from web_text(); numbers pass as doubles; and a picture is the RGBA bytes at the address that web_draw()
  * returns. C calls JavaScript only to parse JSON (json_values.js); every system call fails, as a page has no files.
  *
@@ -87,7 +87,7 @@ class Engine {
     {
         const parts = texts.map(text => typeof text === "string" ? new TextEncoder().encode(text) : text);
         const size = parts.reduce((sum, part) => sum + part.length, 0);
-        let at = this.wasm.web_room(size);
+        let at = this.wasm.web_reserve_buffer(size);
         if (!at)
             throw new Error("out of memory");
         for (const part of parts) {
@@ -171,7 +171,7 @@ class Engine {
     {
         this.writeInput(new Uint8Array(new Float64Array(places.flat()).buffer));
         this.wasm.web_project(places.length);
-        const numbers = new Float64Array(this.wasm.memory.buffer, this.wasm.web_room(0), 2 * places.length);
+        const numbers = new Float64Array(this.wasm.memory.buffer, this.wasm.web_reserve_buffer(0), 2 * places.length);
         return places.map((place, i) => [numbers[2 * i], numbers[2 * i + 1]]);
     }
 
