@@ -73,13 +73,15 @@ static bool can_lose_point(const octree *tree, const path *p)
     return leaf_block_room(leaf->count - 1) == leaf->room && !fits_leaf(tree, p->nodes[p->depth - 1]->count - 1);
 }
 
-/* Move a point to another leaf now, if only these two leaves change. Returns false if nothing was done. */
+/* Move a point to another leaf now, if only these two leaves change. Returns false if nothing was done. The other leaf
+ * must not become a hashed leaf: undo_moves_made() writes to the points of leaves that other points have left. */
 static bool move_between_leaves(batch *b, const morton_item *item, uint32_t index, uint64_t code)
 {
     octree *tree = b->tree;
     const path from = find_path(tree, item->code), to = find_path(tree, code);
     node *old = path_end(&from), *made = path_end(&to);
-    if (!can_lose_point(tree, &from) || made->octants || !fits_leaf(tree, (size_t)made->count + 1))
+    if (!can_lose_point(tree, &from) || made->octants || made->count == POOL_MAX_UNITS ||
+        !fits_leaf(tree, (size_t)made->count + 1))
         return false;
     const octree_point moved = arriving_point(b, item);
     if (leaf_find(made, moved.position, moved.id) != LEAF_NONE || !leaf_append(&tree->store, made, &moved))
@@ -251,10 +253,9 @@ static bool lies_in_tree_memory(const octree *tree, const double *position)
         return false;
     const path p = find_path(tree, morton_code(tree->axes, position));
     const node *end = path_end(&p);
-    for (uint32_t i = 0; end->octants == 0 && i < end->count; i++)
-        if (position == leaf_points(end)[i].position)
-            return true;
-    return false;
+    /* below the first point of the leaf, the difference wraps around and is large */
+    return end->octants == 0 &&
+           (uintptr_t)position - (uintptr_t)leaf_points(end) < (size_t)end->count * sizeof(octree_point);
 }
 
 /* Sort the points of a batch, and call `change` to change the tree. */

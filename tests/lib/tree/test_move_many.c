@@ -262,6 +262,45 @@ static void few_moves_of_neighbours_equal_single_moves(void **state)
 
 /* Ids that are dense or far apart, in any order; every seventh is stored at a second place, which stays or where its
  * other point goes; every ninth is not stored where it is said to be. */
+/* Leaves of 64 points become hashed leaves when points arrive, and other points leave them. The last move goes to a
+ * stored pair in another leaf, so the batch reverts all moves and makes them in order. */
+static void reverted_moves_leave_hashed_leaves_whole(void **state)
+{
+    (void)state;
+    enum { FEW = 30, LEAVES = 8, FULL = 64 };
+    static moves m;
+    static octree_point points[LEAVES * FULL + 2];
+    for (uint64_t seed = 0; seed < 40; seed++) {
+        uint64_t random = seed;
+        octree *batched = make_tree(cube(-1, 1), 128, 3, OCTREE_GROW);
+        octree *stepped = make_tree(cube(-1, 1), 128, 3, OCTREE_GROW);
+        const size_t count = sizeof points / sizeof *points;
+        for (size_t i = 0; i < count; i++) {
+            points[i].id = i < count - 1 ? i : 0; /* the last point has the id of the first */
+            for (unsigned axis = 0; axis < 3; axis++)
+                points[i].position[axis] =
+                    (i % LEAVES >> axis & 1 ? 1 : -1) * (0.1 + 0.8 * random_between(&random, 0, 1));
+            assert_int_equal(octree_insert(batched, points[i].position, points[i].id), OCTREE_OK);
+            assert_int_equal(octree_insert(stepped, points[i].position, points[i].id), OCTREE_OK);
+        }
+        m.count = FEW;
+        for (size_t i = 0; i < FEW; i++) {
+            m.points[i] = points[i * 17 % count];
+            drift(&random, &m.points[i], 1, m.to[i]);
+        }
+        m.points[FEW - 1] = points[0];
+        m.points[0] = points[17 * FEW % count];
+        memcpy(m.to[FEW - 1], points[count - 1].position, sizeof m.to[0]);
+        move_both(batched, stepped, &m);
+        brute all = points_of(batched);
+        for (size_t i = 0; i < all.count; i++)
+            assert_true(octree_contains(batched, all.points[i].position, all.points[i].id));
+        brute_free(&all);
+        octree_destroy(batched);
+        octree_destroy(stepped);
+    }
+}
+
 static void many_moves_find_their_own_among_points_of_one_id(void **state)
 {
     (void)state;
@@ -484,6 +523,7 @@ int main(void)
         cmocka_unit_test(batched_moves_equal_single_moves_in_extreme_worlds),
         cmocka_unit_test(every_share_moves_the_same),
         cmocka_unit_test(few_moves_of_neighbours_equal_single_moves),
+        cmocka_unit_test(reverted_moves_leave_hashed_leaves_whole),
         cmocka_unit_test(many_moves_find_their_own_among_points_of_one_id),
         cmocka_unit_test(batched_moves_meet_full_leaves_in_the_given_order),
         cmocka_unit_test(a_leaf_is_full_of_what_moves_within_it_later),
