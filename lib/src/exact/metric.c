@@ -120,9 +120,10 @@ int metric_compare(const double target[3], const double a[3], const double b[3])
 int metric_compare_radius(const double target[3], const double p[3], double radius)
 {
     /* An exact comparison takes 2 us, and most points are far from the sphere. The error of the distance is less than
-     * half of the margin. */
+     * half of the margin, unless a distance just below DBL_MAX becomes infinite. */
     const double distance = metric_distance(target, p);
-    if (radius > 0x1p-1000 && fabs(distance - radius) > radius * 0x1p-48)
+    if (radius > 0x1p-1000 && (distance <= DBL_MAX || radius < DBL_MAX / 2) &&
+        fabs(distance - radius) > radius * 0x1p-48)
         return distance < radius ? -1 : 1;
     exact_sum sum;
     exact_clear(&sum);
