@@ -277,16 +277,17 @@ static bool count_boundary_point(const octree_point *point, void *context)
     return true;
 }
 
-/* Record that all `count` wrong points of this kind lie on the boundary, and the bounds with which they are right. If
- * the boundary has more points, the answer contains only a part of them. */
-static void record_boundary(judge_state *s, octree_wrong_kind wrong, size_t count)
+/* Find the bounds with which the wrong points, which all lie on the boundary, are right. If the boundary has more
+ * points, the answer contains only a part of them. */
+static void find_accepting_bounds(judge_state *s)
 {
+    octree_judgement *made = s->made;
+    const bool missing = made->on_boundary == OCTREE_WRONG_MISSING;
     s->boundary = 0;
     search_region(s, count_boundary_point);
-    s->made->on_boundary = wrong;
-    s->made->accepting = count < s->boundary             ? OCTREE_BOUNDS_EITHER
-                         : wrong == OCTREE_WRONG_MISSING ? OCTREE_BOUNDS_OPEN
-                                                         : OCTREE_BOUNDS_CLOSED;
+    made->accepting = (missing ? made->missing_count : made->extra_count) < s->boundary ? OCTREE_BOUNDS_EITHER
+                      : missing                                                         ? OCTREE_BOUNDS_OPEN
+                                                                                        : OCTREE_BOUNDS_CLOSED;
 }
 
 /* List as wrong the points of `from` that are not in `without`, unless they are optional. Both lists are sorted by id.
@@ -308,7 +309,7 @@ static void judge_difference(judge_state *s, octree_wrong_kind wrong, const list
     if (*count > 0)
         record_wrong(s, wrong, 0);
     if (*count > 0 && on_boundary)
-        record_boundary(s, wrong, *count);
+        s->made->on_boundary = wrong;
 }
 
 static void judge_region(judge_state *s)
@@ -407,6 +408,8 @@ bool judge_answer(judge *j, const judged_query *about, octree_judgement *made)
     list_foreign_answer(&s);
     find_exact_answer(&s);
     compare_lists(&s, about->query->answer_count);
+    if (!s.failed && made->on_boundary)
+        find_accepting_bounds(&s);
     return !s.failed;
 }
 
