@@ -145,10 +145,10 @@ static int film_standard_input(arguments *a)
     film_summary summary;
     octreel_error error;
     a->film.watch.context = &p;
-    defer_stop_signals();
     session_stream *stream = session_stream_open(STDIN_FILENO, FILE_STANDARD_INPUT, has_no_stop_signal, NULL);
     if (!stream)
         return print_error("out of memory while reading standard input");
+    defer_stop_signals();
     const film_stream_end how = film_stream(stream, a->keys, &a->film, &summary, &error);
     progress_end(&p);
     if (*session_stream_note(stream))

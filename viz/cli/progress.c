@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* progress.c - draws the progress bar, and checks for pending signals. */
+/* progress.c - draws the progress bar, and notes signals that ask the program to stop. */
 #include "progress.h"
 #include "options.h"
 
@@ -153,6 +153,7 @@ void defer_stop_signals(void)
     sigset_t stops;
     sigemptyset(&noting.sa_mask);
     sigemptyset(&stops);
+    sigaddset(&stops, SIGALRM); /* ends the program after GRACE seconds */
     for (size_t i = 0; i < STOP_SIGNALS; i++) {
         sigaddset(&stops, stop_signals[i]);
         if (sigaction(stop_signals[i], NULL, &actions_before[i]) == 0 && actions_before[i].sa_handler != SIG_IGN)

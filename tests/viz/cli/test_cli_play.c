@@ -185,13 +185,19 @@ static void every_and_no_frames_contradict_each_other(void **state)
     assert_int_equal(temp_folder_count(*state), 0);
 }
 
-/* The pipe is opened, but not read: the page fills it, and the program waits for room. */
+/* The pipe is opened, but not read: the page fills it, and the program waits for room. The parent process has blocked
+ * SIGALRM, which ends the program. */
 static void signal_ends_a_page_that_nobody_reads(void **state)
 {
     const place pipe = place_in(*state, "pipe");
     need_pages_that_play();
     assert_int_equal(mkfifo(pipe.path, 0600), 0);
+    sigset_t alarms;
+    sigemptyset(&alarms);
+    sigaddset(&alarms, SIGALRM);
+    sigprocmask(SIG_BLOCK, &alarms, NULL);
     background b = start_octreel("play -o %s", pipe.path);
+    sigprocmask(SIG_UNBLOCK, &alarms, NULL);
     alarm(60);
     const int reader = open(pipe.path, O_RDONLY);
     assert_true(reader >= 0);
