@@ -172,6 +172,11 @@ static int find_named_descriptor(const char *path)
     return whole_number_parse(&at, INT_MAX, &number) && *at == 0 ? (int)number : -1;
 }
 
+bool file_is_standard_output(const char *path)
+{
+    return file_is_standard_stream(path) || find_named_descriptor(path) == STDOUT_FILENO;
+}
+
 static bool is_special_file(const char *path)
 {
     struct stat status;
@@ -229,9 +234,11 @@ static bool open_writer(file_writer *file, const char *path, const char *ending,
     if (file->stream)
         return true;
     const int reason = errno;
+    struct stat status;
     error_set(error, "%s: cannot be written: %s", path,
-              !is_part && reason == ENXIO ? "no process reads this pipe; start its reader first, or name a file"
-                                          : strerror(reason));
+              reason == ENXIO && stat(path, &status) == 0 && S_ISFIFO(status.st_mode)
+                  ? "no process reads this pipe; start its reader first, or name a file"
+                  : strerror(reason));
     free(file->temp);
     *file = (file_writer){.path = path};
     errno = reason;

@@ -54,6 +54,9 @@ int file_lock_parent_folder(const char *path);
  * file with the name "-" is given as "./-". */
 bool file_is_standard_stream(const char *path);
 
+/* Returns whether the path of an output is standard output: "-", /dev/stdout or /dev/fd/1. */
+bool file_is_standard_output(const char *path);
+
 /* Returns the name of a file for messages: its path or, for "-", "standard input" or "standard output". */
 #define FILE_STANDARD_INPUT "standard input"
 const char *file_display_name(const char *path);

@@ -27,7 +27,12 @@ static ssize_t append_bytes(void *stream, const char *bytes, size_t size)
 static FILE *open_stream(text_stream *s)
 {
     append_bytes(s, "", 0); /* the text of a stream to which nothing is printed */
-    return s->text ? fopencookie(s, "w", (cookie_io_functions_t){.write = append_bytes}) : NULL;
+    FILE *stream = s->text ? fopencookie(s, "w", (cookie_io_functions_t){.write = append_bytes}) : NULL;
+    if (!stream) {
+        free(s->text);
+        s->text = NULL;
+    }
+    return stream;
 }
 #else
 static FILE *open_stream(text_stream *s)

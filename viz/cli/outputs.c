@@ -17,7 +17,7 @@ static size_t count_standard_outputs(const output_file *outputs, size_t count)
 {
     size_t found = 0;
     for (size_t i = 0; i < count; i++)
-        found += outputs[i].path && file_is_standard_stream(outputs[i].path);
+        found += outputs[i].path && file_is_standard_output(outputs[i].path);
     return found;
 }
 
@@ -120,7 +120,7 @@ static bool check_content(const output_file *output)
     uint64_t tick;
     octreel_error ignored;
     const file_kind kind = file_kind_of(output->path);
-    if (1u << kind & (FILE_KIND(BASELINE) | FILE_KIND(SESSION) | FILE_KIND(PART)))
+    if (1u << kind & (FILE_KIND(BASELINE) | FILE_KIND(SESSION) | FILE_KIND(PART) | FILE_KIND(CLOUD)))
         return refuse_file(output, file_kind_rows[kind].name, "", "");
     return kind != KIND_PNG || !frame_read_tick(output->path, &tick, &ignored) ||
            refuse_file(output, "a frame of a recording", "", "");

@@ -17,7 +17,7 @@ typedef struct output_file {
  * go to standard output; with `json`, the JSON report is such an output. Unless `force` is true, also refused are
  * - a file that is an input or lies in an input folder and is read there;
  * - a file of a recording, even if it does not exist yet;
- * - a baseline, a session or a frame;
+ * - a baseline, a session, a point cloud or a frame;
  * - a folder that is or contains the current folder, unless it holds a recording.
  * Two paths are the same file if device and inode are the same. Pipes and devices are never refused. If an output is
  * refused, prints an error and returns false. Cost: a call of stat() for each file in an input folder. */
@@ -34,7 +34,7 @@ bool is_standard_output_taken(const output_file *outputs, size_t count);
     }
 
 #define FORCE_FILES                                                                                                    \
-    "write outputs even over an input, a baseline, a session or a file of a recording, and into a folder that is or "  \
-    "contains the current folder"
+    "write outputs even over an input, a baseline, a session, a point cloud or a file of a recording, and into a "     \
+    "folder that is or contains the current folder"
 
 #endif
