@@ -140,6 +140,32 @@ static bool check_frame(const accepting *a, diff_pair *pair, octreel_error *erro
     return digest_picture(pair->b->path, a->reference.background, &pair->about[1], error);
 }
 
+/* Check that a frame is really missing. The frames of folders that were not searched have no pair, and their references
+ * must stay. */
+static bool check_is_gone(const accepting *a, const char *name, octreel_error *error)
+{
+    char *path = path_join(a->frames.path, name);
+    bool ok = path || error_no_memory(error);
+    if (ok && access(path, F_OK) == 0)
+        ok = error_set(
+            error,
+            "%s: refusing to remove its reference: the frame exists, but its folder was not searched "
+            "(it is a link or a recording, it contains evidence, or --no-recursive was given); name the frames to "
+            "accept",
+            path);
+    else if (ok && errno != ENOENT && errno != ENOTDIR)
+        ok = error_set(error, "%s: refusing to remove its reference: %s", path, strerror(errno));
+    free(path);
+    return ok;
+}
+
+static bool check_action(const accepting *a, action what, diff_pair *pair, octreel_error *error)
+{
+    if (what == REMOVED)
+        return check_is_gone(a, pair->a->name, error);
+    return what == KEPT || check_frame(a, pair, error);
+}
+
 static bool decide_actions(accepting *a, octreel_error *error)
 {
     a->actions = calloc(a->result.count + 1, sizeof *a->actions);
@@ -151,7 +177,7 @@ static bool decide_actions(accepting *a, octreel_error *error)
             return pair->trouble ? error_set(error, "%s", pair->trouble) : error_no_memory(error);
         a->actions[i] = is_name_listed(a->options, diff_pair_name(pair)) ? choose_action(pair->finding) : KEPT;
         a->counts[a->actions[i]]++;
-        if ((a->actions[i] == CHANGED || a->actions[i] == ADDED) && !check_frame(a, pair, error))
+        if (!check_action(a, a->actions[i], pair, error))
             return false;
     }
     return true;

@@ -243,6 +243,35 @@ static void subfolders_stay_unchanged_without_recursion(void **state)
     assert_false(file_exists(place_below(c.before.path, "hud").path));
 }
 
+/* A reference is removed only if its frame does not exist, not if the frame's folder was left out. */
+static void frames_in_folders_that_are_not_searched_keep_their_references(void **state)
+{
+    static const char sentence[] = "new/menu/1.png: refusing to remove its reference: the frame exists, but its folder";
+    const change c = make_nested_change(state);
+    const place golden = place_in(*state, "golden"), lines = place_in(*state, "lines.txt"),
+                menu = place_below(c.after.path, "menu"), build = place_in(*state, "build"),
+                evidence = place_below(build.path, EVIDENCE_MARKER);
+    command_result result = run_octreel(NULL, "accept %s %s --reason why", lines.path, golden.path);
+    assert_done(&result);
+    command_release(&result);
+    result = run_octreel(NULL, "accept %s %s --no-recursive --reason why", lines.path, c.after.path);
+    assert_trouble(&result, sentence);
+    assert_int_equal(rename(menu.path, build.path), 0);
+    assert_int_equal(symlink("../build", menu.path), 0);
+    result = run_octreel(NULL, "accept %s %s", golden.path, c.after.path);
+    assert_trouble(&result, sentence);
+    assert_int_equal(unlink(menu.path), 0);
+    file_write_text(evidence.path, EVIDENCE_MARKER_BEGINNING);
+    assert_int_equal(rename(build.path, menu.path), 0);
+    result = run_octreel(NULL, "accept %s %s menu/1.png", golden.path, c.after.path);
+    assert_trouble(&result, sentence);
+    assert_true(file_exists(place_below(golden.path, "menu/1.png").path));
+    result = run_octreel(NULL, "accept %s %s old/2.png", golden.path, c.after.path);
+    assert_done(&result);
+    assert_contains(result.out, "golden: 3 before, 2 after: 0 changed, 0 new, 1 removed");
+    command_release(&result);
+}
+
 /* On a full disk, and where a link would lead out of the reference. */
 static void nothing_in_subfolders_is_accepted_after_an_error(void **state)
 {
@@ -438,6 +467,7 @@ int main(void)
         WITH_FOLDER(inaccessible_reference_is_an_error),
         WITH_FOLDER(references_in_subfolders_are_written_and_removed),
         WITH_FOLDER(subfolders_stay_unchanged_without_recursion),
+        WITH_FOLDER(frames_in_folders_that_are_not_searched_keep_their_references),
         WITH_FOLDER(nothing_in_subfolders_is_accepted_after_an_error),
         WITH_FOLDER(frames_in_subfolders_are_named_by_their_paths),
         WITH_FOLDER(sides_in_one_another_are_not_mixed),
