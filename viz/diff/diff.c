@@ -177,7 +177,7 @@ static bool compare_bytes(diff_pair *pair)
     return true;
 }
 
-static void set_unreadable(diff_pair *pair, const octreel_error *error)
+void set_unreadable(diff_pair *pair, const octreel_error *error)
 {
     octreel_error ignored;
     pair->lacks_resources = !check_system_resources(&ignored);

@@ -93,6 +93,10 @@ void diff_count(diff_result *result);
 /* Compare the two frames of a pair and set the finding. Compare pixels or, if one side is a baseline, digests. */
 void compare_pixels(diff_pair *pair, const diff_options *options);
 
+/* Set the finding of a pair that cannot be compared, and copy the error. pair->lacks_resources follows from errno,
+ * which the caller set to 0 before it read the pictures. */
+void set_unreadable(diff_pair *pair, const octreel_error *error);
+
 /* Set *tolerance to the tolerance of the options together with the mask of one pair. Return false if memory runs
  * out. Release the tolerance in any case. */
 bool pair_tolerance(const diff_pair *pair, const diff_options *options, image_tolerance *tolerance);

@@ -71,24 +71,41 @@ typedef struct fetching {
 
 /* Compare the frame of a pair, if it has one, with the picture of an accepted variant. Keep the picture, as
  * frame->path, if it is the first or the frame is within the tolerance of it. Otherwise the pair stays unchanged: it
- * differs by digest, even if another process replaces the picture meanwhile. */
+ * differs by digest, even if another process replaces the picture meanwhile. If the system lacks resources, whether a
+ * tolerance is kept stays unknown, and the pair is unreadable. */
 static void compare_variant(diff_pair *pair, diff_frame *frame, char *picture, const diff_options *options)
 {
     const diff_pair before = *pair;
     char *const first = frame->path;
     frame->path = picture;
+    errno = 0;
     if (pair->b && pair->b->path)
         compare_pixels(pair, options);
     if (pair->finding == FOUND_WITHIN || (!first && diff_finding_verdict(pair->finding) == DIFF_DIFFERENT)) {
         free(first);
         return;
     }
-    if (pair->trouble != before.trouble)
+    if (!pair->lacks_resources || diff_is_exact(options)) {
         free(pair->trouble);
-    *pair = before;
+        *pair = before;
+    }
     frame->path = first ? first : picture;
     if (first)
         free(picture);
+}
+
+/* Fetch the picture of a digest and compare it. If the store lacks it, the error says why. */
+static void try_digest(const fetching *f, diff_pair *pair, diff_frame *frame, const frame_digest *digest,
+                       octreel_error *error)
+{
+    const diff_options *options = &f->result->options;
+    octreel_error ignored;
+    errno = 0;
+    char *picture = picture_store_find(options->store, digest, f->reference->background, error);
+    if (picture)
+        compare_variant(pair, frame, picture, options);
+    else if (pair->b && !diff_is_exact(options) && !check_system_resources(&ignored))
+        set_unreadable(pair, error);
 }
 
 /* Compare with the picture of the newest variant. If the store lacks it, or the frame is not within the tolerance of
@@ -96,22 +113,20 @@ static void compare_variant(diff_pair *pair, diff_frame *frame, char *picture, c
 static void fetch_picture(size_t i, void *context)
 {
     const fetching *f = context;
-    const diff_options *options = &f->result->options;
     diff_pair *pair = &f->result->pairs[i];
     if (!pair->a || pair->a->path ||
         (pair->finding != FOUND_DIGEST && pair->finding != FOUND_SIZE && pair->finding != FOUND_NO_FRAME))
         return;
     diff_frame *frame = &f->reference->frames[pair->a - f->reference->frames];
-    const bool tries_all = pair->b && !diff_is_exact(options);
+    const bool tries_all = pair->b && !diff_is_exact(&f->result->options);
     octreel_error why = {""}, ignored;
-    for (size_t n = 0; n <= frame->variant_count && (!frame->path || (tries_all && pair->finding != FOUND_WITHIN));
+    for (size_t n = 0; n <= frame->variant_count && !pair->lacks_resources &&
+                       (!frame->path || (tries_all && pair->finding != FOUND_WITHIN));
          n++) {
         const frame_digest *digest = n ? &frame->variants[frame->variant_count - n] : &frame->digest;
-        char *picture = picture_store_find(options->store, digest, f->reference->background, n ? &ignored : &why);
-        if (picture)
-            compare_variant(pair, frame, picture, options);
+        try_digest(f, pair, frame, digest, n ? &ignored : &why);
     }
-    if (!frame->path)
+    if (!frame->path && !pair->lacks_resources)
         pair->no_picture = strdup(why.text);
 }
 

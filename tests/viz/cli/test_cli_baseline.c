@@ -5,9 +5,12 @@
 #include "files.h"
 #include "fixture.h"
 #include "galleries.h"
+#include "picture_store.h"
 
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -266,6 +269,43 @@ static void tolerance_applies_to_every_variant(void **state)
     assert_diff(&s, &s.after, more, 1, "; matches none of the 2 accepted variants");
 }
 
+/* Let the process open `count` more files. Returns the former limit. */
+static struct rlimit limit_open_files(int count)
+{
+    struct rlimit before, limit;
+    const int lowest = open("/dev/null", O_RDONLY);
+    assert_true(lowest >= 0 && close(lowest) == 0 && getrlimit(RLIMIT_NOFILE, &before) == 0);
+    limit = before;
+    limit.rlim_cur = (rlim_t)(lowest + count);
+    assert_int_equal(setrlimit(RLIMIT_NOFILE, &limit), 0);
+    return before;
+}
+
+/* With a limit of 0 the stored picture cannot be opened; with 1 the frame cannot be opened at the same time. Without a
+ * tolerance the digests decide. */
+static void tolerance_that_cannot_be_checked_is_an_error(void **state)
+{
+    const states s = make_states(state);
+    char more[4096];
+    snprintf(more, sizeof more, "--store %s" BY("the first", "2026-11-22"), s.store.path);
+    accept_into(&s, &s.before, more);
+    for (int i = 0; i < 6; i++) {
+        const bool exact = i % 2, enough = i / 2 == 2;
+        diff_options options = diff_options_default();
+        options.store = s.store.path;
+        options.tolerance.max_pixels = exact ? 0 : 5;
+        comparison_of made = assert_compared(s.file.path, s.after.path, &options);
+        const struct rlimit before = limit_open_files(i / 2);
+        picture_store_fetch(&made.a, &made.result);
+        assert_int_equal(setrlimit(RLIMIT_NOFILE, &before), 0);
+        const diff_pair *pair = diff_find(&made.result, "2.png");
+        assert_int_equal(made.result.verdict, exact ? DIFF_DIFFERENT : enough ? DIFF_SAME : DIFF_TROUBLE);
+        assert_int_equal(pair->lacks_resources, !exact && !enough);
+        assert_true(exact || enough || strstr(pair->trouble, "cannot be opened: Too many open files"));
+        comparison_release(&made);
+    }
+}
+
 static void tolerance_needs_stored_pictures(void **state)
 {
     const states s = make_states(state);
@@ -363,6 +403,7 @@ int main(void)
         WITH_FOLDER(accept_replaces_a_damaged_picture_in_the_store),
         WITH_FOLDER(stored_pictures_allow_a_tolerance),
         WITH_FOLDER(tolerance_applies_to_every_variant),
+        WITH_FOLDER(tolerance_that_cannot_be_checked_is_an_error),
         WITH_FOLDER(tolerance_needs_stored_pictures),
         WITH_FOLDER(frames_in_subfolders_have_digests_and_stored_pictures),
         WITH_FOLDER(concurrent_accepts_lose_nothing),
