@@ -94,6 +94,11 @@ static void compare_variant(diff_pair *pair, diff_frame *frame, char *picture, c
         free(picture);
 }
 
+static bool is_same_picture(const frame_digest *a, const frame_digest *b)
+{
+    return a->kind == b->kind && a->pixels == b->pixels;
+}
+
 /* Fetch the picture of a digest and compare it. If the store lacks it, the error says why. */
 static void try_digest(const fetching *f, diff_pair *pair, diff_frame *frame, const frame_digest *digest,
                        octreel_error *error)
@@ -124,7 +129,8 @@ static void fetch_picture(size_t i, void *context)
                        (!frame->path || (tries_all && pair->finding != FOUND_WITHIN));
          n++) {
         const frame_digest *digest = n ? &frame->variants[frame->variant_count - n] : &frame->digest;
-        try_digest(f, pair, frame, digest, n ? &ignored : &why);
+        if (n == 0 || !is_same_picture(digest, &frame->digest))
+            try_digest(f, pair, frame, digest, n ? &ignored : &why);
     }
     if (!frame->path && !pair->lacks_resources)
         pair->no_picture = strdup(why.text);
