@@ -74,25 +74,33 @@ static bool check_input_file(const output_file *output, const struct stat *statu
            refuse_file(output, "the same file as ", input, ", which is read");
 }
 
-/* Checks that an output is not read in an input folder: it is neither a picture nor a file of a recording there or in a
- * subfolder. Links to folders are not followed, because they could lead back to the folder. */
-static bool check_input_folder(const output_file *output, const struct stat *status, const char *folder)
+/* Checks that an output is neither a picture nor a file of a recording in an input folder with these names, or in a
+ * subfolder. Links to folders are not followed, because they could lead back to the folder. Subfolders that cannot be
+ * listed are left out, because --no-recursive may leave them out, too. Frees the names. */
+static bool check_input_names(const output_file *output, const struct stat *status, const char *folder, char **names)
 {
-    octreel_error error;
-    char **names = folder_names(folder, &error);
-    bool ok = names || print_refusal("%s", error.text);
+    bool ok = true;
     for (size_t i = 0; ok && names[i]; i++) {
         struct stat entry;
+        octreel_error ignored;
         char *path = path_join(folder, names[i]);
         ok = path || print_refusal("out of memory");
-        if (ok && lstat(path, &entry) == 0 && S_ISDIR(entry.st_mode))
-            ok = names[i][0] == '.' || check_input_folder(output, status, path);
-        else if (ok && (folder_is_recording_file(names[i]) || file_has_ending(names[i], ".png")))
+        if (ok && lstat(path, &entry) == 0 && S_ISDIR(entry.st_mode)) {
+            char **below = names[i][0] == '.' ? NULL : folder_names(path, &ignored);
+            ok = !below || check_input_names(output, status, path, below);
+        } else if (ok && (folder_is_recording_file(names[i]) || file_has_ending(names[i], ".png")))
             ok = check_input_file(output, status, path);
         free(path);
     }
     free(names);
     return ok;
+}
+
+static bool check_input_folder(const output_file *output, const struct stat *status, const char *folder)
+{
+    octreel_error error;
+    char **names = folder_names(folder, &error);
+    return names ? check_input_names(output, status, folder, names) : print_refusal("%s", error.text);
 }
 
 static bool check_input(const output_file *output, const struct stat *status, const char *input)

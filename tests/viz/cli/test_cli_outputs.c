@@ -11,6 +11,8 @@
 #include "fixture.h"
 #include "galleries.h"
 
+enum { NOBODY = 65534, NOT_RUN = 127 };
+
 static const char points[] = "0 0 0\n1 2 3\n4 5 6\n";
 
 /* Run octreel in the folder of the test. */
@@ -117,6 +119,30 @@ static void links_to_folders_are_not_searched_for_inputs(void **state)
     file_write_text(place_in(*state, "report").path, "old");
     do_in(state, "diff a a --junit report >said");
     assert_has_text(state, "report", "<testsuite", true);
+}
+
+/* Only a command that searches such a folder reports it. */
+static void folders_that_cannot_be_listed_are_no_inputs(void **state)
+{
+    const temp_folder *own = *state;
+    const place frames = gallery_make(own, "a", "1.png lost/2.png"), lost = place_below(frames.path, "lost"),
+                report = place_in(own, "report");
+    file_write_text(report.path, "old");
+    assert_int_equal(chmod(own->name, 0777) + chmod(report.path, 0666) + chmod(lost.path, 0), 0);
+    const bool root = geteuid() == 0;
+    if (root && seteuid(NOBODY) != 0)
+        skip(); /* root can list everything, and this container has no other user */
+    command_result flat =
+                       run_octreel(NULL, "diff --no-recursive %s %s --junit %s", frames.path, frames.path, report.path),
+                   all = run_octreel(NULL, "diff %s %s --junit %s", frames.path, frames.path, report.path);
+    assert_true(!root || seteuid(0) == 0);
+    assert_int_equal(chmod(lost.path, 0755), 0);
+    if (root && flat.status == NOT_RUN)
+        skip(); /* the other user cannot search the folder of octreel */
+    assert_done(&flat);
+    assert_has_text(state, "report", "<testsuite", true);
+    assert_trouble(&all, "a/lost: the folder cannot be read: Permission denied");
+    command_release(&flat);
 }
 
 static void two_reports_must_be_different_files(void **state)
@@ -276,6 +302,7 @@ int main(void)
         IN_FOLDER(recording_files_are_not_overwritten),
         IN_FOLDER(reports_overwrite_no_compared_file),
         IN_FOLDER(links_to_folders_are_not_searched_for_inputs),
+        IN_FOLDER(folders_that_cannot_be_listed_are_no_inputs),
         IN_FOLDER(two_reports_must_be_different_files),
         IN_FOLDER(valuable_files_are_not_replaced),
         IN_FOLDER(force_replaces_valuable_files),
