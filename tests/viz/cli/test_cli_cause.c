@@ -151,8 +151,9 @@ static void different_shapes_are_described_in_text_and_json(void **state)
     assert_filmed(&session, &options);
     command_result result = run_octreel(NULL, "diff %s %s", a.path, b.path);
     assert_int_equal(result.status, 1);
-    assert_contains(result.out, "\nanother shape shown at every tick (segment (1, 2, 3) to (500, 8, 9), was (1, 2, 3) "
-                                "to (700, 8, 9)); the ticks that both sides have are equal; frames differ from tick 0 on\n");
+    assert_contains(result.out,
+                    "\nanother shape shown at every tick (segment (1, 2, 3) to (500, 8, 9), was (1, 2, 3) "
+                    "to (700, 8, 9)); the ticks that both sides have are equal; frames differ from tick 0 on\n");
     assert_contains(result.out,
                     "\n    tick 0: nothing differs in the tick itself; another shape shown at every tick (");
     assert_contains(result.out, " of shapes");

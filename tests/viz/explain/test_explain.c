@@ -219,8 +219,9 @@ static void lengths_of_recordings_are_reported(void **state)
     options.every = 2;
     const place b = film_into(*state, "b", &session, &options);
     comparison_of made = assert_explained(&a, &b, 10);
-    assert_contains(made.why.headline, "another last tick (2, was 4); the ticks that both sides have are equal; another "
-                                       "interval of frames (2, was 1)");
+    assert_contains(made.why.headline,
+                    "another last tick (2, was 4); the ticks that both sides have are equal; another "
+                    "interval of frames (2, was 1)");
     assert_contains(find_cause_text(&made, "frame_000001.png"), "b has a frame every 2 ticks");
     assert_contains(find_cause_text(&made, "frame_000004.png"), "b ends at tick 2");
     assert_int_equal(unlink(frame_place(b.path, 2).path), 0);
