@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* query_options.c - the options that ask queries: --nearest, --radius and --range. Each kind of query in
- * query_looks.h that has a placeholder has an option. The numbers in an option's value are the members of the query,
- * in the order of OCTREE_QUERY_MEMBER_MAP. */
+/* query_options.c - the options that ask queries: --nearest, --radius and --range. A kind of query has
+ * an option if its row in query_looks.h has a text for the option's value, such as X,Y,Z. The numbers in the value are
+ * the members of the query, in the order of OCTREE_QUERY_MEMBER_MAP. */
 #include "query_options.h"
 #include "number.h"
 #include "octree/octree.h"

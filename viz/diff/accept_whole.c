@@ -77,7 +77,7 @@ static bool count_lines(const char *folder, uint64_t *lines, octreel_error *erro
     return ok;
 }
 
-static bool check_lines(const char *folder, uint64_t ticks, octreel_error *error)
+static bool check_tick_line_count(const char *folder, uint64_t ticks, octreel_error *error)
 {
     uint64_t lines;
     if (!count_lines(folder, &lines, error))
@@ -115,7 +115,7 @@ bool accept_check_whole(const diff_side *side, octreel_error *error)
         !read_session_file(folder, &file, &digest, error))
         return false;
     const bool ok = check_frames(folder, &file.session, every, error) &&
-                    check_lines(folder, octree_session_length(&file.session) + 1, error);
+                    check_tick_line_count(folder, octree_session_length(&file.session) + 1, error);
     session_release(&file);
     return ok;
 }

@@ -53,7 +53,8 @@ typedef struct diff_side {
 /* Which subfolders of a folder are searched for frames. */
 typedef struct diff_search {
     bool flat;               /* none */
-    const char *left_out[2]; /* not these, such as the other side, nor folders in them; null: none; not owned */
+    const char *left_out[2]; /* paths that the search skips, with all folders in them, such as the other side; null:
+                                none; not owned */
 } diff_search;
 
 /* Open the side at a path. The path "-" reads a PNG or a baseline from standard input. Return false with an error if

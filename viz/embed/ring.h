@@ -9,7 +9,7 @@
 typedef struct ring {
     size_t most;
     batch_list list;
-    point_table start; /* all points at the ring's first tick; the batch of the first tick has no changes */
+    point_table start; /* all points at the ring's first tick, so that the batch of this tick needs no changes */
     uint64_t dropped;  /* number of ticks that were dropped from the ring */
 } ring;
 

@@ -32,7 +32,7 @@ static bool create_game(playing *p, int side, const octree_session *session, oct
 
 /* ---- One tick ------------------------------------------------------------------------------------------------ */
 
-static bool compare_trees(const playing *p)
+static bool do_trees_differ(const playing *p)
 {
     cause_facts facts = {0};
     if (p->same_rules)
@@ -48,7 +48,7 @@ static bool trees_differ(playing *p)
     const uint64_t versions[2] = {octree_version(octree_game_tree(p->games[0])),
                                   octree_version(octree_game_tree(p->games[1]))};
     if (versions[0] != p->versions[0] || versions[1] != p->versions[1])
-        p->unlike = compare_trees(p);
+        p->unlike = do_trees_differ(p);
     p->versions[0] = versions[0];
     p->versions[1] = versions[1];
     return p->unlike;

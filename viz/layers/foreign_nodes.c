@@ -137,7 +137,7 @@ void add_visited_foreign_nodes(scene *s, const layer_source *in, scene_style sty
 /* Half the size of the marker of a point that no foreign node lists, in halves of a picture unit. */
 #define LOST_MARK 6
 
-wrong_marks find_wrong_marks(const layer_source *in)
+wrong_marks find_marks_of_wrong_nodes(const layer_source *in)
 {
     const octree_foreign_state *foreign = &in->tick->foreign;
     wrong_marks marks = {.count = 0};

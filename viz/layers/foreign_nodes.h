@@ -49,7 +49,7 @@ typedef struct wrong_marks {
 } wrong_marks;
 
 /* Return the markers of a tick. The result is empty if the view does not show the foreign nodes. */
-wrong_marks find_wrong_marks(const layer_source *in);
+wrong_marks find_marks_of_wrong_nodes(const layer_source *in);
 
 /* mark_wrong_foreign_nodes() adds a marker for each wrong foreign node and for each point that no foreign node lists.
  * label_wrong_foreign_nodes() writes an error text beside each marker where there is room, and returns the number of

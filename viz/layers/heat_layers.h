@@ -15,7 +15,8 @@
 #define HEAT_VISITS_SHIFT 1
 #define HEAT_POINTS_SHIFT 2
 
-/* The smallest number of visits or points in the last step. */
+/* The least number of visits or points that has the last colour step. Each step begins at 2^shift times the number of
+ * the step before. */
 #define HEAT_LAST(shift) (UINT64_C(1) << (HEAT_STEPS - 1) * (shift))
 
 /* Return the step of a number of visits or points. `amount` must not be 0. */

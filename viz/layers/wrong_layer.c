@@ -114,7 +114,7 @@ static void add_wrong_answers(scene *s, const layer_source *in, view_layer layer
     size_t worst, left_out = 0;
     const bool few = judgement_count_wrong(in->answers, in->answer_count, &worst) <= FEW_RINGS;
     text_space occupied = {.count = 0};
-    const wrong_marks marks = find_wrong_marks(in);
+    const wrong_marks marks = find_marks_of_wrong_nodes(in);
     for (size_t i = 0; i < in->answer_count; i++)
         if (in->answers[i].judgement.wrong)
             mark_wrong_answer(s, &in->answers[i], i, few || i == worst ? RING : RING / 2, &occupied);

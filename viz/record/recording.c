@@ -126,7 +126,7 @@ bool recording_add_tick(void *context, const film_step *step, octreel_error *err
     recording *r = context;
     if (!tick_log_add(&r->log, step->line, step->size, error))
         return false;
-    replacement_end(&r->replaced);
+    replacement_remove_old(&r->replaced);
     add_to_summary(r->summary, step);
     watcher_report(&r->options->watch, r->summary->ticks, r->summary->total);
     return true;

@@ -238,7 +238,7 @@ bool replacement_begin(replacement *r, const char *folder, octreel_error *error)
     return ok;
 }
 
-void replacement_end(replacement *r)
+void replacement_remove_old(replacement *r)
 {
     if (r->aside)
         remove_recording(r->aside);

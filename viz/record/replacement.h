@@ -21,7 +21,7 @@ typedef struct replacement {
 bool replacement_begin(replacement *r, const char *folder, octreel_error *error);
 
 /* Remove the files in the folder aside, if there are any. */
-void replacement_end(replacement *r);
+void replacement_remove_old(replacement *r);
 
 /* Remove the new recording and move the old one back. Returns false if there is no old recording. */
 bool replacement_undo(replacement *r);

@@ -114,7 +114,7 @@ static bool check_line(verifying *v, const film_step *step, octreel_error *error
         v->report->findings[v->report->count++] = differs;
     else if (state == LINE_NONE)
         add_finding(v, VERIFY_LINES, step->tick,
-                    "ticks.jsonl ends before it, and lacks %" PRIu64 " of %" PRIu64 " line%s%s",
+                    "ticks.jsonl ends before this tick: %" PRIu64 " of its %" PRIu64 " line%s are missing%s",
                     v->replay.ticks - step->tick, v->replay.ticks, plural_ending(v->replay.ticks), COMPLETED);
     else
         add_finding(v, VERIFY_LINES, step->tick, "its line in ticks.jsonl %s%s",

@@ -3,16 +3,17 @@
  *
  * A node is shown if it passes every part of the filter that is set:
  *   slice    The slice's plane runs through the node's cell. The rule is that of points: min <= at < max, and the
- *            world's greatest face belongs to the last cell. So a slice is one layer of cells, even if the plane is a
- *            plane of the tree.
+ *            world's greatest face belongs to the last cell. So a slice is one layer of cells, even where its
+ *            plane is also a splitting plane of the tree.
  *   depth    The node's depth is in the range of depths.
  *   leaves   The node is a leaf.
  *   region   The node's box meets the region. Both are closed.
  *
  * A point is shown if it lies in the region, and its leaf passes these tests:
  *   slice    The slice's plane runs through the leaf's cell.
- *   depth    The leaf is at least as deep as the least depth of the range: then the leaf or an ancestor is in the
- * range. leaves   The leaf itself is in the range of depths.
+ *   depth    The leaf is at least as deep as the least depth of the range. A deeper leaf passes, too, because one of
+ *            its ancestors is in the range.
+ *   leaves   The leaf itself is in the range of depths.
  */
 #ifndef SCENE_FILTER_H
 #define SCENE_FILTER_H

@@ -218,7 +218,7 @@ static void collect_nearest(judge_state *s, double slack)
     exact->count = exact->count < k ? exact->count : k;
 }
 
-/* A distance that no point of the world exceeds when it is rounded. Rounding moves a point in space by up to sqrt(3)
+/* An upper bound of how far rounding moves any point of the world. Rounding moves a point in space by up to sqrt(3)
  * times the largest rounding along one axis. */
 static double rounding_slack(const judge_state *s)
 {

@@ -21,7 +21,7 @@
 #define LEVELS 3 /* the maximum number of tree levels that one pass sorts: 8^3 buckets */
 
 typedef struct sorter {
-    const octree *tree; /* the tree; set only if tasks sort, like `memory` */
+    const octree *tree; /* the tree; null unless the sort runs in tasks, as is `memory` */
     arena *memory;
     size_t unsorted; /* a cell of at most this many items becomes a leaf and stays unsorted */
     bool differ;     /* true: all items are different points, so that equal codes need not be adjacent */

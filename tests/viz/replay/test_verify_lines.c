@@ -103,7 +103,7 @@ static void missing_torn_and_surplus_lines_are_found(void **state)
     const place folder = film_short(*state), lines = place_below(folder.path, "ticks.jsonl");
     char *last = copy_line(folder.path, SHORT_TICKS - 1);
     replace_line(folder.path, SHORT_TICKS - 1, "");
-    assert_found(&folder, VERIFY_LINES, SHORT_TICKS - 1, "lacks 1 of 14 lines; octreel record --resume");
+    assert_found(&folder, VERIFY_LINES, SHORT_TICKS - 1, "1 of its 14 lines are missing; octreel record --resume");
     for (size_t cut = 1; cut < strlen(last); cut += 40) {
         size_t size;
         char *text = file_read(lines.path, &size);
@@ -123,7 +123,7 @@ static void missing_torn_and_surplus_lines_are_found(void **state)
     free(before);
     free(last);
     set_file_size(folder.path, "ticks.jsonl", 0);
-    assert_found(&folder, VERIFY_LINES, 0, "lacks 14 of 14 lines");
+    assert_found(&folder, VERIFY_LINES, 0, "14 of its 14 lines are missing");
 }
 
 #define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
