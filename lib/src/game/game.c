@@ -120,8 +120,8 @@ static int key_direction(char key, int axis)
     return (key == "dwe"[axis]) - (key == "asf"[axis]);
 }
 
-/* Record that the player's step was refused and the player stays. In a session with swept collisions, test again for the
- * player at rest, to find the bodies that move into the player. */
+/* Record that the player's step was refused and the player stays. In a session with swept collisions, test again for
+ * the player at rest, to find the bodies that move into the player. */
 static bool refuse_player_step(octree_game *game, octree_status why, const double to[3])
 {
     return game_record_refusal(game, game->session->player.id, why, to) &&

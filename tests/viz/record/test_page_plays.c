@@ -92,7 +92,7 @@ static void queries_on_the_page_have_the_answers_of_the_library(void **state)
     assert_reported_value(d->said, "answer", "[7]");
     assert_reported_value(d->said, "closed ball", "[[7],null]");
     assert_reported_value(d->said, "open ball", "[[],\"open\"]");
-    assert_reported_value(d->said, "refused", "query: range: min is above max on x");
+    assert_reported_value(d->said, "refused", "query: range: min is above max on axis x");
     assert_reported_value(d->said, "asked nothing", "true");
 }
 
