@@ -154,9 +154,9 @@ async function check()
 {
     await settle();
     checks++;
-    const told = byId("status").textContent;
-    if (/undefined|is not (a function|defined|iterable)|unreachable|out of|RangeError|detached/.test(told))
-        find(`told: ${told}`);
+    const status = byId("status").textContent;
+    if (/undefined|is not (a function|defined|iterable)|unreachable|out of|RangeError|detached/.test(status))
+        find(`status: ${status}`);
     if (!interaction.isLive)
         return;
     const {engine} = player(), {tick, view} = engine, fresh = new Engine(interaction.module);
@@ -168,9 +168,9 @@ async function check()
         fresh.step();
     if (fresh.facts() !== engine.facts())
         find(`wrong facts: ${engine.facts().slice(0, 200)} and not ${fresh.facts().slice(0, 200)}`);
-    const told = JSON.stringify(octreel.recording.tick(tick));
-    if (withoutFrame(told) !== withoutFrame(engine.facts()))
-        find(`the page tells other facts: ${told.slice(0, 200)} and not ${engine.facts().slice(0, 200)}`);
+    const recorded = JSON.stringify(octreel.recording.tick(tick));
+    if (withoutFrame(recorded) !== withoutFrame(engine.facts()))
+        find(`the recording has other facts: ${recorded.slice(0, 200)} and not ${engine.facts().slice(0, 200)}`);
     const shown = digestOf(engine.draw().data), scene = engine.digest();
     if (shown !== digestOf(fresh.draw().data) || scene !== fresh.digest())
         find(`wrong picture (${scene === fresh.digest() ? "of the same scene" : "of another scene"}): ${JSON.stringify(view)}`);
