@@ -5,6 +5,7 @@ find_package(ZLIB REQUIRED)
 set(OCTREEL_FONTS "" CACHE PATH "Where spleen-8x16.psfu and its other sizes are, with .gz or without")
 set(fonts "")
 foreach(size 5x8 6x12 8x16 12x24 16x32) # FACE_MAP of scene/lettering.h
+  unset(OCTREEL_FONT_${size} CACHE) # build folders of earlier versions have it
   find_file(OCTREEL_FONT_${size} NAMES spleen-${size}.psfu.gz spleen-${size}.psfu HINTS ${OCTREEL_FONTS}
             PATHS /usr/share/consolefonts /usr/share/kbd/consolefonts NO_CACHE)
   if(NOT OCTREEL_FONT_${size})
