@@ -72,6 +72,8 @@ bool laz_child_read_records(const laz_child *child, const cloud_file *file, uint
     int pipe_ends[2], status = 0;
     bool too_few = false;
     FILE *why = tmpfile();
+    if (!why)
+        why = fopen("/dev/null", "r+b"); /* where files cannot be made, a failure has no reason */
     if (!why || pipe(pipe_ends) != 0) {
         cloud_fail(file, "cannot create a temporary file and a pipe for decompression: %s", strerror(errno));
         if (why)
