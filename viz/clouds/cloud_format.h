@@ -48,9 +48,10 @@ typedef struct cloud_file {
     cloud_lines lines;
     cloud *out;
     octreel_error *error;
-    const cloud_watch *watch; /* the callbacks for progress; may be null */
-    size_t room, row_room;    /* capacities of out->positions and out->rows */
-    unsigned channels;        /* bits 1 << cloud_channel of the values that the file has */
+    const cloud_watch *watch;                 /* the callbacks for progress; may be null */
+    size_t room, row_room;                    /* capacities of out->positions and out->rows */
+    unsigned channels;                        /* bits 1 << cloud_channel of the values that the file has */
+    cloud_span channel_names[CLOUD_CHANNELS]; /* the names that cloud_add_channel() was given */
 } cloud_file;
 
 typedef struct cloud_format {

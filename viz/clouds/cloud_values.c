@@ -82,7 +82,9 @@ bool cloud_add_channel(cloud_file *file, int channel, cloud_span name)
     const unsigned bit = channel < 0 ? 0 : 1U << channel;
     const bool added = bit & ~file->channels;
     file->channels |= bit;
-    if (!added)
+    if (added)
+        file->channel_names[channel] = name;
+    else
         note_ignored(file, name);
     return added;
 }
@@ -91,12 +93,12 @@ bool cloud_add_channel(cloud_file *file, int channel, cloud_span name)
 void cloud_complete_channels(cloud_file *file, unsigned full)
 {
     const unsigned three = file->channels & CLOUD_COLOR;
-    unsigned ignored = three == CLOUD_COLOR ? file->channels & 1U << CLOUD_PACKED : three;
+    const unsigned ignored = three == CLOUD_COLOR ? file->channels & 1U << CLOUD_PACKED : three;
     file->channels &= ~(ignored | 1U << CLOUD_X | 1U << CLOUD_Y | 1U << CLOUD_Z);
     file->out->color_full = three == CLOUD_COLOR ? full : BYTE;
-    for (size_t i = 0; ignored; ignored &= ~(1U << names[i++].channel))
-        if (ignored >> names[i].channel & 1)
-            note_ignored(file, (cloud_span){names[i].name, names[i].name + strlen(names[i].name)});
+    for (int i = 0; i < CLOUD_CHANNELS; i++)
+        if (ignored >> i & 1)
+            note_ignored(file, file->channel_names[i]);
 }
 
 void cloud_discard_values(cloud_file *file)
