@@ -81,8 +81,8 @@ static bool bodies_add(bodies *b, arena *memory, const octree_body *body, uint64
     return true;
 }
 
-/* Empty a slot and close the gap. Entries after the gap move up, unless that would put them before the slot of their
- * hash value. */
+/* Empty a slot of the hash table and close the gap that it leaves. Each later entry of the run moves into the gap,
+ * unless the gap lies before the slot of the entry's hash value. */
 static void clear_slot(bodies *b, size_t gap)
 {
     const size_t mask = b->slot_count - 1;
@@ -120,9 +120,10 @@ static void store_body_position(moving_body *body, const double to[3], uint64_t 
     memcpy(body->position, to, sizeof body->position);
 }
 
-/* Fold a straight path into an interval, as if it were reflected at the ends: a triangle wave with period 2 * (max -
- * min). If the period overflows, the computation uses quarters of all lengths. A path that still overflows stays at its
- * origin. *direction is 1 if the body moves in the direction of the velocity, -1 if in the opposite one, 0 at rest. */
+/* Fold a straight path into an interval, as if the path were reflected at both ends: a triangle wave with period 2 *
+ * (max - min). If the period overflows, the computation uses quarters of all lengths. A path that still overflows stays
+ * at `origin`. *direction is 1 if the body moves in the direction of `velocity`, -1 if it moves in the opposite
+ * direction, and 0 if it is at rest. */
 static double reflect_path(double origin, double velocity, double ticks, double min, double max, int *direction)
 {
     const double straight = origin + velocity * ticks;
@@ -156,8 +157,8 @@ static void bounce_on_axis(const moving_body *body, const octree_box *world, dou
     now->velocity[axis] = (leaves ? -velocity : velocity) + 0.0; /* adding 0.0 turns -0.0 into 0.0 */
 }
 
-/* The position and velocity of a body at a tick. Most bodies have not reached a face yet; a single test without
- * branches recognizes them. */
+/* Compute the position and velocity of a body at a tick. Most bodies have not reached a face of the world yet; a single
+ * test without branches recognizes them. */
 static octree_body body_at_tick(const moving_body *body, const octree_box *world, uint64_t tick)
 {
     octree_body now = {.id = body->id};
@@ -173,12 +174,13 @@ static octree_body body_at_tick(const moving_body *body, const octree_box *world
     return now;
 }
 
-/* Restart the motion of a body at another position. The body keeps its velocity at this tick. */
+/* Restart the motion of a body at the position `place`. The body keeps the velocity that it has at this tick. */
 static void restart_motion(moving_body *body, const octree_box *world, const double place[3], uint64_t tick)
 {
     const octree_body now = body_at_tick(body, world, tick);
     for (int i = 0; i < 3; i++)
-        /* 0 can also mean that the body is too fast to follow: such a body keeps its velocity */
+        /* A computed velocity of 0 can also mean that the body is too fast to follow. Such a body keeps its stored
+         * velocity. */
         if (now.velocity[i] != 0)
             body->velocity[i] = now.velocity[i];
     memcpy(body->origin, place, sizeof body->origin);
@@ -225,15 +227,15 @@ bool game_record_refusal(octree_game *game, uint64_t id, octree_status why, cons
     return list_push(&game->memory, &game->refusals, &refusal, sizeof refusal);
 }
 
-/* If the status is a refusal by the tree, record it; refusals are part of the game. False when there is no memory, here
- * or in the tree. */
+/* If `status` says that the tree refused an edit, record the refusal in the tick. Returns false if memory runs out, and
+ * also if `status` is NO_MEMORY. */
 static bool record_if_refused(octree_game *game, uint64_t id, octree_status status, const double position[3])
 {
     return status == OCTREE_OK || (status != OCTREE_NO_MEMORY && game_record_refusal(game, id, status, position));
 }
 
-/* The tick at which the motion of an edited body starts. It is the tick before, because edits come before the motion of
- * their tick. */
+/* Return the tick at which the motion of an edited body starts. This is the tick before the current one, because a tick
+ * applies its edits before it moves the bodies. */
 static uint64_t motion_start_tick(const octree_game *game)
 {
     return game->tick.number ? game->tick.number - 1 : 0;
@@ -280,7 +282,8 @@ static bool insert_body(octree_game *game, const octree_body *body)
 
 static bool remove_body(octree_game *game, uint64_t id)
 {
-    static const double nowhere[3] = {0, 0, 0}; /* the position recorded for a removal, which has no position */
+    /* Recorded as the position of a refused removal, because a removal has no position. */
+    static const double nowhere[3] = {0, 0, 0};
     moving_body *body = bodies_find(&game->bodies, id);
     const octree_status status = body ? game_remove(game, body->position, id) : OCTREE_NOT_FOUND;
     if (status == OCTREE_OK)
@@ -315,10 +318,10 @@ static bool apply_edit(octree_game *game, const octree_edit *edit)
 
 /* A list of moves of different bodies, as arrays for octree_move_many(). */
 typedef struct motion {
-    octree_point *points; /* the moving points, with the positions that the tree stores */
+    octree_point *points; /* the moving points, at the positions that the tree stores */
     double (*to)[3];
     octree_status *statuses;
-    uint32_t *bodies; /* the index of the body of each move */
+    uint32_t *bodies; /* bodies[i]: the index in the list of bodies of the body that move i moves */
     size_t count, room;
 } motion;
 
@@ -354,7 +357,7 @@ static void collect_moves_by_velocity(const octree_game *game, motion *m)
 {
     for (size_t i = 0; i < game->bodies.items.count; i++) {
         const moving_body *body = &bodies_items(&game->bodies)[i];
-        /* A body at rest is left out and keeps its bits: body_at_tick() would turn -0.0 into +0.0. */
+        /* Skip bodies at rest: body_at_tick() would turn a coordinate of -0.0 into +0.0. */
         if (!is_moving(body->velocity))
             continue;
         const octree_body now = body_at_tick(body, &game->session->tree.world, game->tick.number);
@@ -379,8 +382,8 @@ static bool move_points(octree *tree, motion *m)
     return ok;
 }
 
-/* Move the points in the tree and then the bodies. `edited` is true if edits move the bodies, which restarts their
- * motion. False when there is no memory. */
+/* Move the points in the tree and then the bodies. `edited` is true if the moves are edits; an edit restarts the motion
+ * of its body. False when there is no memory. */
 static bool apply_motion(octree_game *game, motion *m, bool edited)
 {
     bool ok = move_points(game->tree, m);
@@ -398,8 +401,8 @@ static bool apply_motion(octree_game *game, motion *m, bool edited)
     return ok;
 }
 
-/* Collect a run of moves: from the first edit on, until an edit moves an unknown body or a body that the run moves
- * already. */
+/* Collect a run of moves: from the first edit on, up to an edit that moves an unknown body, or a body that the run
+ * already moves. */
 static void collect_run_of_moves(octree_game *game, const octree_edit *edits, size_t count, motion *m)
 {
     const size_t run = ++game->bodies.runs;
@@ -414,14 +417,15 @@ static void collect_run_of_moves(octree_game *game, const octree_edit *edits, si
     }
 }
 
-/* Apply edits that are all moves. They are divided into runs that move no body twice. False when there is no memory. */
+/* Apply a list of edits that are all moves. The list is divided into runs; a run moves no body twice. False when there
+ * is no memory. */
 static bool apply_move_edits(octree_game *game, const octree_edit *edits, size_t count)
 {
     motion m;
     bool ok = motion_allocate(&m, &game->memory, count);
     for (size_t done = 0; ok && done < count; done += m.count ? m.count : 1) {
         collect_run_of_moves(game, edits + done, count - done, &m);
-        /* An edit of an unknown body is not part of a run: it is refused. */
+        /* A run without moves means that the next edit moves an unknown body. apply_edit() refuses such an edit. */
         ok = m.count > 0 ? apply_motion(game, &m, true) : apply_edit(game, edits + done);
     }
     motion_release(&m, &game->memory);
@@ -469,7 +473,7 @@ bool game_list_movers(octree_game *game)
         if (!is_moving(body->velocity))
             continue;
         octree_body now = body_at_tick(body, &game->session->tree.world, game->tick.number);
-        /* Show the position that the tree stores, because a full leaf may have refused the move. */
+        /* Show the position that the tree stores. It differs from the computed one if a full leaf refused the move. */
         memcpy(now.position, body->position, sizeof now.position);
         /* A body that is too fast to follow does not move. */
         if (is_moving(now.velocity) && !list_push(&game->memory, &game->movers, &now, sizeof now))

@@ -13,18 +13,19 @@ typedef struct moving_body {
     double position[3]; /* the position that the tree stores */
     double origin[3];
     double velocity[3];
-    uint64_t since;   /* the tick at which the body was at `origin` */
-    uint64_t moved;   /* the last tick that moved the body; UINT64_MAX: no tick has */
+    uint64_t since;   /* the tick at which the body was at the position `origin` */
+    uint64_t moved;   /* the last tick that moved the body; UINT64_MAX: no tick has moved it */
     double before[3]; /* the position that the tree stored before the tick `moved` */
-    size_t run;       /* the number of the last run of edits that moved the body; 0: no run has */
+    size_t run;       /* the number of the last run of edits that moved the body; 0: no run has moved it */
 } moving_body;
 
 typedef struct bodies {
-    list items;      /* a list of moving_body */
-    uint32_t *slots; /* a hash table of ids with linear probing; a slot holds an index of `items` + 1; 0: it is empty */
+    list items; /* a list of moving_body */
+    /* A hash table of ids with linear probing; a slot holds 1 + an index of `items`, or 0 if the slot is empty. */
+    uint32_t *slots;
     size_t slot_count; /* the length of `slots`: a power of two, or 0 */
     size_t movers;     /* the number of bodies whose velocity is not zero */
-    size_t runs;       /* the number of runs so far; a run is a sequence of edits that move different bodies */
+    size_t runs;       /* the number of runs of edits so far; a run is a sequence of edits that move different bodies */
 } bodies;
 
 void bodies_release(bodies *b, arena *memory);
@@ -34,7 +35,7 @@ static inline moving_body *bodies_items(const bodies *b)
     return b->items.items;
 }
 
-/* The body with this id, or null. */
+/* Find the body with an id. Returns null if there is none. */
 moving_body *bodies_find(const bodies *b, uint64_t id);
 
 /* Insert or move a point in the tree, and record the changed positions for the tree summary. Returns the status of
@@ -45,16 +46,17 @@ octree_status game_move(octree_game *game, const double from[3], uint64_t id, co
 /* Add a refusal to the tick. False when there is no memory. */
 bool game_record_refusal(octree_game *game, uint64_t id, octree_status why, const double position[3]);
 
-/* Check whether a body can be inserted: DUPLICATE (its id is in use), NOT_FINITE (its velocity), or OK. */
+/* Check whether a body can be inserted. Returns DUPLICATE if its id is in use, NOT_FINITE if its velocity is not
+ * finite, otherwise OK. */
 octree_status game_check_body(const octree_game *game, const octree_body *body);
 
-/* Add a body after its point was inserted with this status. If the status is OK, the body is added; otherwise a refusal
- * is recorded. False when there is no memory. */
+/* Add a body after the tree was asked to insert its point and returned `status`. If `status` is OK, the body is added;
+ * otherwise a refusal is recorded. False when there is no memory. */
 bool game_add_body(octree_game *game, const octree_body *body, octree_status status);
 
-/* The steps of a tick. game_apply_edits() applies its edits in their order. game_move_bodies() moves the bodies by
- * their velocities. The last function lists the moving bodies as they are after the tick. All return false when there
- * is no memory. */
+/* The steps of a tick. game_apply_edits() applies the edits in order. game_move_bodies() moves each body by its
+ * velocity. game_list_movers() lists the moving bodies as they are after the tick. All three return false when there is
+ * no memory. */
 bool game_apply_edits(octree_game *game, const octree_input *input);
 bool game_move_bodies(octree_game *game);
 bool game_list_movers(octree_game *game);

@@ -27,10 +27,12 @@ const char *octree_shape_name(octree_shape_kind kind)
 
 /* ---- The collision test --------------------------------------------------------------------------------------
  *
- * The test queries the tree before the player's step is made. It tests the position at the end of the step and leaves
- * out the player's own point. It finds the points that a step would collide with, and nothing has to be undone. With
- * sweep, a query of the tree finds the points at rest, and the bodies that this tick has moved are tested one by one:
- * their path is relative to the player's, and the tree stores only its end.
+ * The test takes place before the player's step is made. It finds the points that collide with the player at the end
+ * of the step, without the player's own point. So a step that collides is never made and need not be undone.
+ *
+ * If the session has swept collisions, the whole path of the player is tested. A query of the tree finds the points at
+ * rest. The bodies that this tick has moved are tested one by one: the tree stores only the end of a body's path, and
+ * the path must be taken relative to the player's path.
  */
 
 static bool was_moved_in_tick(const octree_game *game, const moving_body *body)
@@ -38,7 +40,8 @@ static bool was_moved_in_tick(const octree_game *game, const moving_body *body)
     return body->moved == game->tick.number;
 }
 
-/* An octree_point_visitor: collect a hit. With sweep, bodies that this tick has moved are left out. */
+/* An octree_point_visitor that collects a hit. If the session has swept collisions, bodies that this tick has moved are
+ * skipped. */
 static bool collect_hit(const octree_point *point, void *context)
 {
     octree_game *game = context;
@@ -48,8 +51,8 @@ static bool collect_hit(const octree_point *point, void *context)
     return !game->out_of_memory;
 }
 
-/* Collect the points of the tree that collide with the player. With sweep, bodies that this tick has moved are left
- * out. False when there is no memory. */
+/* Collect the points of the tree that collide with the player. If the session has swept collisions, bodies that this
+ * tick has moved are left out. False when there is no memory. */
 static bool collect_hit_points(octree_game *game, const octree_point *self)
 {
     const octree_tick *tick = &game->tick;
@@ -80,7 +83,8 @@ static bool collect_hit_moved_bodies(octree_game *game)
     return true;
 }
 
-/* List the position of each hit before the tick, in the order of the hits. False when there is no memory. */
+/* For each hit, in the order of the hits, list the position that its point had before the tick. False when there is no
+ * memory. */
 static bool list_hit_origins(octree_game *game)
 {
     const octree_point *hits = game->hits.items;
@@ -95,8 +99,9 @@ static bool list_hit_origins(octree_game *game)
     return true;
 }
 
-/* Collect the points that collide with the player into `hits`, sorted by id. Without sweep the player's box is tested
- * at `to`; with sweep it is tested on the whole way there. False when there is no memory. */
+/* Collect the points that collide with the player into `hits`, sorted by id. Without swept collisions, the player's box
+ * is tested at the position `to`. With swept collisions, the box is tested on its whole path to `to`. False when there
+ * is no memory. */
 static bool test_collision(octree_game *game, const double to[3])
 {
     octree_tick *tick = &game->tick;
@@ -120,8 +125,8 @@ static int key_direction(char key, int axis)
     return (key == "dwe"[axis]) - (key == "asf"[axis]);
 }
 
-/* Record that the player's step was refused and the player stays. In a session with swept collisions, test again for
- * the player at rest, to find the bodies that move into the player. */
+/* Record that the player's step was refused, so that the player stays. In a session with swept collisions, test again
+ * for a player at rest, to find the bodies that move into the player. */
 static bool refuse_player_step(octree_game *game, octree_status why, const double to[3])
 {
     return game_record_refusal(game, game->session->player.id, why, to) &&
@@ -217,8 +222,8 @@ static bool check_foreign_nodes(octree_game *game, const octree_foreign_tree *re
            foreign_check_nodes(&game->foreign, &points);
 }
 
-/* Check the foreign nodes. Then ask the queries and list the shapes: those of the tick first, then those of every tick.
- * False when there is no memory. */
+/* Check the foreign nodes. Then ask the queries and list the shapes. Queries and shapes of this tick come first, those
+ * of every tick follow. False when there is no memory. */
 static bool ask_queries_and_list_shapes(octree_game *game, const octree_input *input)
 {
     const octree_input always = session_input(game->session, OCTREE_EVERY_TICK);
@@ -228,7 +233,8 @@ static bool ask_queries_and_list_shapes(octree_game *game, const octree_input *i
            list_shapes(game, input->shapes, input->shape_count) && list_shapes(game, always.shapes, always.shape_count);
 }
 
-/* Store the tick's splits and merges, and the digest and statistics of its tree. False when there is no memory. */
+/* Store the splits and merges of the tick, and the digest and the statistics of the tree. False when there is no
+ * memory. */
 static bool summarize_tree(octree_game *game)
 {
     tree_summary *summary = &game->summary;
@@ -384,7 +390,7 @@ static bool play_changes(octree_game *game, const octree_input *input)
     return game_apply_edits(game, input) && game_move_bodies(game) && step_player(game);
 }
 
-/* Play one tick with the given input. If `given` is null, use the session's input. */
+/* Play one tick. `given` is the input of the tick; if it is null, the session's input is used. */
 static octree_status play_tick(octree_game *game, char key, const octree_input *given)
 {
     if (is_running_callback(game->tree))

@@ -7,8 +7,8 @@
 #include "../audit/foreign.h"
 #include "tree_summary.h"
 
-/* The lists that octree_tick points to. Each row has the member, the member for its count, and the type of the
- * items. */
+/* The lists that octree_tick points to. Each row has the name of a list, the member of octree_tick for its item count,
+ * and the type of its items. */
 #define GAME_SHOWN_LISTS(X)                                                                                            \
     X(hits, hit_count, octree_point)                                                                                   \
     X(refusals, refusal_count, octree_refusal)                                                                         \
@@ -20,8 +20,8 @@
     X(shapes, shape_count, octree_shape)                                                                               \
     X(movers, mover_count, octree_body)
 
-/* All lists that are empty at the start of a tick: the lists above, the position of each hit before the tick (with
- * sweep), and the points and neighbours of all answers. */
+/* All lists that are empty at the start of a tick: GAME_SHOWN_LISTS, the positions that the hits had before the tick
+ * (only with swept collisions), and the points and neighbours of all answers. */
 #define GAME_LISTS(X)                                                                                                  \
     GAME_SHOWN_LISTS(X)                                                                                                \
     X(hit_from, none, double[3])                                                                                       \
@@ -33,10 +33,11 @@ struct octree_game {
     octree *tree;
     arena memory;
     bodies bodies;
-    int64_t steps[3]; /* on each axis, the player's steps up minus its steps down; its position is computed from them */
-    double fastest;   /* the largest initial speed of the session's bodies along one axis */
+    /* On each axis, the player's steps up minus its steps down; they determine the player's position. */
+    int64_t steps[3];
+    double fastest; /* the largest initial speed of the session's bodies along one axis */
     bool quit;
-    bool out_of_memory; /* true: a visitor or tracer had no memory to record a hit or a node */
+    bool out_of_memory; /* true: a visitor or tracer ran out of memory, so a hit or a node is missing */
     tree_summary summary;
     foreign foreign;
     judge judge;
@@ -47,7 +48,8 @@ struct octree_game {
 #undef LIST
 };
 
-/* The points of the game after the changes of the tick, for checking foreign answers and nodes. */
+/* The points of the game after the changes of the tick. Foreign answers and foreign nodes are checked against these
+ * points. */
 audited_points game_audited_points(const octree_game *game);
 
 #endif

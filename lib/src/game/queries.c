@@ -66,7 +66,8 @@ bool game_ask_by_key(octree_game *game)
     return game->tick.key != 'n' || ask_in_game(game, &nearest, true);
 }
 
-/* Set each answer's pointers to its part of the lists. The lists must not grow any more in this tick. */
+/* Set the pointers of each answer to its part of the lists of results. The lists must not grow any more in this
+ * tick. */
 static void assign_results(octree_game *game)
 {
     const octree_point *points = game->found_points.items;
@@ -101,7 +102,7 @@ octree_search game_search_options(octree_game *game, octree_cost *cost)
     return (octree_search){.cost = cost, .trace = record_visit, .trace_context = game};
 }
 
-/* Compare two visits by node. Visits of one node have the order visited, taken whole, pruned. */
+/* Compare two visits by their nodes. Visits of the same node are ordered: visited, taken whole, pruned. */
 static int compare_visits(const void *a, const void *b)
 {
     static const int weakness[OCTREE_TRACE_KINDS] = {

@@ -6,17 +6,17 @@
 #include "../query/kind.h"
 #include "octree/game.h"
 
-/* Options for a search whose cost is added to *cost and whose visited nodes are recorded in the tick. `cost` may be
- * null. */
+/* Make the options of a search. The search adds its cost to *cost, which may be null, and records the nodes that it
+ * visits in the tick. */
 octree_search game_search_options(octree_game *game, octree_cost *cost);
 
-/* game_ask_queries() asks some of a tick's queries, which were checked before. game_ask_by_key() asks the query of the
- * key n if n is the tick's key. False when there is no memory. */
+/* game_ask_queries() asks `count` queries, which have been checked. game_ask_by_key() asks the query of the key n if n
+ * is the player's key in this tick. Both return false when there is no memory. */
 bool game_ask_queries(octree_game *game, const octree_query *queries, size_t count);
 bool game_ask_by_key(octree_game *game);
 
-/* Finish the queries after all searches of a tick. Set the result pointers of the answers, sort and count the visited
- * nodes, and list the leaves that hold a result. False when there is no memory. */
+/* Finish the queries after all searches of a tick. Set the pointers of the answers to their results, sort and count the
+ * visited nodes, and list the leaves that hold a result. False when there is no memory. */
 bool game_finish_queries(octree_game *game);
 
 #endif

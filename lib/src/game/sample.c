@@ -22,7 +22,8 @@ double octree_random_unit(uint64_t *state)
     return (double)(octree_random(state) >> 11) * 0x1p-53;
 }
 
-/* A value with mean 0 and variance 1, within +-6: the sum of twelve uniform values (Irwin-Hall distribution). */
+/* Return a random value with mean 0 and variance 1, between -6 and 6: the sum of twelve uniform values, shifted
+ * (Irwin-Hall distribution). */
 static double random_normal(uint64_t *state)
 {
     double sum = -6;
@@ -31,7 +32,8 @@ static double random_normal(uint64_t *state)
     return sum;
 }
 
-/* A distribution fills an array of positions, one per row, with coordinates in [-1, 1]. */
+/* A function that draws `count` random positions. Each row of `rows` is a position, with three coordinates in [-1,
+ * 1]. */
 typedef void distribution(uint64_t seed, size_t count, double (*rows)[3]);
 
 static void sample_uniform(uint64_t seed, size_t count, double (*rows)[3])
@@ -41,7 +43,7 @@ static void sample_uniform(uint64_t seed, size_t count, double (*rows)[3])
             rows[n][i] = 2 * octree_random_unit(&seed) - 1;
 }
 
-/* A random value with a normal distribution around a center. Values outside [-1, 1] are drawn again, so that points do
+/* Return a normally distributed random value around `center`. A value outside [-1, 1] is drawn again, so that points do
  * not pile up on the faces of the box. */
 static double random_within(uint64_t *state, double center, double sigma)
 {

@@ -88,8 +88,8 @@ octree_status octree_input_check(const octree_input *input)
     return status == OCTREE_OK && input->gap ? check_gap(input->gap) : status;
 }
 
-/* Check an array of items, each of which begins with its tick. The ticks must ascend; if `distinct` is true, no two may
- * be equal. */
+/* Check the ticks of an array of items; each item begins with its tick. The ticks must ascend. If `distinct` is true,
+ * no two may be equal. */
 static octree_status check_order(const void *items, size_t size, size_t count, bool distinct)
 {
     if (!items && count)
@@ -230,9 +230,11 @@ static const octree_body paper_bodies[] = {
 };
 
 static const char paper_keys[] =
-    "n.eeasnassdn."                                          /* the player has three collisions near the origin */
-    "asfasfasfasfasfasfasfasfasfasfasfasfasfasfasfasfasfasf" /* the player moves down to the lowest corner ... */
-    "sffffnasf."                                             /* ... and then against the three faces there */
+    "n.eeasnassdn." /* the player has three collisions near the origin */
+    /* The player moves down to the lowest corner of the world. */
+    "asfasfasfasfasfasfasfasfasfasfasfasfasfasfasfasfasfasf"
+    /* The player moves against the three faces at the lowest corner. */
+    "sffffnasf."
     "ddweddwedddddddddddddddddddddddddddddddddnddwddddn" /* the player moves to point 2, then against the face x = 1000
                                                           */
     "ewaewaewaewaewaewaewaewaewaewa"                     /* the player moves up to point 9 */
@@ -246,7 +248,7 @@ static const char paper_keys[] =
         .tick = at, .kind = OCTREE_QUERY_RANGE, .box = { {700, 700, 700}, {1000, 1000, 1000} }                         \
     }
 
-/* Range queries in the corner with the full cell, while the player is there. */
+/* Range queries around the full cell in the corner, at the ticks at which the player is there. */
 static const octree_query paper_queries[] = {
     CORNER(212), CORNER(213), CORNER(214), CORNER(215), CORNER(216), CORNER(217),
     CORNER(218), CORNER(219), CORNER(220), CORNER(221), CORNER(222), CORNER(223),

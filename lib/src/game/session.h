@@ -5,14 +5,14 @@
 
 #include "octree/game.h"
 
-/* The session's input for a tick, or for OCTREE_EVERY_TICK: its edits, queries, shapes, gap and foreign nodes, but not
- * its key. Cost: O(log n) for n of them. */
+/* Return the session's input for a tick, or for OCTREE_EVERY_TICK: the edits, queries, shapes, gap and foreign nodes,
+ * but not the player's key. Cost: O(log n) for n items in the session. */
 octree_input session_input(const octree_session *session, uint64_t tick);
 
-/* Whether a key can be the key of a tick. All keys in game.h can, except q. */
+/* Return true if a key can be the player's key in a tick: any key of game.h except q, which ends the session. */
 bool is_game_key(char key);
 
-/* Check a session whose tree could be created. Errors: those of octree_game_create. */
+/* Check a session whose tree could be created. Returns the errors that octree_game_create() documents. */
 octree_status game_check_session(const octree_session *session, const octree *tree);
 
 /* Insert the bodies of the game's session and record refusals. Returns OK, DUPLICATE or NO_MEMORY. */

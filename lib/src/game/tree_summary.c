@@ -9,13 +9,13 @@
 /* A leaf, or a subtree of at most SUBTREE_POINTS points whose parent has more points. */
 typedef struct subtree {
     octree_address address;
-    size_t first_inner, inner_count; /* the part of the list of inner nodes that belongs to the subtree */
+    size_t first_inner, inner_count; /* the part of the list `inner` that belongs to the subtree */
     octree_stats stats;
     uint64_t sum; /* the sum of digest_node() of all nodes of the subtree */
 } subtree;
 
-/* An update in progress. It walks the tree in pre-order, which is the order of all lists, so each list needs one
- * index. */
+/* The state of an update. An update walks the tree in pre-order. All lists are in pre-order too, so one index per list
+ * is enough. */
 typedef struct update {
     tree_summary *to;
     arena *memory;
@@ -49,7 +49,7 @@ static void add_inner_node(update *u, octree_address address)
     u->out_of_memory |= !list_push(u->memory, &u->to->inner, &address, sizeof address);
 }
 
-/* The subtree at this address in the last update, or null. */
+/* Find the subtree with this address in the list of the last update. Returns null if the list has no such subtree. */
 static const subtree *find_subtree_before(update *u, octree_address address)
 {
     const subtree *before = u->to->subtrees_before.items;
@@ -59,7 +59,7 @@ static const subtree *find_subtree_before(update *u, octree_address address)
     return u->next_before < count && before[u->next_before].address == address ? &before[u->next_before] : NULL;
 }
 
-/* Whether a point in the cell at an address has changed since the last update. */
+/* Return true if a point in the cell with this address has changed since the last update. */
 static bool has_changed(update *u, octree_address address)
 {
     const uint64_t *codes = u->to->touched.items;
@@ -103,8 +103,8 @@ static void add_subtree(update *u, const node *n, octree_address address)
 
 /* ---- The whole tree ----------------------------------------------------------------------------------------- */
 
-/* Add a node and all its descendants, in pre-order. If `whole` is false, subtrees are added to the list of subtrees
- * instead of node by node. */
+/* Add a node and all its descendants, in pre-order. `whole` false: a subtree of at most SUBTREE_POINTS points is added
+ * to the list of subtrees, instead of its single nodes. */
 static void add_nodes_below(update *u, octree_stats *stats, uint64_t *sum, const node *n, octree_address address,
                             bool whole)
 {

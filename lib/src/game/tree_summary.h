@@ -13,13 +13,13 @@
 #include "../tree/tree.h"
 
 typedef struct tree_summary {
-    bool known; /* true: the lists describe the tree with this version and capacity */
+    bool known; /* true: the lists are valid, for the tree with this version and capacity */
     uint64_t version;
     size_t capacity;
-    list touched; /* a list of uint64_t: Morton codes of the positions that changed since this version */
-    /* lists of subtree (tree_summary.c), in pre-order: now and before the last update */
+    list touched; /* the positions that changed since the last update: Morton codes (uint64_t) */
+    /* the subtrees after and before the last update, in pre-order; the item type is in tree_summary.c */
     list subtrees, subtrees_before;
-    /* lists of octree_address, in pre-order: the inner nodes now and before the last update */
+    /* the addresses of the inner nodes after and before the last update, in pre-order */
     list inner, inner_before;
     octree_stats stats;
     uint64_t digest;
