@@ -23,7 +23,7 @@ typedef struct page {
     FILE *out;
     const audit_verdict *verdict;
     char *base;      /* the relative path of the recording, such as "./../flight/"; null: no recording to link to */
-    bool has_viewer; /* the recording has an index.html */
+    bool has_viewer; /* the folder of the recording has an index.html, the page that plays the recording */
 } page;
 
 /* Return the relative path from one absolute folder to another. */
@@ -135,7 +135,8 @@ typedef struct chart {
     const audit_kind *kind;
     bool ratio; /* true: the value is the ratio of distances; false: the recall */
     double from, to;
-    double finite;       /* the end of the axis for finite values; infinite values are drawn above it, at `to` */
+    double finite; /* the end of the axis for finite values; infinite values are drawn beyond this end, at the value
+                      `to` */
     const double *limit; /* null: no limit is drawn */
 } chart;
 
@@ -149,8 +150,8 @@ static bool is_worse(const chart *c, const audit_tick *a, const audit_tick *than
     return c->ratio ? a->ratio > than->ratio : audit_tick_recall(a) < audit_tick_recall(than);
 }
 
-/* Lay out a chart. One end of its axis is 1. The other end is the worst finite value or the limit, whichever is worse.
- * If there are infinite values, the axis is longer by a quarter. */
+/* Lay out a chart. One end of its axis is the value 1. The other end is the worst finite value or the limit,
+ * whichever is worse. If some values are infinite, the axis is a quarter longer. */
 static chart make_chart(const audit_kind *kind, bool ratio, const audit_limits *limits)
 {
     chart c = {.kind = kind, .ratio = ratio, .from = 1, .to = 1};
@@ -178,7 +179,7 @@ static double chart_x(const chart *c, uint64_t tick)
     return LEFT + (last > first ? (double)(tick - first) / (double)(last - first) : 0.5) * (WIDTH - LEFT - RIGHT);
 }
 
-/* Return the vertical position of a value. An infinite value is on the upper edge. */
+/* Return the y coordinate of a value in the chart. An infinite value is drawn at the upper edge. */
 static double chart_y(const chart *c, double value)
 {
     const double share = isinf(value) ? 1 : (value - c->from) / (c->to - c->from);
@@ -204,7 +205,7 @@ static void write_ticks_scale(const page *p, const chart *c)
     putc('\n', p->out);
 }
 
-/* Return the worst of the ticks that one point of the chart represents. */
+/* A point of the chart stands for a range of ticks. Return the worst tick of this range. */
 static const audit_tick *find_worst_tick(const chart *c, size_t point, size_t points)
 {
     const size_t count = c->kind->tick_count;
@@ -264,7 +265,7 @@ static void write_links(const page *p, uint64_t tick)
     fputs(frame || viewer ? ")" : "", p->out);
 }
 
-/* Print a wrong answer: first as a sentence, then as the JSON of ticks.jsonl with all digits. */
+/* Print a wrong answer: first as a sentence, then as the JSON of its line in ticks.jsonl, which has all digits. */
 static void write_worst(const page *p, const audit_case *c, const octree_query_traits *about)
 {
     fprintf(p->out, "<li>tick %" PRIu64, c->tick);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* audit_page.h - the HTML page of octreel audit, embedded by CMake as two strings: the part before the contents and
- * the part after them. */
+/* audit_page.h - the template of the HTML page that octreel audit writes. CMake embeds it as two strings: the HTML
+ * before the contents and the HTML after them. */
 #ifndef REPORT_AUDIT_PAGE_H
 #define REPORT_AUDIT_PAGE_H
 

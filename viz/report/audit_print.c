@@ -41,7 +41,8 @@ static const char *reason_words(octree_wrong_kind kind)
     return words[kind];
 }
 
-/* Print points: "; missing 3 at (1, 2, 3), 4 at (5, 6, 7) and 2 more". The word "missing" is `what`. */
+/* Print a list of points: "; missing 3 at (1, 2, 3), 4 at (5, 6, 7) and 2 more". `what` is the first word, here
+ * "missing". */
 static void print_points(FILE *out, const char *what, const octree_point *points, size_t count)
 {
     const size_t printed = count < AUDIT_POINTS ? count : AUDIT_POINTS;
@@ -56,8 +57,8 @@ static void print_points(FILE *out, const char *what, const octree_point *points
         fprintf(out, " and %zu more", count - printed);
 }
 
-/* If all missing or all extra points lie on the boundary of the region, print so, and the member of the query that
- * accepts indexes that treat boundaries this way. */
+/* A wrong answer may be missing only points on the region's boundary, or have only such extra points. Then print
+ * this, and print the member of the query that makes this treatment of the boundary correct. */
 static void print_boundary(FILE *out, const octree_judgement *made, const char *region)
 {
     static const char *const habits[OCTREE_BOUNDS_KINDS] = {
@@ -116,7 +117,7 @@ void audit_print_limits(FILE *out, const char *before, const audit_limits *limit
     fputs(after, out);
 }
 
-/* Print whether a value is within its limit. If there is no limit, print nothing. */
+/* Print whether the audit of this kind of query is within its limits. If no limits are set, print nothing. */
 static void print_if_within(FILE *out, const audit_limits *limits, bool passes)
 {
     if (has_limits(limits))

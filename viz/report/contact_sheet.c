@@ -40,7 +40,7 @@ static void fill_rectangle(image *sheet, int x, int y, int width, int height, im
                    (uint8_t[]){color.r, color.g, color.b}, 3);
 }
 
-/* Draw at most `most` characters of a text. A longer text is cut and ends in dots. */
+/* Draw a text. A text of more than `most` characters is cut to this length and ends in dots. */
 static void draw_text(image *sheet, int x, int y, size_t most, const char *text, image_color color)
 {
     const glyph_set *face = &glyph_sets[FACE_8X16];
@@ -56,17 +56,17 @@ static void draw_text(image *sheet, int x, int y, size_t most, const char *text,
 
 /* ---- Small pictures ------------------------------------------------------------------------------------------ */
 
-/* The rectangle of a picture that becomes one pixel of a cell. */
+/* The rectangle of a picture's pixels that are reduced to one pixel of a cell. */
 typedef struct patch {
     int x0, y0, x1, y1;
 } patch;
 
-/* Return the color of a cell's pixel: the color of the brightest pixel of its rectangle if `brightest`, else the
- * mean. */
+/* Return the color of one pixel of a cell. With `brightest`, it is the color of the brightest pixel in the rectangle
+ * of the picture; else it is the mean color of the rectangle. */
 static image_color color_of(const image *picture, const patch *p, bool brightest)
 {
     const uint64_t count = (uint64_t)(p->x1 - p->x0) * (uint64_t)(p->y1 - p->y0);
-    /* Starting at half the divisor makes the divisions round to nearest. */
+    /* The sums start at half the divisor, so that the divisions below round to nearest. */
     uint64_t sum[3] = {count / 2, count / 2, count / 2};
     image_color best = image_color_at(picture, p->x0, p->y0);
     for (int y = p->y0; y < p->y1; y++)
@@ -82,8 +82,8 @@ static image_color color_of(const image *picture, const patch *p, bool brightest
                      : (image_color){(uint8_t)(sum[0] / count), (uint8_t)(sum[1] / count), (uint8_t)(sum[2] / count)};
 }
 
-/* Find the pixels [*first, *end) of the picture that pixel `at` of the cell covers along one axis: at least one. The
- * picture has `length` pixels along this axis; its reduced copy has `across`. */
+/* A cell shows a reduced picture. Along one axis, `length` pixels of the picture are reduced to `across` pixels of
+ * the cell. Find the pixels [*first, *end) of the picture that pixel `at` of the cell covers: at least one pixel. */
 static void find_source_span(int at, int across, int length, int *first, int *end)
 {
     *first = (int)((int64_t)at * length / across);

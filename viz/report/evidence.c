@@ -34,7 +34,7 @@ const char *evidence_word(evidence_picture picture)
     return words[picture];
 }
 
-/* The longest ending of an evidence file's name, including the ".part" of an unfinished file. */
+/* The longest suffix of an evidence file's name. It includes the ".part" of an unfinished file. */
 #define LONGEST_ENDING "~0123456789abcdef.difference.png.part"
 
 /* Return how many bytes of a stem fit into a file name together with LONGEST_ENDING, without cutting a UTF-8
@@ -47,8 +47,8 @@ static size_t fitting_length(const char *stem)
     return length;
 }
 
-/* The word is inserted before the suffix, so different frame names give different file names. A name that becomes
- * too long is cut and ends with a digest of the whole name. */
+/* "expected", "actual" or "difference" is inserted before the suffix of the frame's name, so different frames get
+ * different file names. A name that becomes too long is cut and ends with a digest of the whole name. */
 char *evidence_name(const char *frame, evidence_picture picture)
 {
     const char *file = path_base_name(frame);
@@ -96,7 +96,8 @@ static char *picture_path(const char *folder, const diff_pair *pair, evidence_pi
 
 /* ---- The folder ---------------------------------------------------------------------------------------------- */
 
-/* Return how many times ".." leads from a folder to `outer`; -1: it is not in `outer`. */
+/* Return how many levels `outer` is above a folder: 0 if both are the same folder. Return -1 if the folder is not in
+ * `outer`. */
 static int find_depth(const char *folder, const struct stat *outer)
 {
     char path[PATH_MAX];
@@ -133,8 +134,8 @@ static bool check_folder_holds_no_side(const char *folder, const diff_side *side
 
 static bool clear_folder(const char *folder, bool top, octreel_error *error);
 
-/* Remove a file of an earlier comparison; or the pictures of a subfolder, and the subfolder if it is empty then. Other
- * files, hidden folders and folders of other evidence stay. */
+/* Remove one entry of the folder that an earlier comparison wrote. A file is removed. In a subfolder, the pictures
+ * are removed, then the subfolder if it is empty. Other files, hidden folders and folders of other evidence stay. */
 static bool clear_entry(const char *folder, const char *name, bool top, octreel_error *error)
 {
     struct stat status;
@@ -184,8 +185,8 @@ bool evidence_prepare(const char *folder, const diff_side *a, const diff_side *b
 
 /* ---- The files of both sides --------------------------------------------------------------------------------- */
 
-/* Return whether the file of a frame can be copied: only regular files and standard input are. Other files are
- * reported as unreadable. */
+/* Return whether the file of a frame can be copied. Only regular files and standard input can be copied; all other
+ * frames are reported as unreadable. */
 static bool has_file(const diff_frame *frame)
 {
     struct stat status;
@@ -210,7 +211,7 @@ static bool copy_frame(const diff_frame *frame, const diff_pair *pair, evidence_
 
 /* ---- The difference ------------------------------------------------------------------------------------------ */
 
-/* Both images of a pair, and the data from which the rows of their difference are computed. */
+/* Both images of a pair, and the settings with which the rows of their difference are computed. */
 typedef struct canvas {
     image images[2];
     image_tolerance tolerance;

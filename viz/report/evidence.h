@@ -9,11 +9,11 @@
 
 #define EVIDENCE_PAGE "report.html"
 
-/* Each picture, and the word in its file name. The pictures of frame_000041.png are frame_000041.expected.png and so
- * on. */
+/* The kinds of pictures, each with the word that its file names contain. For frame_000041.png the files are
+ * frame_000041.expected.png, frame_000041.actual.png and frame_000041.difference.png. */
 #define EVIDENCE_PICTURE_MAP(X)                                                                                        \
-    X(EXPECTED, "expected")     /* a copy of the reference's file */                                                   \
-    X(ACTUAL, "actual")         /* a copy of the frame's file */                                                       \
+    X(EXPECTED, "expected")     /* a copy of the reference frame's file */                                             \
+    X(ACTUAL, "actual")         /* a copy of the compared frame's file */                                              \
     X(DIFFERENCE, "difference") /* drawn by image_draw_difference_row() */
 
 typedef enum evidence_picture {
@@ -28,12 +28,13 @@ const char *evidence_word(evidence_picture picture);
 /* Return the file name of a frame's picture of evidence, or null if memory runs out. The caller frees the name. */
 char *evidence_name(const char *frame, evidence_picture picture);
 
-/* Return whether a file name is the name of an evidence picture, of report.html or of contact.png, finished or not. */
+/* Return whether a file name is that of an evidence picture, of report.html or of contact.png. The name of an
+ * unfinished file, which ends in ".part", counts too. */
 bool evidence_is_name(const char *name);
 
-/* Write the existing pictures of a pair into a folder, and their difference if both pictures can be read. For each
- * written picture the bit (1 << evidence_picture) is set in *written. Both images are in memory; the difference is
- * written row by row. */
+/* Write the expected and the actual picture of a pair into a folder, as far as they exist. If both can be read, also
+ * write their difference. For each written picture the bit (1 << evidence_picture) is set in *written. Both images
+ * are held in memory; the difference is written row by row. */
 bool evidence_draw(const diff_pair *pair, const diff_options *options, const char *folder, unsigned *written,
                    octreel_error *error);
 
@@ -42,8 +43,8 @@ typedef struct evidence {
     unsigned *pictures; /* for each pair, the bits (1 << evidence_picture) of the pictures that were written; owned */
 } evidence;
 
-/* Create the folder or, if it exists, remove the evidence of an earlier comparison from it. Return false with an
- * error if the folder holds other files, is a compared side, or contains one. */
+/* Create the folder for evidence. If the folder exists, remove the evidence of an earlier comparison from it. Return
+ * false with an error if the folder holds other files, is one of the compared sides, or contains a compared side. */
 bool evidence_prepare(const char *folder, const diff_side *a, const diff_side *b, octreel_error *error);
 
 /* Write the pictures of the first pair of each differing group. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* evidence_page.h - the HTML page of report.html with its style and scripts, embedded by CMake as two strings: the
- * part before and the part after the facts and pictures of a comparison. */
+/* evidence_page.h - the template of report.html, with its style and scripts. CMake embeds it as two strings: the
+ * HTML before the facts and pictures of a comparison, and the HTML after them. */
 #ifndef REPORT_EVIDENCE_PAGE_H
 #define REPORT_EVIDENCE_PAGE_H
 

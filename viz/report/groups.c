@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* groups.c - groups pairs by cause and prints the sentences of reports.
  *
- * The listed pairs are sorted by key and then by index. Each run of equal keys is one group; the first pair of a group
- * has its lowest index. A second pass numbers the groups in the order of their first pairs, so that a report lists them
+ * The pairs of frames that a report lists are sorted by the key of their cause and then by index. Each run of equal
+ * keys is one group; the first pair of a group
+ * has its lowest index. A second pass numbers the groups in the order of their first pairs, so that a report lists
+ * them
  * in the order of frames. If all names of a group are names of a recording's frames, they are printed as ranges of
  * ticks. Cost: O(n log n).
  */
@@ -32,7 +34,7 @@ static void print_frame(FILE *out, const diff_pair *pair, bool ticks)
         write_escaped(out, diff_pair_name(pair), escape_nothing);
 }
 
-/* Print the names of a group's frames. With `others`, leave out the first frame. */
+/* Print the names of a group's frames. With `others`, leave out the group's first frame. */
 static void print_frames(FILE *out, const frame_groups *g, const diff_result *result, size_t group, bool others)
 {
     const bool ticks = are_frames_of_ticks(g, result, group);
@@ -58,7 +60,7 @@ static void print_frames(FILE *out, const frame_groups *g, const diff_result *re
         fprintf(out, " and %zu more", all - shown);
 }
 
-/* Return the zero-terminated text at *at, and move *at behind it. */
+/* Return the zero-terminated text at *at, and move *at to the text after it. */
 static const char *cut_next_text(const char **at)
 {
     const char *text = *at;
@@ -104,7 +106,7 @@ static bool print_sentences(frame_groups *g, const diff_result *result, const ex
 
 /* ---- Groups -------------------------------------------------------------------------------------------------- */
 
-/* A pair, and the cause's key by which pairs are sorted. */
+/* A pair of frames, and the key of its cause. Pairs are sorted by this key. */
 typedef struct keyed_pair {
     const char *key;
     size_t pair;

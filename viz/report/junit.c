@@ -10,7 +10,7 @@ static void write_attribute(FILE *out, const char *name, const char *value)
     putc('"', out);
 }
 
-/* All test cases are in one suite, so the document and the suite have the same counts. */
+/* All test cases are in one suite, so the root element and the suite element have the same counts. */
 void junit_begin(FILE *out, const char *tool, const char *path, size_t tests, size_t failures, size_t errors)
 {
     static const char counts[] = " tests=\"%zu\" failures=\"%zu\" errors=\"%zu\" skipped=\"0\" time=\"0\">\n";

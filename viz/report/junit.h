@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* junit.h - writes the elements of JUnit XML that enclose the test cases; used only in this folder.
  *
- * Readers of JUnit XML require a time for each test case. The time is unknown, so 0 is written.
+ * Readers of JUnit XML require a time for each test case. Octreel does not measure this time, so it writes 0.
  */
 #ifndef REPORT_JUNIT_H
 #define REPORT_JUNIT_H

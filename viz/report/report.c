@@ -3,7 +3,8 @@
 #include "report.h"
 #include "text.h"
 
-/* Print a line. Control characters of the text are escaped: a file name may contain a newline. */
+/* Print a line that consists of `beginning` and a text. Control characters of the text are escaped, because a file
+ * name may contain a newline. */
 static void print_line(FILE *out, const char *beginning, const char *text)
 {
     fputs(beginning, out);
@@ -28,7 +29,7 @@ static void print_groups(FILE *out, const diff_report *report)
     print_remaining_count(out, report->groups->count, report->lines, "--causes all lists all, and so does --json");
 }
 
-/* Print how many of the differing ticks were not explained or traced. */
+/* Print how many of the differing ticks were not explained, and how many were not traced. */
 static void print_unexplained(FILE *out, const diff_report *report)
 {
     const explanation *why = report->why;

@@ -14,8 +14,8 @@ typedef struct diff_report {
     const diff_side *a, *b;
     const diff_result *result;
     const explanation *why;
-    const evidence *evidence; /* null: no pictures were written */
-    size_t lines;             /* the largest number of groups that the text lists */
+    const evidence *evidence; /* null if no pictures of evidence were written */
+    size_t lines;             /* the largest number of groups that the report as text lists */
     const frame_groups *groups;
 } diff_report;
 
@@ -32,8 +32,8 @@ void diff_report_json(FILE *out, const diff_report *report);
  * systems track test cases by name. The first case of a group has all details; the other cases refer to the first. */
 void diff_report_junit(FILE *out, const diff_report *report);
 
-/* Write GitHub workflow commands, "::error file=...,title=...::...", which GitHub shows as annotations of a pull
- * request. Each of the first groups has one line, because GitHub shows only a few annotations for each step. */
+/* Write GitHub workflow commands, "::error file=...,title=...::...". GitHub shows each command as an annotation of a
+ * pull request. GitHub shows only a few annotations for each step, so only the first groups have a command. */
 #define DIFF_REPORT_ANNOTATIONS 10
 void diff_report_github(FILE *out, const diff_report *report);
 
@@ -42,11 +42,13 @@ void diff_report_github(FILE *out, const diff_report *report);
 #define DIFF_REPORT_ROWS 20
 void diff_report_markdown(FILE *out, const diff_report *report);
 
-/* Write report.html into the folder of evidence. It is one self-contained page on which a person looks through the
- * differences and ticks frames for acceptance. The page holds the first DIFF_REPORT_PAGE_FRAMES groups, and pictures
- * of up to DIFF_REPORT_PAGE_BYTES bytes. It says how much is left out. */
+/* Write report.html into the folder of evidence. It is a self-contained page on which a person views the differences
+ * and selects frames for acceptance. The page holds the first DIFF_REPORT_PAGE_FRAMES groups, and at most
+ * DIFF_REPORT_PAGE_BYTES bytes of pictures. The page states how many groups and pictures are left out. */
 #define DIFF_REPORT_PAGE_FRAMES 50
-#define DIFF_REPORT_PAGE_BYTES (UINT64_C(96) << 20) /* bytes of PNG files; more bytes slow browsers down */
+#define DIFF_REPORT_PAGE_BYTES                                                                                         \
+    (UINT64_C(96)                                                                                                      \
+     << 20) /* the largest sum of the sizes of embedded PNG files, in bytes; more bytes slow browsers down */
 bool diff_report_page(const diff_report *report, octreel_error *error);
 
 #endif

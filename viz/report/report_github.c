@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* report_github.c - writes a comparison as GitHub workflow commands: see report.h.
  *
- * A command is one line. Characters that would end the command or one of its properties are escaped as GitHub requires:
+ * Each command is one line. A character that would end the command or one of its properties is escaped as GitHub
+ * requires:
  * % as %25, carriage return as %0D, newline as %0A. In properties, : becomes %3A and , becomes %2C.
  */
 #include "report.h"

@@ -140,7 +140,7 @@ static void write_findings(json_writer *w, const diff_report *report)
     json_write_end_array(w);
 }
 
-/* Write the names of a group's frames. Each frame is in exactly one group. */
+/* Write the names of all frames of a group. Each listed frame is in exactly one group. */
 void diff_json_group(json_writer *w, const diff_report *report, size_t group)
 {
     const frame_group *g = &report->groups->groups[group];

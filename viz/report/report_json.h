@@ -9,7 +9,8 @@
 /* Write the verdict, both sides, the tolerance and the counts as members of the current object. */
 void diff_json_summary(json_writer *writer, const diff_report *report);
 
-/* Write the name, the finding and the details of the i-th pair as members of the current object. */
+/* Write the result of comparing the i-th pair as members of the current object: its name, its finding and the
+ * details. */
 void diff_json_finding(json_writer *writer, const diff_report *report, size_t i);
 
 /* Write the names of a group's frames as one member of the current object. */

@@ -77,7 +77,8 @@ static void write_case(FILE *out, const diff_report *report, size_t i)
     fputs("    </testcase>\n", out);
 }
 
-/* Write the only test case of recordings without frames. It is about their ticks. */
+/* Write the test case for recordings that have no frames. It is the only test case of the report and says whether
+ * their ticks are equal. */
 static void write_ticks_case(FILE *out, const diff_report *report)
 {
     const char *headline = report->why->headline ? report->why->headline : "";
@@ -91,7 +92,7 @@ static void write_ticks_case(FILE *out, const diff_report *report)
     fputs("</failure>\n    </testcase>\n", out);
 }
 
-/* Write the output that concerns all cases: the verdict, the headline and the tolerance. */
+/* Write the system-out element, which concerns all test cases: the verdict, the headline and the tolerance. */
 static void write_summary(FILE *out, const diff_report *report)
 {
     write_xml(out, "    <system-out>", report->groups->verdict);

@@ -14,7 +14,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* A group on the page, and whether its pictures are embedded. */
+/* A group that the page shows, and whether its pictures are embedded in the page. */
 typedef struct page_group {
     size_t group;
     bool embedded;
@@ -36,7 +36,8 @@ static size_t first_pair(const page *p, size_t n)
 
 /* ---- Contents ------------------------------------------------------------------------------------------------ */
 
-/* Return whether a picture is embedded in the page. Unreadable pictures are not, because a browser cannot show them. */
+/* Return whether a picture is embedded in the page. A picture that cannot be read is not embedded, because no
+ * browser can show it. */
 static bool is_embedded(const diff_report *report, size_t i, evidence_picture picture)
 {
     return (report->evidence->pictures[i] & 1u << picture) && report->result->pairs[i].finding != FOUND_UNREADABLE;
@@ -99,7 +100,7 @@ static void write_curve(json_writer *w, const diff_result *result)
     json_write_end_array(w);
 }
 
-/* Write, for each pair, the number of its group on the page, or null if its group is not on the page. */
+/* Write, for each pair, the position of its group on the page, or null if the page does not show its group. */
 static void write_entries(json_writer *w, const page *p)
 {
     json_begin_array_member(w, "entries");
@@ -129,7 +130,7 @@ static void write_folder_findings(json_writer *w, const page *p)
     json_write_end_line(w);
 }
 
-/* Write the file names of the pictures that lie beside the page. */
+/* Write the file names of the pictures that are stored in the same folder as the page. */
 static void write_files(json_writer *w, const diff_report *report, size_t i)
 {
     json_begin_object_member(w, "files");
@@ -158,8 +159,8 @@ static void write_group(json_writer *w, const page *p, size_t n)
     json_write_end_line(w);
 }
 
-/* Write lines of JSON. They are built in memory first, because "</" in a string would end the enclosing HTML
- * element. Every "<" is escaped: JSON has it only in strings. */
+/* Write lines of JSON into the HTML page. The lines are built in memory first, because each "<" is escaped: "</" in
+ * a JSON string would end the enclosing HTML element. In JSON, "<" occurs only in strings. */
 static bool write_facts(const page *p, octreel_error *error)
 {
     text_stream s;
