@@ -31,8 +31,7 @@ void audit_print_junit(FILE *out, const audit_verdict *verdict);
 #define AUDIT_PAGE_POINTS 400
 bool audit_print_page(FILE *out, const audit_verdict *verdict, const char *from);
 
-/* ---- Used only in this folder
- * ------------------------------------------------------------------------------------------
+/* ---- Used only in this folder --------------------------------------------------------------------------------
  *
  * The printed sentences contain no "<" and no "&", so they need no escape in XML and HTML. Only audit_print_case()
  * prints double quotes; its sentence is not for attributes.

@@ -2,11 +2,9 @@
 /* groups.c - groups pairs by cause and prints the sentences of reports.
  *
  * The pairs of frames that a report lists are sorted by the key of their cause and then by index. Each run of equal
- * keys is one group; the first pair of a group
- * has its lowest index. A second pass numbers the groups in the order of their first pairs, so that a report lists
- * them
- * in the order of frames. If all names of a group are names of a recording's frames, they are printed as ranges of
- * ticks. Cost: O(n log n).
+ * keys becomes one group. The first pair of a group has the lowest index in the group. A second pass numbers the
+ * groups in the order of their first pairs, so that a report lists groups in the order of frames. If all frames of a
+ * group are frames of ticks, a report names them by ranges of ticks. Cost: O(n log n).
  */
 #include "groups.h"
 #include "diff_words.h"

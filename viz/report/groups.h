@@ -13,10 +13,9 @@
  * printed. */
 #define GROUP_RUNS 4
 typedef struct frame_group {
-    size_t first, last,
-        count; /* the index of the group's first pair, the index of its last pair, and the number of its pairs */
-    const char *cause; /* the explanation's sentence for the first pair, or null; owned by the explanation */
-    const char *line;  /* the name of the first pair and how its two frames differ, as diff_print_pair() prints it */
+    size_t first, last, count; /* the indices of the group's first and last pair, and the number of its pairs */
+    const char *cause;         /* the explanation's sentence for the first pair, or null; owned by the explanation */
+    const char *line; /* the name of the first pair and how its two frames differ, as diff_print_pair() prints it */
     const char *difference; /* how the two frames of the first pair differ, without the name of the pair, as
                                diff_print_difference() prints it */
     const char *frames;     /* the names of all frames of the group */

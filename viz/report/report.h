@@ -46,9 +46,7 @@ void diff_report_markdown(FILE *out, const diff_report *report);
  * and selects frames for acceptance. The page holds the first DIFF_REPORT_PAGE_FRAMES groups, and at most
  * DIFF_REPORT_PAGE_BYTES bytes of pictures. The page states how many groups and pictures are left out. */
 #define DIFF_REPORT_PAGE_FRAMES 50
-#define DIFF_REPORT_PAGE_BYTES                                                                                         \
-    (UINT64_C(96)                                                                                                      \
-     << 20) /* the largest sum of the sizes of embedded PNG files, in bytes; more bytes slow browsers down */
+#define DIFF_REPORT_PAGE_BYTES (UINT64_C(96) << 20) /* bytes of embedded PNG files; more bytes slow browsers down */
 bool diff_report_page(const diff_report *report, octreel_error *error);
 
 #endif

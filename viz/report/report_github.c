@@ -2,8 +2,7 @@
 /* report_github.c - writes a comparison as GitHub workflow commands: see report.h.
  *
  * Each command is one line. A character that would end the command or one of its properties is escaped as GitHub
- * requires:
- * % as %25, carriage return as %0D, newline as %0A. In properties, : becomes %3A and , becomes %2C.
+ * requires: % as %25, carriage return as %0D, newline as %0A. In properties, : becomes %3A and , becomes %2C.
  */
 #include "report.h"
 #include "text.h"
