@@ -13,11 +13,11 @@
 /* The games of two sessions that are played side by side, and the state of their comparison. */
 typedef struct playing {
     octree_game *games[2];
-    bool same_session;    /* the sessions are equal, so all their ticks are equal */
+    bool same_session;    /* true: both sessions are equal, so all their ticks are equal */
     bool same_rules;      /* both trees have the same options, so equal contents have equal digests */
     uint64_t versions[2]; /* octree_version() of each tree when the trees were last compared */
-    bool unlike;          /* the result of that comparison: true if the trees differed */
-    bool other_heat;      /* the view shows heat, and an earlier tick differed */
+    bool unlike;          /* the result of the last comparison of the trees: true if they differed */
+    bool other_heat; /* true: the view shows heat, and an earlier tick differed, so the heat of this tick may differ */
     bool shows_heat;
     const cause_watcher *watcher;
     cause *found;
@@ -54,7 +54,7 @@ static bool trees_differ(playing *p)
     return p->unlike;
 }
 
-/* Append the details of a tick. The new element takes over the memory of *facts. */
+/* Append the details of a tick. The appended element takes ownership of the memory of *facts. */
 static bool append_tick(cause *c, uint64_t tick, cause_facts *facts)
 {
     if (!array_grow(&c->ticks, c->count + 1, &c->room, sizeof *c->ticks))
@@ -104,8 +104,8 @@ static bool games_differ(const playing *p, bool trees)
            a->foreign.digest != b->foreign.digest;
 }
 
-/* Compare one tick. The trees are compared node by node only in ticks that are reported in detail. In other ticks it
- * is only known whether the trees differ. */
+/* Compare one tick. Only in ticks that are reported in detail are the trees compared node by node. In other ticks,
+ * only whether the trees differ is found. */
 static bool compare_tick(playing *p, octreel_error *error)
 {
     const octree_game *const games[2] = {p->games[0], p->games[1]};

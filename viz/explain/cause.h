@@ -10,18 +10,18 @@
 /* A tick that is reported in detail. */
 typedef struct cause_tick {
     uint64_t tick;
-    cause_facts facts; /* empty: both sessions have the same tick */
+    cause_facts facts; /* the differences between the sessions at this tick; empty if there are none */
     trace trace;       /* the elements drawn at the pixels that differ between the tick's frames */
 } cause_tick;
 
-/* How often something occurs, and the first and the last tick in which it occurs. */
+/* A count of ticks or answers that differ, and the first and the last tick in which they occur. */
 typedef struct cause_span {
     uint64_t count, first, last;
 } cause_span;
 
-/* How the wrong answers of a foreign index differ at a tick. The compared recording has more wrong answers than the
- * reference, fewer, or as many but different ones. WRONG_MORE and WRONG_FEWER count answers; WRONG_OTHER counts
- * ticks. */
+/* How the wrong answers of a foreign index differ at a tick: the compared recording has more wrong answers than the
+ * reference, fewer, or the same number but different ones. For WRONG_MORE and WRONG_FEWER the number of answers is
+ * counted; for WRONG_OTHER the number of ticks. */
 typedef enum cause_wrong { WRONG_MORE, WRONG_FEWER, WRONG_OTHER, WRONG_CHANGES } cause_wrong;
 
 /* The differences between two sessions. A zeroed cause has none. */
@@ -32,25 +32,25 @@ typedef struct cause {
     size_t count, room;
     cause_span wrong[WRONG_CHANGES];
     uint64_t compared;    /* the number of ticks that both sessions have */
-    cause_span differing; /* the ticks that both sessions have and that differ */
+    cause_span differing; /* the ticks that are in both sessions and differ */
     uint64_t drawn;       /* the first tick whose frames differ; CAUSE_NO_TICK if no frames differ */
 } cause;
 
 /* Settings and callbacks of cause_find(). */
 typedef struct cause_watcher {
-    size_t first; /* how many of the first differing ticks are reported in detail */
+    size_t first; /* the number of differing ticks, from the first one on, that are reported in detail */
 
-    /* Returns whether another tick is reported in detail, too. May be null. */
+    /* Returns whether a tick is reported in detail although it is not among the `first` ticks. May be null. */
     bool (*wants)(void *context, uint64_t tick);
 
-    /* Called at each tick that both sessions have. `differs` is true if the tick differs between the sessions. May
-     * be null. To stop, return false with an error. */
+    /* Called at each tick that both sessions have. `differs` is true if the tick differs between the sessions. To
+     * stop the comparison, the callback returns false with an error. May be null. */
     bool (*watch)(void *context, const octree_game *const games[2], bool differs, octreel_error *error);
     void *context;
 } cause_watcher;
 
-/* Compare two sessions and play them side by side. If `views` is not null, also compare how the sessions are drawn.
- * Return false with an error if a session cannot be played. Release *c in any case. */
+/* Play two sessions side by side and compare them. If `views` is not null, also compare the views with which the
+ * sessions are drawn. Return false with an error if a session cannot be played. The caller releases *c in any case. */
 bool cause_find(const session_file *a, const session_file *b, const cause_view views[2], const cause_watcher *watcher,
                 cause *c, octreel_error *error);
 void cause_release(cause *c);

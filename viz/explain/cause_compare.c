@@ -23,7 +23,8 @@
 
 static void compare_values(const cause_place *place, json_t *a, json_t *b);
 
-/* Add a fact. It has two values, one value or none; a null value means that there is none. */
+/* Add a fact with the values `a` of the reference and `b` of the frames. A null pointer means that this side has no
+ * value. */
 static void add_fact(const cause_place *place, cause_change change, uint64_t id, json_t *a, json_t *b)
 {
     cause_add(place->facts, place->where, place->query, change,
@@ -50,7 +51,8 @@ static bool is_same(const cause_place *place, const json_t *a, const json_t *b)
 /* ---- Lists whose elements have a key ------------------------------------------------------------------------- */
 
 typedef struct keyed {
-    const char *word; /* the element itself if it is a text; the name of its only member, such as "insert"; else "" */
+    const char *word; /* the text of an element that is a text; the name of the only member of an object, such as
+                         "insert"; else "" */
     uint64_t id;      /* CAUSE_NO_ID if the element has no id */
     size_t place;     /* the element's index in its list */
     json_t *element;
@@ -156,8 +158,8 @@ static json_t *query_without_answer(json_t *query)
     return asked;
 }
 
-/* Return the list by which the elements of another list are paired. For answers it holds their queries; for queries,
- * the queries without the foreign index's answers. */
+/* Return the list of keys by which the elements of a list are paired. For answers, the keys are their queries. For
+ * queries, the keys are the queries without the answers of the foreign index. */
 static json_t *list_pairing_keys(cause_rule rule, json_t *list)
 {
     json_t *keys = json_array(), *element;
@@ -172,8 +174,7 @@ static json_t *list_pairing_keys(cause_rule rule, json_t *list)
     return keys;
 }
 
-/* Compare the answers of the foreign index. For its visited nodes only the counts are reported, and only if the
- * counts differ. */
+/* Compare the answers of the foreign index. For the nodes that a query visited, only the counts are compared. */
 static void compare_foreign_answers(cause_place place, json_t *a, json_t *b)
 {
     json_t *counts[2] = {json_object(), json_object()};
@@ -222,8 +223,9 @@ static void compare_pair(const cause_place *place, cause_rule rule, json_t *a, j
         add_fact(place, CAUSE_OTHER, CAUSE_NO_ID, a, b);
 }
 
-/* Write the name of the query of an answer: "the range query" or, if the list has several range queries, "query 3
- * (range)", where 3 is the position in the list, counted from 1. If the elements are not answers, write nothing. */
+/* Write the name of the query of an answer: "the range query". If the list has several range queries, write "query 3
+ * (range)", where 3 is the query's position in the list, counted from 1. If the list holds no answers, write
+ * nothing. */
 static void format_query_name(cause_rule rule, json_t *list, size_t i, bool of_reference, char text[CAUSE_QUERY])
 {
     if (rule != CAUSE_ANSWERS)
@@ -251,8 +253,8 @@ static bool are_mates_in_order(const size_t *mates, size_t count)
     return true;
 }
 
-/* Report the differences within pairs, then the elements that only one list has. has_partner[i] is set to true for
- * each element of `a` that has a partner. The caller sets all of has_partner to false first. */
+/* Report the differences within pairs, then the elements that only one list has. The function sets has_partner[i] to
+ * true for each element i of `a` that has a partner. Before the call, all elements of has_partner must be false. */
 static void compare_paired(cause_place place, cause_rule rule, json_t *a, json_t *b, const size_t *mates,
                            bool *has_partner)
 {
@@ -313,8 +315,8 @@ static void compare_lists(const cause_place *place, cause_rule rule, json_t *a, 
         compare_by_similarity(place, rule, a, b);
 }
 
-/* Compare two values of any type. The path of an answer's member does not contain the kind of the query, because the
- * name of the query contains it. */
+/* Compare two values of any type. The path of a member of an answer leaves out the kind of the query, because the
+ * name of the query already contains the kind. */
 static void compare_values(const cause_place *place, json_t *a, json_t *b)
 {
     if (is_same(place, a, b))

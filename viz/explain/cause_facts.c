@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* cause_facts.c - collects facts in groups: the facts of a group have the same place, query and change. */
+/* cause_facts.c - collects facts in groups. All facts of a group have the same place, query and change
+ * (cause_facts.h). */
 #include "cause_facts.h"
 #include "array.h"
 #include "cause_pairs.h"
@@ -67,7 +68,8 @@ static bool is_before(const cause_group *a, const cause_group *b)
     return !is_about_all_ticks(b) && (is_about_all_ticks(a) || a->listed[0].tick < b->listed[0].tick);
 }
 
-/* Sort with an insertion sort, which is stable: groups that begin at the same tick keep their order. */
+/* Sort the groups by their first tick. Insertion sort is stable, so groups that begin at the same tick keep their
+ * order. */
 void cause_facts_sort(cause_facts *facts)
 {
     for (size_t i = 1; i < facts->count; i++)
@@ -79,7 +81,7 @@ void cause_facts_sort(cause_facts *facts)
     cause_origins_sort(&facts->origins);
 }
 
-/* Return a group with only those facts that the frame of a tick can show. */
+/* Return a copy of a group that holds only the facts that the frame of a tick can show. */
 static cause_group group_at_tick(const cause_group *group, uint64_t tick)
 {
     cause_group shown = *group;

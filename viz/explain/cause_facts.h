@@ -23,28 +23,28 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* How the frames differ from the reference: another value, an additional value, a missing value, or the same values
- * in another order. */
+/* How the compared frames differ from the reference: another value, an additional value, a missing value, or the
+ * same values in another order. */
 typedef enum cause_change { CAUSE_OTHER, CAUSE_MORE, CAUSE_LESS, CAUSE_ORDER, CAUSE_CHANGES } cause_change;
 
 #define CAUSE_NO_TICK UINT64_MAX
 #define CAUSE_NO_ID UINT64_MAX
 
 typedef struct cause_fact {
-    uint64_t tick; /* the tick of the fact in the session; CAUSE_NO_TICK: the fact holds for all ticks */
+    uint64_t tick; /* the tick at which the values differ; CAUSE_NO_TICK: the values differ at all ticks */
     uint64_t id;   /* the id of the point that the fact is about; CAUSE_NO_ID: no point */
-    json_t *a, *b; /* the values of reference and frames, or null; each owns a reference to its value */
+    json_t *a, *b; /* the value in the reference, the value in the frames; null: no value; both owned */
 } cause_fact;
 
-/* The number of facts of a group that are stored. Further facts are only counted. */
+/* The largest number of facts that a group stores. Further facts are only counted. */
 #define CAUSE_LISTED 8
 
 #define CAUSE_QUERY 48
 
-/* All facts with the same place, query and change. Either all facts of a group have a tick or none has. */
+/* All facts with the same place, query and change. In one group, either every fact has a tick or no fact has a tick. */
 typedef struct cause_group {
     char where[40];
-    char query[CAUSE_QUERY]; /* for facts about an answer: "the range query"; else "" */
+    char query[CAUSE_QUERY]; /* the query whose answer the facts are about: "the range query"; else "" */
     cause_change change;
     uint64_t found;
     cause_fact listed[CAUSE_LISTED];
@@ -54,15 +54,15 @@ typedef struct cause_group {
 typedef struct cause_facts {
     cause_group *groups; /* in the order in which they were found */
     size_t count, room;
-    bool out_of_memory;    /* memory ran out, so the list is incomplete */
-    cause_origins origins; /* the differences of all facts that have a tick */
+    bool out_of_memory;    /* true: memory ran out, so the list is incomplete */
+    cause_origins origins; /* the origins of all facts that have a tick */
 } cause_facts;
 
-/* Add a fact. `facts` takes over the references to its values. */
+/* Add a fact. `facts` takes ownership of the fact's references to its values. */
 void cause_add(cause_facts *facts, const char *where, const char *query, cause_change change, cause_fact fact);
 
-/* Add a fact that holds for all ticks and is about neither a point nor a query. `facts` takes over the references to
- * `a` and `b`. */
+/* Add a fact that holds for all ticks and is about neither a point nor a query. `facts` takes ownership of the
+ * references to `a` and `b`. */
 static inline void cause_add_whole(cause_facts *facts, const char *where, cause_change change, json_t *a, json_t *b)
 {
     cause_add(facts, where, "", change, (cause_fact){CAUSE_NO_TICK, CAUSE_NO_ID, a, b});
@@ -74,14 +74,15 @@ void cause_facts_release(cause_facts *facts);
 void cause_facts_sort(cause_facts *facts);
 
 /* Return the stored facts that the frame of a tick can show: the facts of this tick and the facts without a tick.
- * The interval of frames and the last tick are left out. The result borrows from `facts`; the caller frees only its
- * array `groups`. */
+ * Facts about the interval of frames and about the last tick are left out. The result borrows all memory from
+ * `facts` except its array `groups`, which the caller frees. */
 cause_facts cause_facts_shown(const cause_facts *facts, uint64_t tick);
 
 /* Return whether cause_facts_shown() would return any fact. */
 bool cause_facts_show(const cause_facts *facts, uint64_t tick);
 
-/* Return the group with this place and change that is not about a query, or null. */
+/* Return the group that has this place and this change and is not about a query. Return null if no such group
+ * exists. */
 const cause_group *cause_group_of(const cause_facts *facts, const char *where, cause_change change);
 
 /* Return the number of facts that are stored in a group. */

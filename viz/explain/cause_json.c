@@ -93,7 +93,7 @@ static void write_trace(json_writer *w, const trace *t)
     json_write_end_array(w);
 }
 
-/* Write the differences in wrong answers. If there are none, write nothing. */
+/* Write how the wrong answers of the two recordings differ. If they do not differ, write nothing. */
 static void write_wrong(json_writer *w, const cause_span wrong[WRONG_CHANGES])
 {
     static const char *const names[] = {[WRONG_MORE] = "more", [WRONG_FEWER] = "fewer", [WRONG_OTHER] = "other"};

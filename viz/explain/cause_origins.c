@@ -31,14 +31,15 @@ static size_t find_kind(cause_origins *o, const char *name)
     return o->kind_count++;
 }
 
-/* Return whether a difference at this place affects only its own tick, apart from heat. */
+/* Return whether a difference at this path affects only its own tick. (If the view shows heat, later ticks differ in
+ * heat, too.) */
 static bool is_momentary(const char *where)
 {
     return strncmp(where, "queries", 7) == 0 || strncmp(where, "shapes", 6) == 0;
 }
 
-/* The effects of lasting differences at one path cannot be separated in later ticks. All such differences therefore
- * have the same kind. */
+/* A lasting difference affects all later ticks. There, the effects of several lasting differences at the same path
+ * cannot be separated, so all of them get the same kind. */
 bool cause_origins_add(cause_origins *o, uint64_t tick, const char *where, const char *kind)
 {
     char name[CAUSE_KIND];
@@ -117,8 +118,8 @@ bool cause_origins_advance(cause_origins *o, uint64_t tick, bool games_differ, b
     return !changed || add_differing_ticks(o, tick);
 }
 
-/* Return the number of items whose tick is before `end`. The tick is the first member of an item. The items are in
- * ascending order of ticks. */
+/* Return the number of items whose tick is before `end`. Each item begins with its tick as a uint64_t. The items are
+ * sorted by tick in ascending order. */
 static size_t count_before(const void *items, size_t count, size_t item_size, uint64_t end)
 {
     size_t low = 0, high = count;
@@ -138,8 +139,8 @@ static const char *find_causes_at(const cause_origins *o, uint64_t tick)
     return count && o->stretches[count - 1].causes ? o->stretches[count - 1].causes : "";
 }
 
-/* Frames also list keys of neighbouring ticks. If no difference is in effect at this tick, search the differences in
- * these keys: first at this and later ticks, then at earlier ticks. */
+/* A frame also lists the key presses of neighbouring ticks. If no difference is in effect at this tick, search for
+ * differing key presses: first at this tick and later ticks, then at earlier ticks. */
 const char *cause_origins_at(const cause_origins *o, uint64_t tick)
 {
     const char *causes = find_causes_at(o, tick);

@@ -21,11 +21,11 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* A kind of difference, such as "keys", "edits" or "queries radius". */
+/* A kind of difference, such as "keys" (key presses of the player), "edits" or "queries radius". */
 #define CAUSE_KIND 64
 typedef struct cause_kind {
     char name[CAUSE_KIND];
-    uint64_t since; /* the tick since which the kind is in effect, updated at each tick; CAUSE_NO_TICK: not in effect */
+    uint64_t since; /* the tick since which the kind is in effect; CAUSE_NO_TICK: the kind is not in effect */
 } cause_kind;
 
 typedef struct cause_origin {
@@ -33,17 +33,18 @@ typedef struct cause_origin {
     size_t kind;
 } cause_origin;
 
-/* A stretch: a run of ticks with the same causes. It ends where the next stretch begins. */
+/* A stretch: a run of successive ticks with the same causes. A stretch ends where the next stretch begins. */
 typedef struct cause_stretch {
     uint64_t first;
-    char *causes; /* the kinds in effect with their first ticks: "keys 14, queries radius 15"; null: none; owned */
+    char *causes; /* the kinds in effect, each with its first tick: "keys 14, queries radius 15"; null: no kind is in
+                     effect; owned */
 } cause_stretch;
 
 /* The differences between two sessions, and the stretches found so far. A zeroed structure is empty. */
 typedef struct cause_origins {
     cause_kind *kinds;
     size_t kind_count, kind_room;
-    cause_origin *listed; /* in ascending order of ticks after cause_origins_sort() */
+    cause_origin *listed; /* all differences; after cause_origins_sort() in ascending order of ticks */
     size_t count, room, next;
     cause_stretch *stretches;
     size_t stretch_count, stretch_room;
@@ -60,8 +61,9 @@ void cause_origins_release(cause_origins *o);
  * false if memory runs out. */
 bool cause_origins_advance(cause_origins *o, uint64_t tick, bool games_differ, bool other_heat);
 
-/* Return the causes in effect at a tick, or "" for none. A frame also shows the keys of a few ticks before and after
- * its own; if nothing else is in effect, differences in these keys are the causes. */
+/* Return the causes in effect at a tick, or "" if there are none. A frame also shows the key presses of a few ticks
+ * before and after its own tick. If no difference is in effect, the differing key presses among these are the
+ * causes. */
 const char *cause_origins_at(const cause_origins *o, uint64_t tick);
 
 /* Return whether the frame of `tick` can show a difference at the tick `origin`. */

@@ -12,7 +12,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The number of elements of the other list with which an element is compared. They lie around its own index. */
+/* Each element of one list is compared with this number of elements of the other list, at the indices around its
+ * own. */
 #define PAIR_CANDIDATES ((size_t)16)
 
 typedef struct entry {
@@ -23,8 +24,9 @@ typedef struct entry {
 } entry;
 
 typedef struct entries {
-    entry *all;   /* one entry for each element, in the order of the list */
-    entry **left; /* all entries, sorted by text; after equal elements are paired: the entries without a partner */
+    entry *all; /* one entry for each element, in the order of the list */
+    entry *
+        *left; /* all entries, sorted by text; after equal elements were paired, only the entries without a partner */
     size_t count, left_count;
 } entries;
 
@@ -103,7 +105,7 @@ static void pair_equal_entries(entries *a, entries *b, size_t *mates)
 
 /* ---- Similar elements ---------------------------------------------------------------------------------------- */
 
-/* Return how many numbers, texts and booleans of two elements are equal at the same path. */
+/* Return the number of values (numbers, texts and booleans) that are equal in both elements at the same path. */
 static unsigned count_common_members(json_t *a, json_t *b)
 {
     unsigned common = 0;
@@ -125,8 +127,9 @@ static size_t find_first_candidate(size_t j)
     return j < PAIR_CANDIDATES / 2 ? 0 : j - PAIR_CANDIDATES / 2;
 }
 
-/* Return the similarity of two remaining elements, or 0 if their kinds differ. Among pairs that share equally many
- * values, a pair wins whose elements have the same distance from the beginning or from the end of their lists. */
+/* Return the similarity of two elements without a partner, or 0 if their kinds differ. Each equal value counts 2.
+ * Elements at the same distance from the beginning or from the end of their lists get 1 more, which decides between
+ * pairs with the same number of equal values. */
 static uint8_t find_similarity(const entries *a, size_t i, const entries *b, size_t j)
 {
     json_t *x = a->left[i]->element, *y = b->left[j]->element;

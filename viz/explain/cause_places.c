@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* cause_places.c - the table of places. It says how the values at a place are compared and with which nouns and
- * verbs they are printed. */
+/* cause_places.c - the table of places in which recordings can differ. Each row states how the values at its place
+ * are compared, and the noun and verbs with which differences are printed. */
 #include "cause_places.h"
 #include "view_options.h"
 
@@ -16,9 +16,9 @@
 #define VERB_LESS .verbs[CAUSE_LESS]
 #define WHOLE .rule = CAUSE_WHOLE
 
-/* A place without a row is compared by type and printed as its path. */
+/* Values at a place without a row are compared by their type, and the place is printed as its path. */
 static const cause_row rows[] = {
-    /* Places in sessions. */
+    /* places in sessions */
     {"world", "world", OPTION},
     {"tree.capacity", "leaf capacity", OPTION},
     {"tree.depth", "depth", OPTION},
@@ -49,7 +49,7 @@ static const cause_row rows[] = {
     {"queries.answer", "foreign answer", .plural = "foreign answers", VERB_OTHER = "changed"},
     {"shapes", "shape shown", .plural = "shapes shown", EVERY},
     {"foreign_nodes", "foreign node", PLAIN},
-    /* Places in views. The nouns of view options are in view_options.c. */
+    /* places in views; the nouns of view options are in view_options.c */
     {"every", "interval of frames", PLAIN},
     {"focus", "box around the points", PLAIN},
     {"point_scale", "scale of points", PLAIN},
@@ -60,7 +60,7 @@ static const cause_row rows[] = {
     {"nodes.born", "node", VERB_MORE = "only in the frames"},
     {"nodes.gone", "node", VERB_MORE = "only in the reference"},
     {"tree.points", "point", VERB_OTHER = "moved", VERB_MORE = "added", VERB_LESS = "removed"},
-    /* Places in ticks. */
+    /* places in ticks */
     {"player", "place of the player", PLAIN},
     {"key", "key", MINOR},
     {"from", "start of the player's step", MINOR},

@@ -104,8 +104,8 @@ static bool have_same_ids(const octree_session *a, const octree_session *b)
     return true;
 }
 
-/* Compare the bodies at the start. They are compared without JSON, because there may be a million of them. Their
- * order matters, because a full leaf refuses later bodies. */
+/* Compare the bodies at the start of both sessions. JSON is not used for this, because a session may have a million
+ * bodies. The order of bodies is compared as well: a full leaf refuses the bodies that come later. */
 static void compare_bodies(const octree_session *a, const octree_session *b, cause_facts *facts)
 {
     if (have_same_bodies(a, b) || has_different_sample(facts))
@@ -125,7 +125,8 @@ static char key_at(const octree_session *session, size_t length, uint64_t i)
     return i < length ? session->keys[i] : '.';
 }
 
-/* Compare the players' keys in the ticks that both sessions have. A missing key stands for "wait". */
+/* Compare the key presses of both players in the ticks that both sessions have. A session without a key press for a
+ * tick has "wait" there. */
 static void compare_key_presses(const octree_session *a, const octree_session *b, cause_facts *facts)
 {
     const uint64_t lengths[2] = {octree_session_length(a), octree_session_length(b)};
@@ -141,8 +142,8 @@ static void compare_key_presses(const octree_session *a, const octree_session *b
 
 /* ---- Everything else, in its written form --------------------------------------------------------------------- */
 
-/* Write a session as JSON lines. Points and keys are left out, because they are compared separately. "ticks" is
- * always written. */
+/* Write a session as lines of JSON. Points and key presses are left out, because they are compared separately. The
+ * member "ticks" is written even if a session file would leave it out. */
 static char *write_session(const octree_session *session, bool sampled)
 {
     octree_session rest = *session;
@@ -159,7 +160,7 @@ static char *write_session(const octree_session *session, bool sampled)
     return text_stream_end(&s, &text) ? text : NULL;
 }
 
-/* Parse the next object of a text and move *at behind it. Return null at the end of the text. */
+/* Parse the object at *at and move *at to the end of the object. Return null at the end of the text. */
 static json_t *parse_next_object(const char **at)
 {
     json_error_t error;
@@ -185,7 +186,7 @@ static json_t *normalize_player(json_t *header)
     return named;
 }
 
-/* Remove from an object the members that `other` lacks. */
+/* Remove from the object `from` all members that the object `other` does not have. */
 static void remove_missing(json_t *from, const json_t *other)
 {
     const char *key;
@@ -194,7 +195,7 @@ static void remove_missing(json_t *from, const json_t *other)
     json_object_foreach_safe(from, next, key, value) if (!json_object_get(other, key)) json_object_del(from, key);
 }
 
-/* A line of a session's JSON, which describes a tick with edits, queries or shapes. */
+/* One line of a session's JSON: a tick with its edits, queries or shapes. */
 typedef struct tick_line {
     uint64_t tick; /* UINT64_MAX: all lines have been read */
     size_t size;
@@ -208,8 +209,8 @@ static tick_line find_tick_line(const char *at)
     return (tick_line){strtoull(at + sizeof start - 1, NULL, 10), strcspn(at, "\n")};
 }
 
-/* Compare the lines of two sessions, merged by tick. Equal lines are not parsed, because a session may have many
- * lines. */
+/* Compare the tick lines of two sessions. Both texts are read in the order of ticks, so that lines of the same tick
+ * meet. Equal lines are not parsed, because a session may have many lines. */
 static void compare_lines(cause_place place, const char *x, const char *y)
 {
     for (tick_line a = find_tick_line(x), b = find_tick_line(y); a.tick != UINT64_MAX || b.tick != UINT64_MAX;
@@ -230,7 +231,8 @@ static void compare_lines(cause_place place, const char *x, const char *y)
     }
 }
 
-/* Compare the JSON lines of two sessions. A member that only one of the sessions' kinds of players has is left out. */
+/* Compare the JSON lines of two sessions. If the sessions have different kinds of players, members that only one of
+ * the kinds uses are skipped. */
 static void compare_texts(const cause_place *place, const char *x, const char *y)
 {
     json_t *a = parse_next_object(&x), *b = parse_next_object(&y);
@@ -271,7 +273,7 @@ void cause_compare_sessions(const session_file *a, const session_file *b, cause_
 
 /* ---- Views --------------------------------------------------------------------------------------------------- */
 
-/* Return the JSON object of recording.json for a view. It holds every option. */
+/* Return the JSON object of a view as in recording.json. The object has a member for every option. */
 static json_t *view_object(const cause_view *v)
 {
     text_stream s;
@@ -284,8 +286,8 @@ static json_t *view_object(const cause_view *v)
     return object;
 }
 
-/* Compare an option of two views. Each option is compared as one value, so that it is one cause. Only lists of
- * layers are compared element by element. */
+/* Compare an option of two views. An option is compared as one value, so a differing option is one fact. Only lists
+ * of layers are compared element by element. */
 static void compare_option(const cause_place *place, const view_option *option, json_t *a, json_t *b)
 {
     const char *name = option->member.name;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* cause_ticks.c - compares a tick of one session with the tick of the same number in another session: their lines of
- * ticks.jsonl, and their trees node by node. See cause_compare.h. */
+/* cause_ticks.c - compares the ticks with the same number in two sessions: their lines of ticks.jsonl, and their
+ * trees node by node. See cause_compare.h. */
 #include "cause_compare.h"
 #include "json_read.h"
 #include "octree/octree.h"
@@ -16,7 +16,7 @@
 /* The state of a walk over the nodes of one tree. Each node is looked up in the other tree. */
 typedef struct walking {
     const octree *other;
-    bool is_a; /* true: the walked tree is the reference's */
+    bool is_a; /* true: the walked tree belongs to the reference */
     cause_facts *facts;
 } walking;
 
@@ -26,7 +26,8 @@ static void add_node_fact(const walking *w, const char *where, octree_address no
     cause_add_whole(w->facts, where, CAUSE_MORE, NULL, json_string(octree_address_format(node, text)));
 }
 
-/* Report a node that the other tree lacks, or that is a leaf in the other tree only. Then skip the nodes below it. */
+/* Report a node that is missing from the other tree, or that is a leaf only in the other tree. After such a report,
+ * skip the nodes below. */
 static octree_walk_order compare_node(const octree_node *node, void *context)
 {
     const walking *w = context;
@@ -42,8 +43,8 @@ static octree_walk_order compare_node(const octree_node *node, void *context)
 
 /* ---- Points -------------------------------------------------------------------------------------------------- */
 
-/* Return all points of a tree in ascending order of id. The point with the id *excluded is left out, unless
- * `excluded` is null. */
+/* Return all points of a tree in ascending order of id. If `excluded` is not null, leave out the point with the id
+ * *excluded. */
 static cause_points sort_points(const octree *tree, const uint64_t *excluded)
 {
     static const octree_box all = {{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}};
@@ -68,7 +69,7 @@ static const uint64_t *player_of_both(const octree_game *a, const octree_game *b
     return both && *ids[0] == *ids[1] ? ids[0] : NULL;
 }
 
-/* Compare the points of both trees, matched by id. An id is unique in a game. */
+/* Compare the points of both trees. Points with the same id are compared with each other: an id is unique in a game. */
 static void compare_points(const octree_game *a, const octree_game *b, cause_facts *facts)
 {
     const uint64_t *player = player_of_both(a, b);
@@ -102,8 +103,8 @@ void cause_compare_trees(const octree_game *a, const octree_game *b, cause_facts
 
 /* ---- Lines --------------------------------------------------------------------------------------------------- */
 
-/* Write the game's line of ticks.jsonl. The digest of the tree is left out, because it also depends on the tree's
- * options. */
+/* Write the line of ticks.jsonl for the game's current tick. The digest of the tree is left out, because it also
+ * depends on the tree's options. */
 static char *write_line(const octree_game *game)
 {
     octree_tick tick = *octree_game_tick(game);
@@ -122,8 +123,8 @@ static bool is_inner(const octree_game *game, octree_address address)
     return octree_node_at(octree_game_tree(game), address, &node) == OCTREE_OK && !node.leaf;
 }
 
-/* Remove from a tick's `nodes` the nodes in which the trees differ, because cause_compare_trees() reports these
- * nodes. */
+/* In both trees some nodes differ, and cause_compare_trees() reports them. Remove these nodes from `nodes`, a member
+ * of a line of ticks.jsonl. */
 static void drop_reported_nodes(const octree_game *a, const octree_game *b, json_t *nodes)
 {
     for (size_t i = json_array_size(nodes); i-- > 0;) {
@@ -138,7 +139,8 @@ static json_t *read_line(const octree_game *a, const octree_game *b, const char 
 {
     json_error_t error;
     json_t *line = json_parse(text, strlen(text), JSON_DECODE_INT_AS_REAL, &error);
-    json_object_del(line, "tree"); /* its counts follow from the nodes and points that are compared one by one */
+    json_object_del(line,
+                    "tree"); /* the counts in "tree" follow from nodes and points, which are compared one by one */
     drop_reported_nodes(a, b, json_object_get(line, "splits"));
     drop_reported_nodes(a, b, json_object_get(line, "merges"));
     return line;
@@ -176,7 +178,7 @@ static bool have_same_visits(const octree_tick *a, const octree_tick *b)
     return true;
 }
 
-/* Return whether the points that a swept collision test hit came from the same positions in both ticks. */
+/* In both ticks, a swept collision test hit points. Return whether these points came from the same positions. */
 static bool have_same_hit_ways(const octree_tick *a, const octree_tick *b)
 {
     for (size_t i = 0; a->hit_from && b->hit_from && a->hit_count == b->hit_count && i < a->hit_count; i++)

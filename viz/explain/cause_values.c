@@ -6,8 +6,8 @@
 
 #include <stdlib.h>
 
-/* Return the ids of all points that occur in a session, in ascending order, or null if memory runs out. The id of a
- * point that is inserted again occurs twice. */
+/* Return the ids of all points that occur in a session, in ascending order, or null if memory runs out. If an edit
+ * inserts a point again, its id occurs twice. */
 static uint64_t *list_ids(const octree_session *session, size_t *count)
 {
     uint64_t *ids = malloc((session->body_count + session->edit_count + 1) * sizeof *ids);
@@ -45,7 +45,7 @@ static void compare_value(cause_facts *facts, uint64_t id, const point_value *a,
     }
 }
 
-/* Points that only one session has are skipped here; the comparison of points reports them. */
+/* A point that only one session has is skipped here, because the comparison of points reports it. */
 void cause_compare_values(const session_file *a, const session_file *b, cause_facts *facts)
 {
     size_t a_count, b_count;

@@ -19,7 +19,7 @@ static void print_number(FILE *out, double number)
     fputs(text, out);
 }
 
-/* The number of elements that are printed of a list that is longer, such as a list of ids. */
+/* the number of elements that are printed from a longer list, such as a list of ids */
 enum { LONGEST_LIST = 4 };
 
 /* Print a list: "(1, 2, 3)", "(1, 2, 3, 4 and 8 more)", or for a segment "(0, 0, 0) to (9, 9, 9)". */
@@ -60,7 +60,7 @@ static void print_object(FILE *out, json_t *object)
     }
 }
 
-/* Print a value. Quote a text if it is a member of an object. */
+/* Print a value. With `is_member`, the value is a member of an object, and a text is printed in quotes. */
 static void print_value(FILE *out, const json_t *value, bool is_member)
 {
     if (json_is_number(value))
@@ -80,8 +80,8 @@ static bool has_members(const json_t *value)
     return json_is_object(value) && !is_box(value);
 }
 
-/* Print both values: "8, was 4". For objects print every member, with "was" for changed members: "radius 101, was
- * 100, at (1, 2, 3)". */
+/* Print the new and the old value: "8, was 4". For objects print every member, and print the old value of each
+ * changed member: "radius 101, was 100, at (1, 2, 3)". */
 static void print_change(FILE *out, const json_t *a, const json_t *b, bool is_member)
 {
     const char *key;
@@ -189,8 +189,8 @@ static void print_fact(FILE *out, const cause_row *p, const cause_group *group, 
 
 enum { MINOR_SUBJECTS = 2, BRIEF_SUBJECTS = 3, FULL_SUBJECTS = 5 };
 
-/* Return how many facts of a group are printed with their subjects. If only one fact would be left over, its subject
- * is printed, too: "and 1 more" would not be shorter. */
+/* Return how many facts of a group are printed with their subjects; the other facts are only counted. If only one
+ * fact would be left over, print its subject, too: "and 1 more" would not be shorter. */
 static size_t count_named(const cause_group *group, bool brief)
 {
     const size_t most = brief ? BRIEF_SUBJECTS : FULL_SUBJECTS, count = cause_count_listed(group);
@@ -209,8 +209,8 @@ static void print_subjects(FILE *out, const cause_group *group, bool brief)
         fprintf(out, " and %" PRIu64 " more", group->found - printed);
 }
 
-/* Print a group with the place's verb: "points 12 and 13 moved", "49 points moved (such as 12)" or "point 12 moved
- * from (0, 0, 0) to (1, 2, 3)". */
+/* Print a group with the verb of its place: "points 12 and 13 moved", "49 points moved (such as 12)" or "point 12
+ * moved from (0, 0, 0) to (1, 2, 3)". */
 static void print_verb(FILE *out, const cause_row *p, const cause_group *group, bool brief)
 {
     const cause_fact *fact = &group->listed[0];
@@ -251,8 +251,8 @@ static void print_fact_count(FILE *out, const cause_row *p, const cause_group *g
     fputc(')', out);
 }
 
-/* Print a group whose facts have no id or word: "the query visited other nodes at tick 3 (visited 12, was 9)" or "17
- * queries visited other nodes, the first at tick 3 (...)". */
+/* Print a group with the verb of its place; its facts have no id and no word: "the query visited other nodes at tick
+ * 3 (visited 12, was 9)" or "17 queries visited other nodes, the first at tick 3 (...)". */
 static void print_unnamed_verb(FILE *out, const cause_row *p, const cause_group *group)
 {
     const cause_fact *first = &group->listed[0];
@@ -298,7 +298,7 @@ static void print_group(FILE *out, const cause_group *group, bool brief)
 
 void cause_print_facts(FILE *out, const cause_facts *facts, bool brief)
 {
-    size_t printed[2] = {0, 0}; /* the numbers of printed major and minor groups */
+    size_t printed[2] = {0, 0}; /* the number of printed major groups, then the number of printed minor groups */
     for (int minor = 0; minor < 2; minor++) {
         if (minor && brief && printed[0] > 0)
             return;
@@ -318,10 +318,11 @@ void cause_print_facts(FILE *out, const cause_facts *facts, bool brief)
 
 /* ---- The headline -------------------------------------------------------------------------------------------- */
 
-/* Print the consequence of a different option: the number of differing ticks. */
+/* Print how many ticks differ because of a different option. */
 static void print_extent(FILE *out, const cause *c)
 {
-    if (c->differing.count == 0) /* frames may still differ: shapes and arrows are not compared */
+    if (c->differing.count ==
+        0) /* "no tick differs" does not mean equal frames: shapes and arrows are drawn but not compared */
         fputs("the ticks that both sides have are equal", out);
     else if (c->differing.count == c->compared - c->differing.first)
         fprintf(out, "every tick from %" PRIu64 " differs", c->differing.first);
@@ -330,7 +331,7 @@ static void print_extent(FILE *out, const cause *c)
                 c->compared, verb_ending(c->differing.count), c->differing.first);
 }
 
-/* Print the consequence of a different point, key, edit or query: the facts of the first differing tick. */
+/* Print which point, key press, edit or query differs first: the facts of the first differing tick. */
 static void print_first_difference(FILE *out, const cause *c)
 {
     const cause_tick *first = cause_find_tick(c, c->differing.first);
@@ -351,8 +352,8 @@ static bool has_view_option(const cause_facts *facts)
 }
 
 /* Print "4 more wrong answers from tick 41 on" or "other wrong answers in 3 ticks from tick 2 on". With `later`,
- * print the differences that begin after the first differing tick, else the others. Return whether anything was
- * printed. */
+ * print only differences that begin after the first differing tick; else print only the earlier ones. Return whether
+ * anything was printed. */
 static bool print_wrong(FILE *out, const cause *c, bool later)
 {
     bool any = false;
@@ -374,7 +375,7 @@ static bool print_wrong(FILE *out, const cause *c, bool later)
     return any;
 }
 
-/* Return the number of groups of the session's facts that begin after the first differing tick. If all groups do,
+/* Return how many groups of the session's facts begin after the first differing tick. If this is true of all groups,
  * return 0. The groups are sorted by tick. */
 static size_t count_later_ticks(const cause *c)
 {

@@ -7,14 +7,14 @@
 
 #include <stdio.h>
 
-/* Print facts separated by commas, then minor facts after a semicolon: "node 0/3/7 only in the frames, point 12
- * moved from (0, 0, 0) to (1, 2, 3)". With `brief`, leave out positions, minor facts and all groups after the first
+/* Print facts separated by commas. Minor facts follow after a semicolon: "node 0/3/7 only in the frames, point 12
+ * moved from (0, 0, 0) to (1, 2, 3)". With `brief`, leave out positions and minor facts, and print only the first
  * CAUSE_BRIEF groups. */
 #define CAUSE_BRIEF 4
 void cause_print_facts(FILE *out, const cause_facts *facts, bool brief);
 
-/* Print one line: the differences between sessions and views, and their consequence. Print nothing if both sessions
- * and both views are equal. */
+/* Print one line: the differences between the sessions and between the views, and how many ticks differ. Print
+ * nothing if sessions and views are equal. */
 void cause_print_headline(FILE *out, const cause *c);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* explain.c - explains the differences of two sides pair by pair. If both sides are recordings, it also plays their
- * sessions. */
+/* explain.c - explains how two sides differ, pair of frames by pair. If both sides are recordings, it also plays
+ * their sessions. */
 #include "explain.h"
 #include "array.h"
 #include "cause_words.h"
@@ -57,7 +57,7 @@ typedef struct wanted_pair {
 typedef struct watching {
     explanation *e;
     const diff_options *options;
-    wanted_pair *pairs; /* in ascending order of ticks */
+    wanted_pair *pairs; /* the pairs to explain, in ascending order of ticks */
     size_t count;
 } watching;
 
@@ -82,13 +82,13 @@ static bool explain_pair_of_tick(void *context, const octree_game *const games[2
     const wanted_pair *wanted = find_wanted(w, tick);
     if (!wanted || !wanted->pair->difference.unlike.pixels)
         return true;
-    /* is_wanted() returned true for this tick, so cause_find() has just appended its details. */
+    /* is_wanted() returned true for this tick, so cause_find() has just appended the details of this tick */
     cause_tick *reported = &w->e->cause.ticks[w->e->cause.count - 1];
     return tracer_trace(&w->e->tracer, w->e->sides, games, wanted->pair, w->options, &reported->trace, error);
 }
 
-/* Return the first tick whose frames differ. All pairs are searched, because names of ticks with more than six
- * digits are not sorted by tick. */
+/* Return the first tick whose frames differ. All pairs are searched: the pairs are sorted by name, and names of
+ * ticks with more than six digits are not in the order of ticks. */
 static uint64_t find_first_drawn_tick(const diff_result *result)
 {
     uint64_t first = CAUSE_NO_TICK;
@@ -140,11 +140,12 @@ static bool print_warnings(FILE *out, const explanation *e)
     return any;
 }
 
-/* Print the warnings about files, then the cause. If sessions and views are equal, the cause is rendering. */
+/* Print the warnings about files, then the cause. If the sessions are equal and the views are equal, the cause is
+ * rendering. */
 static void print_headline(FILE *out, const explanation *e, const diff_result *result)
 {
     const bool known = e->cause.session.count > 0 || e->cause.view.count > 0;
-    /* The index of the first explained pair, and the number of explained pairs whose scenes differ. */
+    /* the index of the first explained pair, and the number of explained pairs whose scenes differ */
     size_t first = e->count, other_scenes = 0;
     for (size_t i = e->count; i-- > 0;)
         if (e->pairs[i].text) {
@@ -172,7 +173,8 @@ static bool make_headline(explanation *e, const diff_result *result, octreel_err
 
 /* ---- Both kinds of sides ------------------------------------------------------------------------------------- */
 
-/* Return whether two files with this name differ: only one side has the file, or their bytes differ. */
+/* Return whether a file of this name differs between the sides: only one side has the file, or the bytes of the two
+ * files differ. */
 static bool file_differs(const diff_side *a, const diff_side *b, const char *name)
 {
     return (folder_contains(a->path, name) || folder_contains(b->path, name)) &&
@@ -206,7 +208,7 @@ static void examine_pair(size_t i, void *context)
     }
 }
 
-/* Set the key of each differing pair's cause. For the first `most` pairs also set the sentence. */
+/* For each differing pair, set the key of its cause. For the first `most` differing pairs, also set the sentence. */
 static bool explain_pairs(explanation *e, const diff_result *result, uint64_t most, octreel_error *error)
 {
     looking l = {e, result, calloc(result->count + 1, sizeof *l.looks)};

@@ -26,16 +26,16 @@
 typedef struct pair_cause {
     char *text;      /* one sentence; null if no cause is known; owned */
     char *key;       /* a text that is equal for all pairs with the same cause; null if no cause is known; owned */
-    bool only_drawn; /* both frames show the same scene: only rendering differs */
+    bool only_drawn; /* true: both frames show the same scene, so only rendering differs */
 } pair_cause;
 
-/* The explanation of a comparison. In a zeroed explanation nothing is explained. */
+/* The explanation of a comparison. A zeroed explanation explains nothing. */
 typedef struct explanation {
     char *headline;    /* one line that says why the sides differ; null if no cause is known; owned */
     char *trouble;     /* the error that prevented an explanation; null if there was no error; owned */
     pair_cause *pairs; /* one cause for each pair of the result; null if nothing is explained; owned */
     size_t count;
-    bool recordings; /* both sides are recordings; only then are the members below used */
+    bool recordings; /* true: both sides are recordings; if false, the members below are not used */
     recorded sides[2];
     cause cause;
     tracer tracer;
@@ -43,9 +43,9 @@ typedef struct explanation {
 
 #define EXPLAIN_DEFAULT 10
 
-/* Explain the first `most` differing pairs and ticks. With `most` 0, explain nothing. An error is stored in
- * e->trouble; return false only if there is no memory to store it. Two recordings with equal frames are also
- * explained if their sessions, views or ticks differ. Both sides must outlive the explanation. */
+/* Explain the first `most` differing pairs and ticks. If `most` is 0, explain nothing. Two recordings with equal
+ * frames are explained, too, if their sessions, views or ticks differ. An error is stored in e->trouble. Return
+ * false only if memory runs out even for this error. Both sides must outlive the explanation. */
 bool explain(const diff_side *a, const diff_side *b, const diff_result *result, uint64_t most, explanation *e,
              octreel_error *error);
 void explanation_release(explanation *e);
@@ -53,7 +53,7 @@ void explanation_release(explanation *e);
 /* Return the sentence that explains the i-th pair, or null. */
 const char *explanation_cause(const explanation *e, size_t i);
 
-/* Return the verdict of the result or, if explaining failed, DIFF_TROUBLE. */
+/* Return the verdict of the comparison. If the explanation failed, return DIFF_TROUBLE. */
 diff_verdict explanation_verdict(const explanation *e, const diff_result *result);
 
 /* Return whether the frames of a pair differ and can be read. Only such pairs are explained. */

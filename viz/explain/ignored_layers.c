@@ -28,7 +28,7 @@ static int clamp(int value, int limit)
     return value < 0 ? 0 : value > limit ? limit : value;
 }
 
-/* Add a box to the mask. The box is clipped to the frame. */
+/* Add the pixels of a box to the mask. Parts of the box outside the frame are ignored. */
 static void add_box(const draw_box *box, void *context)
 {
     frame_mask *m = context;
@@ -88,8 +88,9 @@ bool ignore_layers(void *context, const diff_side *a, const diff_side *b, diff_p
         return error_set(error, "--ignore-layer needs a recording, and neither %s nor %s is one", a->path, b->path);
     if (count == 0)
         return true;
-    /* Sort the pairs by tick. Both frames of a pair have the same name, so the order fits both recordings. Names of
-     * ticks with more than six digits are not sorted by tick. */
+    /* Sort the pairs by tick, the order in which a recording is played. Until here they are sorted by name, and
+     * names of ticks with more than six digits are not in the order of ticks. Both frames of a pair have the same
+     * name, so the order fits both recordings. */
     qsort(pairs, count, sizeof *pairs, compare_by_tick);
     return (a->kind != DIFF_RECORDING || add_masks(a, layers, pairs, count, error)) &&
            (b->kind != DIFF_RECORDING || add_masks(b, layers, pairs, count, error));

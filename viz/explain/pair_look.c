@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* pair_look.c - finds why two frames differ, from their text chunks and from the recordings that contain them. */
+/* pair_look.c - finds why two frames differ. It compares the text chunks of the PNG files and, if the frames belong
+ * to recordings, these recordings. */
 #include "pair_look.h"
 #include "cause_words.h"
 #include "image_digest.h"
@@ -31,7 +32,8 @@ static bool is_as_drawn(const diff_frame *frame, const frame_origin *origin)
     uint64_t pixels;
     errno = 0;
     if (!image_digest_png(origin->kind, frame->path, IMAGE_WHITE, &about, &pixels, &ignored))
-        return !check_system_resources(&ignored); /* without resources the digest is unknown: report no fault */
+        return !check_system_resources(&ignored); /* if resources are lacking, the digest of the pixels is unknown, so
+                                                     the frame counts as correct */
     return pixels == origin->pixels;
 }
 
@@ -72,7 +74,7 @@ static bool is_only_drawing_different(const explanation *e, const pair_look *l)
     return l->same_scene && !has_frame_fault(l) && !cause_facts_show(&e->cause.view, 0);
 }
 
-/* Print how a frame contradicts its text chunks or its recording. */
+/* Print how a frame contradicts its own text chunks or the recording that contains it. */
 static void print_fault(FILE *out, frame_fault fault, const frame_origin *origin)
 {
     static const char *const words[] = {
@@ -134,15 +136,15 @@ static void print_missing(FILE *out, const recorded *r, uint64_t tick)
         fprintf(out, "%s has no such frame: the recording is damaged or incomplete", r->side->path);
 }
 
-/* Return whether a difference is known that the frame of a tick can show. */
+/* Return whether any known difference is visible in the frame of a tick. */
 static bool differs_at(const explanation *e, const cause_tick *details, uint64_t tick)
 {
     return (details && details->facts.count > 0) || cause_facts_show(&e->cause.view, tick) ||
            cause_facts_show(&e->cause.session, tick);
 }
 
-/* Print the cause for frames of a tick that is equal in both sessions: the differences between the sessions. If some
- * of these differences can be seen in this frame, print only them. */
+/* Print the cause for two frames whose tick is equal in both sessions: the differences between the sessions. If some
+ * of these differences are visible in the frames, print only these. */
 static void print_same_tick(FILE *out, const explanation *e, const cause_facts *shown, bool other_view)
 {
     const cause_facts *session = shown->count || other_view ? shown : &e->cause.session;
@@ -187,8 +189,8 @@ static void print_origins(FILE *out, const pair_look *l)
                 a->tick);
 }
 
-/* Return whether a faulty frame may still show the right picture: its only fault is that it lacks text chunks. The
- * difference between the ticks is then printed as well. */
+/* Return whether the only fault of a faulty frame is that it lacks text chunks. Such a frame may show the right
+ * picture, so the difference between the ticks is printed, too. */
 static bool may_be_right(const pair_look *l)
 {
     return (l->faults[0] == FAULT_NONE || l->faults[0] == FAULT_TEXTS) &&
@@ -251,8 +253,8 @@ static void print_origins_key(FILE *out, const pair_look *l)
             b->tick - a->tick);
 }
 
-/* Print the key of a pair. Return false if the pair has no key, because pairs with the same cause cannot be
- * recognized: for example, only digests are known or a frame is missing. */
+/* Print the key of a pair. Return false if the pair has no key. A pair has no key if it cannot be compared with
+ * other pairs: for example, only digests are known, or a frame is missing. */
 static bool print_key(FILE *out, const explanation *e, const diff_pair *pair, const pair_look *l)
 {
     const bool known = e->cause.session.count > 0 || e->cause.view.count > 0, both = pair->a && pair->b;

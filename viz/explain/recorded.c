@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The longest line of ticks.jsonl that is read to its end, in bytes. */
+/* The longest line of ticks.jsonl that is read, in bytes. */
 #define LONGEST_LINE ((size_t)1 << 26)
 
 static void add_warning(recorded *r, const char *format, ...)
@@ -26,7 +26,7 @@ static void add_warning(recorded *r, const char *format, ...)
 
 /* ---- Opening ------------------------------------------------------------------------------------------------- */
 
-/* Check that the first frame belongs to this session. */
+/* Check that the first frame of the recording names the recording's session. */
 static void check_session(recorded *r)
 {
     uint64_t tick;
@@ -85,9 +85,9 @@ static bool read_line(recorded *r, uint64_t tick, octreel_error *error)
     return true;
 }
 
-/* Return the values of a tick's line that do not follow from the tick. The result points to `name`, which receives
- * the name of the tick's frame. No scene is built here, so the digest of the scene is read from the frame or, if the
- * frame has none, from the line itself. */
+/* Return the values of a line of ticks.jsonl that do not follow from the tick itself. `name` receives the name of
+ * the tick's frame; the result points to it. This function does not build the scene. It therefore reads the digest
+ * of the scene from the frame or, if the frame has none, from the line. */
 static tick_extras make_tick_extras(const recorded *r, const octree_tick *tick, char name[FRAME_NAME])
 {
     uint64_t scene = 0;
@@ -120,8 +120,8 @@ static bool check_line(recorded *r, const octree_game *game, octreel_error *erro
     return true;
 }
 
-/* Check the lines of both recordings. If the ticks are equal and the lines are equal, no check is needed: the lines
- * are both right or both wrong. */
+/* Compare the lines of both recordings' ticks.jsonl with the games. If the ticks are equal and the lines are equal,
+ * nothing is checked: then either both lines are right or both are wrong. */
 bool recorded_check_tick(recorded sides[2], const octree_game *const games[2], bool differs, octreel_error *error)
 {
     const uint64_t tick = octree_game_tick(games[0])->number;

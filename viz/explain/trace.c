@@ -23,7 +23,8 @@
 #include <inttypes.h>
 #include <stdlib.h>
 
-/* The largest number of samples of a picture that is traced. Each sample needs 8 bytes. */
+/* The largest number of samples of a traced picture. Larger pictures are not traced, because each sample needs 8
+ * bytes. */
 #define MOST_SAMPLES ((size_t)1 << 25)
 
 void tracer_close(tracer *t)
@@ -46,8 +47,8 @@ bool tracer_add_tick(tracer *t, const recorded sides[2], const octree_game *cons
 
 /* ---- Parts of a scene ------------------------------------------------------------------------------------------ */
 
-/* Return the highest changed node among a node and its ancestors. A node is changed if only one tree has it, or if
- * it is a leaf in only one tree. Return 0 if none is changed. */
+/* Among a node and its ancestors, return the highest changed node, or 0 if none of them is changed. A node is
+ * changed if it exists in only one of the two trees, or is a leaf in only one of them. */
 static octree_address changed_node(const octree_game *const games[2], octree_address node)
 {
     const unsigned depth = octree_address_depth(node);
@@ -62,8 +63,8 @@ static octree_address changed_node(const octree_game *const games[2], octree_add
     return 0;
 }
 
-/* Return the part to which an element belongs. In the layers of nodes and points, each node and each point is a
- * part. Every other layer is one part. */
+/* Return the part to which an element belongs. In the layers of nodes and points, each node and each point is a part
+ * of its own. Every other layer is one part. */
 static trace_part find_part_of_element(const scene *s, uint32_t number, const octree_game *const games[2])
 {
     trace_part part = {.layer = TRACE_BACKGROUND, .pixels = 1};
@@ -81,8 +82,8 @@ static trace_part find_part_of_element(const scene *s, uint32_t number, const oc
     return part;
 }
 
-/* Return the part that is drawn on top. Layers are numbered in the order in which they are drawn; the background is
- * below all layers. */
+/* Of two parts, return the part that is drawn on top. Layers are numbered in the order in which they are drawn; the
+ * background is below all layers. */
 static trace_part choose_upper_part(trace_part a, trace_part b)
 {
     if (a.layer == TRACE_BACKGROUND || b.layer == TRACE_BACKGROUND)
@@ -101,15 +102,15 @@ typedef struct tracing {
     const tracer *tracer;
     const octree_game *const *games;
     image frames[2];
-    uint32_t *numbers[2]; /* the element numbers of both scenes, one for each sample */
+    uint32_t *numbers[2]; /* for each of the two scenes, the number of the element drawn at each sample */
     size_t samples;       /* the number of samples of a pixel along each axis */
     trace made;
     size_t room;
     hash_map map; /* maps a part to its index in made.parts */
 } tracing;
 
-/* Return the part at the first sample of a pixel at which the two scenes show different parts. If no sample differs,
- * return the part at the first sample that shows an element. */
+/* Return the part that differs at a pixel: the part at the first sample of the pixel at which the two scenes show
+ * different parts. If all samples are equal, return the part at the first sample that shows an element. */
 static trace_part find_part_at_pixel(const tracing *t, size_t x, size_t y)
 {
     const size_t width = (size_t)t->frames[0].width;
@@ -161,7 +162,7 @@ static int compare_by_pixels(const void *a, const void *b)
     return x->layer != y->layer ? x->layer - y->layer : (x->id > y->id) - (x->id < y->id);
 }
 
-/* Count the pixels of each part, over all pixels that differ and are not ignored. */
+/* Count, for each part, the pixels that differ and are not ignored. */
 static bool count_parts(tracing *t, const image_tolerance *tolerance)
 {
     const image *frames = t->frames;
@@ -182,7 +183,8 @@ static bool count_parts(tracing *t, const image_tolerance *tolerance)
 
 /* ---- A pair -------------------------------------------------------------------------------------------------- */
 
-/* Draw the element numbers of a scene. Without a renderer nothing is traced; t->untraced keeps the first reason. */
+/* Draw a scene with element numbers instead of colours. If no renderer can be opened, nothing is traced, and
+ * t->untraced keeps the first reason. */
 static bool pick_elements(tracer *t, const scene *s, uint32_t *numbers)
 {
     const renderer_choice choice = {0};
@@ -213,7 +215,7 @@ static bool read_frames(const tracer *t, const diff_pair *pair, image frames[2])
     return ok;
 }
 
-/* Return false only if memory runs out. */
+/* Trace a pair of frames. Return false only if memory runs out. */
 static bool trace_frames(tracer *t, tracing *state, const diff_pair *pair, const diff_options *options)
 {
     const size_t pixels = (size_t)state->frames[0].width * (size_t)state->frames[0].height;

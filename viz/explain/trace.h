@@ -13,11 +13,12 @@
 
 #include <stdio.h>
 
-/* A part of a scene: a node, a point, or all elements of another layer. It has the number of differing pixels at
- * which it is drawn. If the trees differ in a node, the pixels of all nodes below it count for that node. */
+/* A part of a scene, with the number of differing pixels at which it is drawn. A part is a node, a point, or all
+ * elements of another layer. If the two trees differ in a node, the pixels of all nodes below are counted for this
+ * node. */
 typedef struct trace_part {
-    int layer;   /* a view_layer; TRACE_BACKGROUND: neither frame shows an element there */
-    uint64_t id; /* in LAYER_NODES the address of the node, in LAYER_POINTS the id of the point; else 0 */
+    int layer;   /* the view_layer of the part; TRACE_BACKGROUND: neither frame shows an element at these pixels */
+    uint64_t id; /* in the layer LAYER_NODES, a node's address; in LAYER_POINTS, a point's id; else 0 */
     uint64_t pixels;
 } trace_part;
 
@@ -31,12 +32,12 @@ typedef struct trace {
     uint64_t pixels; /* the sum of the pixels of all parts */
 } trace;
 
-/* The state while two games are played and their frames are traced. Zeroed: before the first tick. */
+/* The state while two games are played and their frames are traced. Zeroed, it is the state before the first tick. */
 typedef struct tracer {
     tick_history histories[2];
     scene scenes[2];
     renderer *renderer; /* opened when the first pair of frames is traced */
-    char untraced[256]; /* the reason why nothing is traced, as a sentence; else "" */
+    char untraced[256]; /* a sentence that says why nothing is traced; "" if frames are traced */
 } tracer;
 
 void tracer_close(tracer *t);
@@ -45,8 +46,8 @@ void tracer_close(tracer *t);
  * tick. */
 bool tracer_add_tick(tracer *t, const recorded sides[2], const octree_game *const games[2], octreel_error *error);
 
-/* Trace the pair of frames of the games' current tick. It is no error if nothing can be traced: a frame is
- * unreadable or does not show the scene of its tick, the sizes differ, or no renderer can be opened. */
+/* Trace the pair of frames of the games' current tick. If the frames cannot be traced, this is no error: a frame may
+ * be unreadable or not show the scene of its tick, the sizes may differ, or no renderer can be opened. */
 bool tracer_trace(tracer *t, const recorded sides[2], const octree_game *const games[2], const diff_pair *pair,
                   const diff_options *options, trace *made, octreel_error *error);
 
@@ -54,7 +55,8 @@ bool tracer_trace(tracer *t, const recorded sides[2], const octree_game *const g
 #define TRACE_TEXT (OCTREE_ADDRESS_TEXT + sizeof "node ")
 const char *trace_part_text(const trace_part *part, char text[TRACE_TEXT]);
 
-/* Print the TRACE_PRINTED largest parts, text last: "312 pixels: 180 of node 0/3/7, 90 of point 12, 42 of text". */
+/* Print the TRACE_PRINTED largest parts. Text is printed last: "312 pixels: 180 of node 0/3/7, 90 of point 12, 42 of
+ * text". */
 #define TRACE_PRINTED 5
 void trace_print(FILE *out, const trace *t);
 
