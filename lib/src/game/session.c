@@ -235,9 +235,9 @@ static const char paper_keys[] =
     "asfasfasfasfasfasfasfasfasfasfasfasfasfasfasfasfasfasf"
     /* The player moves against the three faces at the lowest corner. */
     "sffffnasf."
-    "ddweddwedddddddddddddddddddddddddddddddddnddwddddn" /* the player moves to point 2, then against the face x = 1000
-                                                          */
-    "ewaewaewaewaewaewaewaewaewaewa"                     /* the player moves up to point 9 */
+    /* The player moves to point 2, then against the face x = 1000. */
+    "ddweddwedddddddddddddddddddddddddddddddddnddwddddn"
+    "ewaewaewaewaewaewaewaewaewaewa" /* the player moves up to point 9 */
     "ewewewewewewewewewewewewewewewwwneee.n"
     "dwedwedwedweddewn.en"   /* the player moves into the cell whose leaf is full */
     "dwendweenaweeeen"       /* the player moves against the face z = 1000 */

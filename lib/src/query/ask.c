@@ -136,7 +136,7 @@ bool collect_unless_skipped(const octree_point *point, void *context)
     return !run->failed;
 }
 
-/* The size of a member in bytes, and the number of doubles in it. */
+/* For each type of query member: its size in bytes, and the number of its doubles. */
 static const struct {
     size_t size, doubles;
 } member_sizes[] = {[OCTREE_MEMBER_BOX] = {sizeof(octree_box), 6},

@@ -18,7 +18,7 @@ typedef struct query_run {
     list *points;    /* a list of octree_point */
     list *neighbors; /* a list of octree_neighbor */
     const octree_answer *asked;
-    bool failed; /* true: there was no memory for a point */
+    bool failed; /* true: memory ran out, so the result lacks points */
 } query_run;
 
 /* An octree_point_visitor with a query_run as its context: append the point to the result unless the query skips it. */
@@ -36,9 +36,9 @@ OCTREE_QUERY_MAP(QUERY_RULE_TYPES)
 typedef struct query_rules {
     octree_status (*ask)(query_run *run, octree_answer *answer);
 
-    /* Compare a position with the region, enlarged by a distance `slack` >= 0: -1 inside, 0 on the boundary, 1 outside.
-     * Real numbers decide, whatever the sizes of the world and the region; if slack > 0 the boundary may be rounded
-     * outwards. The pointer is null if the result is neighbours. */
+    /* Compare a position with the region of a query, widened by a distance `slack` >= 0. Returns -1 if the position is
+     * inside, 0 on the boundary, 1 outside. The comparison is exact, whatever the sizes of the world and the region;
+     * only if slack > 0 may the boundary be rounded outwards. The pointer is null if the result is neighbours. */
     int (*compare)(const octree_answer *asked, const double position[3], double slack);
 
     /* A closed box that contains the region and all positions within `slack` >= 0 of it. The pointer is null if the
@@ -54,7 +54,7 @@ static inline bool is_on_boundary(const octree_answer *asked, const double posit
     return query_rules_of(asked->kind)->compare(asked, position, 0) == 0;
 }
 
-/* Whether the query has a foreign answer or pruned foreign nodes, which the exact answer must judge. */
+/* Return true if the query has a foreign answer or pruned foreign nodes. Both are judged by the exact answer. */
 static inline bool query_is_judged(const octree_query *query)
 {
     return query->answered || query->visits[OCTREE_NODE_PRUNED].count > 0;

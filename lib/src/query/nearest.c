@@ -31,7 +31,7 @@ typedef struct frame {
     double center[3];     /* the centre of the node's cell, in units in which the world extends from -1 to 1 */
     double squares[3][2]; /* on each axis, the squared distance from the target to a child: [axis][0: near half, 1: far
                              half] */
-    uint8_t near;         /* the octant nearest to the target */
+    uint8_t near;         /* the octant whose cell is nearest to the target */
     uint8_t flips[8];     /* `octant ^ near` of each child, sorted by distance */
     uint8_t next;         /* the index of the next element of `flips` */
     uint8_t left;         /* bit mask of the octants that are not searched yet */
@@ -77,8 +77,8 @@ static void sort_octants_by_distance(frame *f)
         f->flips[7 - i] = 7 ^ f->flips[i];
 }
 
-/* Measure the distances to the planes that split a frame's cell. The cell's centre and the squares of the near halves
- * are already set. */
+/* Measure the distances from the target to the planes that split a frame's cell. The cell's centre and the squares of
+ * the near halves are already set. */
 static void measure_planes(const search *s, frame *f)
 {
     f->near = 0;
@@ -163,7 +163,8 @@ static void search_next_child(search *s)
     s->open--;
 }
 
-/* Fill the frame of a node on the path to the target's leaf. The octant on the path counts as searched already. */
+/* Fill the frame of a node on the path to the target's leaf. The octant that is on this path counts as already
+ * searched. */
 static frame *open_path_node(search *s, const node *n, uint64_t code, const uint32_t keys[3], unsigned depth)
 {
     frame *f = &s->frames[depth];
@@ -187,7 +188,8 @@ static void search_siblings(search *s, frame *f, unsigned depth)
 {
     const double reach = s->found.node_reach;
     const double x = square_of_child(f, 4), y = square_of_child(f, 2), z = square_of_child(f, 1);
-    if ((x > reach) & (y > reach) & (z > reach)) { /* one branch, because three would be unpredictable */
+    /* A single branch: three branches, one per axis, would be unpredictable. */
+    if ((x > reach) & (y > reach) & (z > reach)) {
         meter_prune(&s->meter, f->address, f->left);
         return;
     }
@@ -197,8 +199,9 @@ static void search_siblings(search *s, frame *f, unsigned depth)
         search_next_child(s);
 }
 
-/* Store the codes of those neighbouring cells of the target's cell that the search will probably visit. They are within
- * a quarter of the cell's size from the target if k = 1, within half of it if k > 1. Returns the number of codes. */
+/* Find the cells adjacent to the target's cell that the search will probably visit, and store their Morton codes. They
+ * lie within a quarter of the cell's size from the target if k = 1, and within half of it if k > 1. Returns the number
+ * of codes. */
 static unsigned find_adjacent_codes(const uint32_t keys[3], unsigned depth, size_t k, uint64_t codes[3])
 {
     const uint32_t size = cell_size(depth), close = k > 1 ? size / 2 : size / 4;
@@ -216,7 +219,7 @@ static unsigned find_adjacent_codes(const uint32_t keys[3], unsigned depth, size
     return count;
 }
 
-/* Prefetch the leaves adjacent to the target's leaf, while the processor loads the target's leaf. */
+/* Prefetch the leaves adjacent to the target's leaf, while the processor loads the target's leaf from memory. */
 static void prefetch_adjacent_leaves(const path *p, uint64_t code, const uint32_t keys[3], size_t k)
 {
     uint64_t codes[3];
@@ -382,7 +385,8 @@ static octree_status check_batch_arguments(const octree *tree, const double (*ta
     return status;
 }
 
-/* The caller's arrays are not accessed in order. Their elements are prefetched this many targets ahead. */
+/* Array elements are prefetched this many targets before they are used. Targets are searched in Morton order, which
+ * jumps around in the caller's arrays. */
 #define PREFETCH_AHEAD 4
 
 typedef struct target_batch {

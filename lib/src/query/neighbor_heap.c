@@ -17,14 +17,15 @@
 #include "search.h"
 
 #if defined(__GNUC__)
-/* Keeps rare code out of line, so that the frequent path saves fewer registers. */
+/* Marks functions that are rarely called. They are not inlined, so that the frequent path saves fewer registers. */
 #define RARE __attribute__((noinline))
 #else
 #define RARE
 #endif
 
-/* Set the reach of the search. With k neighbours found, the farthest one limits it. In FAST mode nodes keep the
- * tolerance of EXACT mode, because the bound of epsilon and the order of siblings (nearest.c) depend on it. */
+/* Set the reach of the search: once k neighbours are found, the farthest of them limits the search. Nodes have the same
+ * tolerance in FAST mode as in EXACT mode, because the bound of epsilon and the order of siblings (nearest.c) depend on
+ * it. */
 static void set_search_reach(neighbor_heap *h, double worst)
 {
     h->point_reach = h->how.mode == OCTREE_FAST ? worst : metric_above(worst);

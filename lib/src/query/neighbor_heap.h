@@ -39,12 +39,12 @@ typedef struct neighbor_heap {
     few_neighbors few; /* used in place of `items` until the end of the search, if k <= FEW_NEIGHBORS */
 } neighbor_heap;
 
-/* Start a search. h->metric is already set. radius < 0 means that the distance is not limited. `room` has room for k
- * neighbours. */
+/* Start a search for the k nearest neighbours. The caller has set h->metric. A negative radius means that the distance
+ * is not limited. `room` is the caller's array of k neighbours. */
 void neighbor_heap_begin(neighbor_heap *h, const octree_search *how, double radius, octree_neighbor *room, size_t k);
 
-/* The limit of squares: points beyond it are not among the k nearest. It uses that a point with the square `square`
- * exists. */
+/* Return a limit for squares: a point with a greater square is not among the k nearest. If k = 1 and no point is
+ * skipped, the existence of a point with the square `square` lowers the limit. */
 static inline double neighbor_heap_reach(const neighbor_heap *h, double square)
 {
     const double reach = metric_above(square);

@@ -3,8 +3,8 @@
 #include "../exact/float_mode.h"
 #include "region.h"
 
-/* Squared distances from the ball's centre to the parts of a cell, along each axis. Index 0 stands for the lower half,
- * 1 for the upper half. An index needs no branch, which would be unpredictable. */
+/* Squared distances from the ball's centre to the parts of a cell, along each axis. Index 0 stands for the lower half
+ * of the cell, index 1 for the upper half. Selecting a half by an index avoids an unpredictable branch. */
 typedef struct ball_cell {
     double center[3];  /* the cell's centre, in units in which the world extends from -1 to 1 */
     double near[3];    /* the squared distance to the nearest coordinate in the cell */
@@ -19,8 +19,8 @@ typedef struct ball {
     double radius; /* the radius in world units, not scaled */
     double square; /* the square of the scaled radius */
     double reach;  /* a point or cell with a greater scaled squared distance is outside the ball */
-    double whole;  /* a cell is inside the ball of radius + epsilon if the squared distance of its farthest corner is
-                      smaller */
+    /* A cell lies within radius + epsilon if the squared distance of its farthest corner is smaller than this. */
+    double whole;
     ball_cell cells[OCTREE_MAX_DEPTH];
 } ball;
 
@@ -83,7 +83,7 @@ static uint64_t scan_ball_points(const void *shape, const octree_point *points, 
     return found;
 }
 
-/* Measure the root's cell. The lowest bits of the returned masks are about the root itself. */
+/* Compare the root's cell with the ball. Bit 0 of each returned mask stands for the root's cell itself. */
 static octant_masks measure_root(ball *b, const octree *tree)
 {
     ball_cell *c = &b->cells[0];

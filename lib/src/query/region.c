@@ -151,8 +151,8 @@ static key_box find_box_keys(const octree *tree, const octree_box *box)
     return keys;
 }
 
-/* Return a box of keys: every cell strictly between them lies inside the box. If a face of the box coincides with a
- * plane, the box contains the cell that begins at that plane. */
+/* Return the keys of `box`, changed so that every cell strictly between the keys lies inside `box`. If the lower face
+ * of `box` coincides with a plane between cells, `box` contains the cell that begins at that plane. */
 static key_box find_enclosing_keys(const octree *tree, const octree_box *box, key_box keys)
 {
     for (int i = 0; i < 3; i++)
@@ -199,7 +199,7 @@ octant_masks box_shape_enter(void *shape, const octree *tree, unsigned depth, un
         const int32_t middle = low + half, high = low + size;
         const uint8_t below = octants_beside[i][0], above = octants_beside[i][1];
         s->low[depth][i] = low;
-        /* The node itself meets the box, so only its middle plane decides which octants do. */
+        /* The node's cell meets the box, so only the cell's middle plane decides which octants meet the box. */
         meets &= mask_if(s->near.min[i] < middle, below) | mask_if(middle <= s->near.max[i], above);
         inside &= (mask_if(s->whole.min[i] < low, below) & mask_if(middle <= s->whole.max[i], below)) |
                   (mask_if(s->whole.min[i] < middle, above) & mask_if(high <= s->whole.max[i], above));

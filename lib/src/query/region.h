@@ -10,13 +10,13 @@
 
 #include "search.h"
 
-/* How a cell's octants lie to a region. Each mask has one bit per octant. */
+/* The relation between the octants of a cell and a region. Each mask has one bit per octant. */
 typedef struct octant_masks {
     uint8_t meets;  /* the octant may intersect the region */
     uint8_t inside; /* the octant lies within the region */
 } octant_masks;
 
-/* For each axis, a bit mask of the octants in the lower half of a cell and one of those in the upper half. */
+/* octants_beside[axis][half]: a bit mask of the octants in the lower half (0) or the upper half (1) of a cell. */
 static const uint8_t octants_beside[3][2] = {{0x0f, 0xf0}, {0x33, 0xcc}, {0x55, 0xaa}};
 
 typedef struct region {
@@ -33,14 +33,16 @@ typedef struct region {
     meter meter;
 } region;
 
-/* Visit or count the points in a region and report the cost. The lowest bits of `root` are about the root itself. */
+/* Visit or count the points in a region and report the cost. Bit 0 of each mask in `root` stands for the root's cell
+ * itself. */
 void region_search(region *r, octant_masks root);
 
 /* ---- A closed box ------------------------------------------------------------------------------------------- */
 
-/* A box in keys (plane.h), so that cells are compared with integers. Keys ascend with the coordinates. So a point whose
- * key is strictly between those of the faces is in the box, and a point whose key is outside them is not. A face at or
- * beyond the world's face has a key one beyond all other keys. */
+/* A box of integer keys (plane.h), so that cells are compared with integers. A key ascends with its coordinate. On each
+ * axis, a point is inside if its key is strictly between the keys of the two faces, and outside if its key is not
+ * between them; if the keys are equal, the coordinates decide. A face at or beyond the world's face has a key one
+ * beyond all other keys. */
 typedef struct key_box {
     int32_t min[3], max[3];
 } key_box;
@@ -52,7 +54,8 @@ typedef struct box_shape {
     int32_t low[OCTREE_MAX_DEPTH][3]; /* the lowest keys of the current cell at each depth */
 } box_shape;
 
-/* Make the shape of a box. `whole` is the same box, or the box widened by epsilon. */
+/* Make the shape of a box. `whole` is the same box, or the box widened by epsilon; it decides which nodes are taken
+ * whole. */
 box_shape box_shape_make(const octree *tree, const octree_box *box, const octree_box *whole);
 
 /* The functions of a box's shape, for region_search(). */

@@ -35,7 +35,7 @@ static inline double larger(double a, double b)
     return a > b ? a : b;
 }
 
-/* Whether a square is compared as a double, without exact arithmetic. It is in FAST mode, unless the square
+/* Return true if a square is compared as a double, without exact arithmetic. This is so in FAST mode, unless the square
  * overflowed. */
 static inline bool is_compared_as_double(octree_mode mode, double square)
 {

@@ -39,7 +39,7 @@ typedef struct hull_faces {
 } hull_faces;
 
 typedef struct hull {
-    metric metric; /* the metric whose target is a, the start of the step */
+    metric metric; /* the metric whose target is the start of the step */
     hull_faces faces[3];
     unsigned face_count; /* 1 if the step changes two coordinates, 3 if it changes three */
 } hull;
@@ -64,7 +64,7 @@ static double choose_scale(const octree *tree, const sweep *box)
 /* The step and the bounds of the world on one axis, scaled and relative to the start of the step. */
 typedef struct axis_view {
     double step, low, high;
-    double far;   /* the distance to the farther bound of the world */
+    double far;   /* the distance from the start of the step to the farther bound of the world */
     double error; /* the largest error of the position of a plane */
 } axis_view;
 
@@ -161,14 +161,14 @@ static octant_masks enter_swept_cell(void *shape, const octree *tree, unsigned d
 {
     swept_shape *s = shape;
     const octant_masks around = box_shape_enter(&s->around, tree, depth, octant);
-    /* only one octant meets the box: its own children are tested instead */
+    /* only one octant meets the box, so the hull is compared with the children of that octant instead */
     if ((around.meets & (around.meets - 1)) == 0)
         return (octant_masks){around.meets, 0};
     const octant_masks between = hull_octants(&s->hull, s->around.low[depth], depth);
     return (octant_masks){around.meets & between.meets, around.inside & between.inside};
 }
 
-/* Whether the moving box touches a point that lies in the box around the step. */
+/* Return true if the moving box touches a point that lies in the box around the step. */
 static bool is_point_touched(const swept_shape *s, const double p[3])
 {
     bool certain = true;
