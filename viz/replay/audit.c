@@ -56,8 +56,8 @@ static bool is_inexact(const octree_judgement *made)
            (made->wrong == OCTREE_WRONG_MISSING && made->extra_count == 0);
 }
 
-/* True if the limits allow this wrong answer when it is judged alone. Many allowed answers together may still violate
- * the recall. */
+/* True if the limits allow this wrong answer when it is judged alone. Even so, many allowed answers together may
+ * violate the recall limit. */
 static bool is_allowed(const octree_judgement *made, const audit_limits *limits)
 {
     if (limits->by_ratio && made->ratio > limits->ratio)
@@ -96,7 +96,7 @@ static bool keep_worst(audit_kind *kind, audit_case c, const octree_answer *answ
     return true;
 }
 
-/* Returns the entry of the current tick; appends it if it is missing. Returns null if memory runs out. */
+/* Returns the entry of the tick, and appends a new entry if the tick has none. Returns null if memory runs out. */
 static audit_tick *find_or_add_tick(audit_kind *kind, uint64_t tick)
 {
     if (kind->tick_count && kind->ticks[kind->tick_count - 1].tick == tick)
@@ -129,7 +129,8 @@ static bool count_in_tick(audit_kind *kind, uint64_t tick, const octree_judgemen
     return true;
 }
 
-/* True if the answer is wrong, but right with other bounds of the query. */
+/* True if the answer is wrong only in points on the boundary of the query: with other bounds (open or closed) it would
+ * be right. */
 static bool is_wrong_only_on_boundary(const octree_judgement *made)
 {
     return made->on_boundary && made->wrong == made->on_boundary && !(made->missing_count && made->extra_count);
@@ -286,8 +287,8 @@ double audit_tick_recall(const audit_tick *tick)
 
 /* ---- Limits ------------------------------------------------------------------------------------------------ */
 
-/* Parse "NAME=NUMBER" at *at, and move *at behind it and behind a comma. Returns false if the name differs, if this
- * limit was already given, or if the number is invalid or not between `least` and `most`. */
+/* Parse "NAME=NUMBER" at *at, and move *at past the text and a comma that follows. Returns false if the name is not
+ * `name`, if this limit was already given, or if the number is invalid or not between `least` and `most`. */
 static bool parse_limit(const char **at, const char *name, double least, double most, bool *given, double *value)
 {
     const size_t length = strlen(name);

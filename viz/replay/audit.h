@@ -18,18 +18,20 @@
  * Always wrong are unknown ids, points that are named twice, points that the query excludes, points outside the query,
  * too many neighbours, and invalid foreign nodes. */
 typedef struct audit_limits {
-    bool by_ratio, by_recall; /* the limits that apply; if both are false, every answer must be exact */
+    bool by_ratio, by_recall; /* the limits that are set; if both are false, every answer must be exact */
     double ratio, recall;
 } audit_limits;
 
 /* A wrong answer. */
 typedef struct audit_case {
     uint64_t tick;
-    size_t place; /* index among the answers of its tick in ticks.jsonl */
-    /* True: within the limits when judged alone; many such answers together may still violate the recall. */
+    size_t place; /* index of the answer among the answers of its tick in ticks.jsonl */
+    /* True: the wrong answer is within the limits when judged alone. Many such answers together may still violate the
+     * recall limit. */
     bool allowed;
     octree_judgement made; /* the judgement, without its lists of points */
-    /* The first AUDIT_POINTS points that are missing; the first that are extra. */
+    /* The first AUDIT_POINTS points that are missing in the answer, and the first AUDIT_POINTS points that are
+     * extra. */
     octree_point missing[AUDIT_POINTS], extra[AUDIT_POINTS];
     /* The JSON object of ticks.jsonl with the query, the exact answer and the given answer; owned by this struct. */
     char *answer;
@@ -38,17 +40,18 @@ typedef struct audit_case {
 /* The answers to one kind of query in one tick. */
 typedef struct audit_tick {
     uint64_t tick, asked, wrong, expected, missing;
-    double ratio; /* the largest ratio among the neighbours of these answers */
+    double ratio; /* the largest ratio of a neighbour in these answers */
 } audit_tick;
 
 /* The answers to one kind of query. */
 typedef struct audit_kind {
     uint64_t asked, wrong;
-    uint64_t expected, missing; /* number of points in the exact answers; number of these points that were missing */
+    /* Number of points in the exact answers; number of these points that the foreign answers lack. */
+    uint64_t expected, missing;
     uint64_t extra;
     /* Number of wrong answers by kind; an answer with several errors counts under its first. */
     uint64_t wrong_by_kind[OCTREE_WRONG_KINDS];
-    uint64_t on_boundary; /* wrong answers that other bounds of the query would make right */
+    uint64_t on_boundary; /* wrong answers that would be right with other bounds of the query (open or closed) */
     uint64_t beyond;      /* wrong answers that violate the limits when judged alone */
     uint64_t first_wrong; /* the first tick with a wrong answer; set if `wrong` is not 0 */
     double *ratios;       /* the ratio of each answer to a neighbour query, ascending */
@@ -59,10 +62,10 @@ typedef struct audit_kind {
     size_t tick_count, tick_room;
 } audit_kind;
 
-/* The wrong foreign nodes of all ticks. A node that stays wrong is counted once in every tick. */
+/* The wrong foreign nodes of all ticks. A node that stays wrong for several ticks is counted once per tick. */
 typedef struct audit_nodes {
     bool given;
-    /* Number of wrong nodes; number of ticks with a wrong node; the first such tick. */
+    /* Number of wrong nodes, number of ticks with a wrong node, and the first tick with a wrong node. */
     uint64_t wrong, ticks, first_wrong;
     uint64_t wrong_by_kind[OCTREE_WRONG_NODE_KINDS];
     struct {
@@ -87,20 +90,20 @@ bool audit_read(const char *path, const audit_limits *limits, uint64_t max_ticks
                 audit_report *report, octreel_error *error);
 void audit_release(audit_report *report);
 
-/* Returns a percentile: the smallest ratio that `share` of all answers, such as 0.99, do not exceed. Returns 1 if there
- * are no answers. */
+/* Returns a percentile of the ratios: the smallest ratio that is not exceeded by the share `share` of all answers, such
+ * as 0.99. Returns 1 if there are no answers. */
 double audit_ratio(const audit_kind *kind, double share);
 
-/* Returns the share of the true points that the answers name; 1 if there are no true points. */
+/* Return the recall: the share of the true points that the answers name. Return 1 if there are no true points. */
 double audit_recall(const audit_kind *kind);
 double audit_tick_recall(const audit_tick *tick);
 
-/* Parse limits such as "ratio=1.01,recall=0.99"; one of the two may be missing. Returns false with an error if the text
+/* Parse limits such as "ratio=1.01,recall=0.99". Either limit may be left out. Returns false with an error if the text
  * is invalid. */
 bool audit_limits_parse(const char *text, audit_limits *limits, octreel_error *error);
 
-/* audit_kind_passes() returns true if one kind of query is within the limits. audit_passes() returns true if all kinds
- * are, and no foreign node is wrong. */
+/* audit_kind_passes() returns true if the answers to one kind of query are within the limits. audit_passes() returns
+ * true if the answers to all kinds are within the limits and no foreign node is wrong. */
 bool audit_kind_passes(const audit_kind *kind, const audit_limits *limits);
 bool audit_passes(const audit_report *report);
 

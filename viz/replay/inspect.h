@@ -19,7 +19,7 @@ typedef struct inspection {
     size_t outside;          /* number of points outside the world */
     point_values values;     /* colours, intensities and classes, indexed by point id */
     size_t *classes;         /* classes[c]: number of points with class c; null if no point has a class */
-    unsigned color_full;     /* the full scale of a colour channel: 1, 255 or 65535; 0 without colours */
+    unsigned color_full;     /* the largest value of a colour channel: 1, 255 or 65535; 0 if no point has a colour */
     char column_note[CLOUD_COLUMN_NOTE];
     size_t out_of_range[POINT_VALUE_KINDS];
 } inspection;
@@ -41,8 +41,8 @@ bool inspect_find_node(const inspection *i, const char *address, octree_node *no
 /* Print one node: its box and, if it is a leaf, its points. The text form lists only the first LIST_LINES points. */
 void inspect_print_node(const octree_node *node, const char *name, bool json, FILE *out);
 
-/* Printing functions: the cloud's name on a line of its own; numbers, each after a space; a point on a line; a point as
- * a JSON object. `distance` may be null. */
+/* Functions that print one item: inspect_print_name() the name of the cloud on a line of its own, the others numbers
+ * with a space before each number, a point on a line, and a point as a JSON object. `distance` may be null. */
 void inspect_print_name(const char *name, FILE *out);
 void inspect_print_numbers(const double *values, size_t count, FILE *out);
 void inspect_print_point(const octree_point *point, const double *distance, FILE *out);
@@ -51,12 +51,12 @@ void inspect_write_point(json_writer *w, const octree_point *point, const double
 /* Count the points of each class into i->classes. Returns false if memory runs out. */
 bool inspect_count_classes(inspection *i);
 
-/* Print which of the points have colours, intensities and classes, as text or as a JSON member. Print nothing if no
- * point has any. */
+/* Print how many points have colours, intensities and classes, as text or as a JSON member. Print nothing if no point
+ * has any. */
 void inspect_print_values(const inspection *i, FILE *out);
 void inspect_write_values(const inspection *i, json_writer *w);
 
-/* Write all nodes as CSV: address, depth, leaf, count, min_x ... max_z. */
+/* Write all nodes to a CSV file with the columns address, depth, leaf, count, min_x ... max_z. */
 bool inspect_write_nodes(const inspection *i, const char *path, octreel_error *error);
 
 #endif

@@ -35,7 +35,7 @@ static octree_status find_distances(const octree *tree, const octree_query *quer
 static octree_status answer_query(const octree *tree, const octree_query *query, inspect_answers *result)
 {
     octree_answer *answer = &result->answers[result->count], *nearest = &result->nearest[result->count];
-    result->count++; /* count it now: from here on inspect_answers_release() frees it */
+    result->count++; /* count the answer now, so that inspect_answers_release() frees it also after an error */
     octree_status status = octree_query_answer(tree, query, NULL, NULL, answer);
     if (status == OCTREE_OK && is_ball(query->kind))
         status = find_distances(tree, query, answer->count, nearest);
@@ -71,7 +71,7 @@ void inspect_answers_release(inspect_answers *answers)
 
 /* ---- Printing ----------------------------------------------------------------------------------------------- */
 
-/* An answer, and the facts that printing it needs. */
+/* An answer to print, with the data that printing needs. */
 typedef struct shown_answer {
     const octree_answer *answer;
     const octree_query_traits *about;
@@ -150,7 +150,7 @@ static void print_member(const shown_answer *shown, const octree_query_member_tr
         if (*(const octree_bounds *)value != OCTREE_BOUNDS_CLOSED)
             fprintf(out, ", %s bounds", octree_bounds_name(*(const octree_bounds *)value));
         break;
-    case OCTREE_MEMBER_COUNT: /* the count was printed before the name */
+    case OCTREE_MEMBER_COUNT: /* a count is printed at the start of the question, before the name of the kind */
         break;
     }
 }

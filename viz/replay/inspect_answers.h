@@ -12,13 +12,13 @@
 typedef struct inspect_answers {
     const octree *tree;
     octree_answer *answers; /* the answers, in the same form as in a tick of a game */
-    /* nearest[i]: the points of answer i sorted by distance if it answers a radius query; else empty. */
+    /* nearest[i]: if answer i answers a radius query, its points sorted by distance; otherwise empty. */
     octree_answer *nearest;
     size_t count;
 } inspect_answers;
 
-/* Answer a list of queries. A query may reach beyond the world. Returns false with an error if a query is invalid or
- * memory runs out; there is then nothing to release. */
+/* Answer a list of queries. The region of a query may extend beyond the world. If a query is invalid or memory runs
+ * out, returns false with an error; there is then nothing to release. */
 bool inspect_ask(const octree *tree, const octree_query *queries, size_t count, inspect_answers *result,
                  octreel_error *error);
 void inspect_answers_release(inspect_answers *answers);

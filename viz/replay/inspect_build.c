@@ -21,8 +21,8 @@
 #include <string.h>
 
 enum {
-    /* Each portion has at least a sixteenth of the points. octree_insert_many() inserts points one by one if they are
-     * less than a twentieth of the tree. */
+    /* Each portion has at least a sixteenth of the points, because octree_insert_many() inserts points one by one if
+     * they are less than a twentieth of the tree. */
     MOST_PORTIONS = 16,
     LEAST_PORTION = 1 << 16,
     LEVELS = 5, /* how many times the world is halved along each axis */
@@ -36,7 +36,7 @@ typedef struct portions {
     /* spread[k]: the bits of cell coordinate k, with two zero bits between neighbouring bits. */
     unsigned spread[SIDE];
     size_t points[CELLS];                 /* number of points in each cell */
-    unsigned char portion_of_cell[CELLS]; /* index of the portion of each cell */
+    unsigned char portion_of_cell[CELLS]; /* portion_of_cell[c]: index of the portion to which cell c belongs */
     size_t ends[MOST_PORTIONS];           /* ends[i]: index of the first point after portion i */
     unsigned count;
 } portions;
@@ -67,8 +67,8 @@ static void begin_portions(portions *p, const octree_box *world)
             p->spread[k] |= (k >> bit & 1) << 3 * bit;
 }
 
-/* Assign each cell to a portion. If the last points are too few for a portion of their own, they join the portion
- * before. */
+/* Assign each cell to a portion. If the points after the last full portion are too few for a portion of their own, they
+ * join that portion. */
 static void assign_cells(portions *p, size_t count)
 {
     const size_t share = count / MOST_PORTIONS, least = share > LEAST_PORTION ? share : LEAST_PORTION;
@@ -116,8 +116,8 @@ static octree_status insert_portion(const octree_point *points, size_t count, in
     return status;
 }
 
-/* Insert the portions from last to first. The memory of an inserted portion is then at the end of the array, where
- * realloc() can free it. */
+/* Insert the portions from the last to the first. An inserted portion is then always at the end of the array, where
+ * realloc() can free its memory. */
 static octree_status insert_portions(octree_point **points, const portions *p, const watcher *watch, inspection *result)
 {
     octree_status status = OCTREE_OK;
@@ -140,7 +140,7 @@ static octree_status insert_all(cloud *c, const octree_def *def, const watcher *
     if (divided)
         divide_points(c, def, p, cells, points);
     free(cells);
-    free(c->positions); /* free this first, because the tree needs the same amount of memory */
+    free(c->positions); /* free the positions first, because the tree needs the same amount of memory */
     c->positions = NULL;
     const octree_status status = divided ? insert_portions(&points, p, watch, result) : OCTREE_NO_MEMORY;
     free(points);

@@ -23,10 +23,11 @@ static camera_window find_space_window(const inspection *made, const view *v)
     return layout_camera_area(&empty, &world);
 }
 
-#define LEAF_PIXELS 32 /* minimum number of pixels per leaf; with fewer pixels, colours by leaf look like noise */
+/* Minimum number of pixels per leaf for colours by leaf; with fewer pixels, these colours look like noise. */
+#define LEAF_PIXELS 32
 
 /* Returns true if points should be coloured by leaf: the points hide the boxes of the nodes, and the leaves are large
- * enough on screen. *said becomes the reason for the choice. */
+ * enough on the screen. Writes the reason for the choice to *said. */
 static bool prefers_leaf_colors(const inspection *made, const view *v, const char **said)
 {
     const camera_window w = find_space_window(made, v);
@@ -41,8 +42,8 @@ static bool prefers_leaf_colors(const inspection *made, const view *v, const cha
     return seen;
 }
 
-/* Returns true if neighbouring points touch each other on the screen and so form surfaces. The camera is that of tick
- * 0. */
+/* Returns true if neighbouring points touch each other on the screen and so form surfaces. The test uses the camera of
+ * tick 0. */
 static bool points_form_surfaces(const inspection *made, const view *v)
 {
     const octree_box world = octree_definition(made->tree).world;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* node_reason.c - finds and prints why a node looks as it does at a tick. */
+/* node_reason.c - finds and prints the reason why a node exists and how full it is at a tick. */
 #include "node_reason.h"
 #include "octree/octree.h"
 #include "text.h"
@@ -38,7 +38,8 @@ void node_reason_release(node_reason *r)
 
 /* ---- Text --------------------------------------------------------------------------------------------------- */
 
-/* Print the ids of points and a verb: "; points 5, 7 and 12 more arrived". */
+/* Print a part of a sentence: the text `before`, the ids of points, and a verb, such as "; points 5, 7 and 12 more
+ * arrived". */
 static void print_points(FILE *out, const char *before, const id_list *ids, const char *verb)
 {
     const size_t shown = ids->count > LIST_LINES ? LIST_LINES : ids->count;

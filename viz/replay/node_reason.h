@@ -10,20 +10,21 @@
 typedef struct node_reason {
     uint64_t tick;
     size_t points, capacity;
-    bool split;            /* the node split at this tick */
-    id_list arrived, left; /* the points that the tick brought or took away; empty at tick 0; owned */
-    node_change maker;     /* the change that made the node's cell; zero: the cell exists since tick 0 */
+    bool split; /* the node split at this tick */
+    /* The points that entered the node at this tick, and the points that left it; empty at tick 0; owned. */
+    id_list arrived, left;
+    node_change maker; /* the split or merge that made the node's cell; zero: the cell exists since tick 0 */
 } node_reason;
 
-/* Returns whether a node is explained: it is a leaf, or it split at the game's last tick. */
+/* Returns true if the node can be explained: it is a leaf, or it split at the game's last tick. */
 bool has_node_reason(const octree_game *game, const octree_node *node);
 
-/* Explain a node of the game's last tick. `changes` must be tracked since tick 0. Returns false if memory runs out.
- * Call node_reason_release() in either case. */
+/* Explain a node of the game's last tick. `changes` must contain all splits and merges since tick 0. Returns false if
+ * memory runs out. Call node_reason_release() in either case. */
 bool node_reason_find(node_reason *r, const octree_game *game, const node_changes *changes, const octree_node *node);
 void node_reason_release(node_reason *r);
 
-/* Append the explanation to a sentence about the node: "; capacity 2; point 5 arrived at this tick; ...". */
+/* Append the explanation to a printed sentence about the node: "; capacity 2; point 5 arrived at this tick; ...". */
 void node_reason_print(FILE *out, const node_reason *r);
 
 /* Write the explanation as members of a JSON object. */

@@ -64,7 +64,8 @@ static bool compose_scene_again(pick *p, replay *r, octreel_error *error)
 
 /* ---- The pixel ---------------------------------------------------------------------------------------------- */
 
-/* True if an element covers one of the samples of a pixel. */
+/* True if an element covers one of the samples of the pixel (x, y). `numbers` has the element number of each sample; 0:
+ * no element. */
 static bool is_drawn(const uint32_t *numbers, size_t samples, size_t width, int x, int y)
 {
     bool drawn = false;
@@ -79,8 +80,8 @@ static int clamp(int value, int low, int high)
     return value < low ? low : value > high ? high : value;
 }
 
-/* Find the drawn pixel that is nearest to the requested pixel. Of several at the same distance, take the first one in
- * row order. */
+/* Find the drawn pixel that is nearest to the requested pixel. If several pixels are at the same distance, the first
+ * one in row order is taken. */
 static void find_nearest(pick *p, const uint32_t *numbers, size_t samples)
 {
     const int left = clamp(p->asked[0] - p->radius, 0, p->width), top = clamp(p->asked[1] - p->radius, 0, p->height);
@@ -121,7 +122,7 @@ static void copy_foreign_node(pick_element *e)
     e->subject.foreign = &e->place;
 }
 
-/* True if an element above shows the same node. */
+/* True if an earlier element of the pick, which is drawn above, already explains this node. */
 static bool is_node_known(const pick *p, octree_address node)
 {
     for (size_t i = 0; i < p->count; i++)
@@ -130,7 +131,8 @@ static bool is_node_known(const pick *p, octree_address node)
     return false;
 }
 
-/* Explain the element's node. Does nothing if the element shows no node that can be explained. */
+/* Explain the node that the element shows. Does nothing if the element shows no node, or a node that cannot be
+ * explained. */
 static bool explain_node(const pick *p, pick_element *e, const playback *from, octreel_error *error)
 {
     text_stream s;
@@ -266,8 +268,8 @@ static const char *closeup_words(const pick_element *e)
     return e->in_closeup ? " (in the close-up)" : "";
 }
 
-/* Print one element: whether it is visible, covered by another element, or shares the edge or the pixel of the element
- * before. */
+/* Print one element of the pixel: whether it is visible, is covered by another element, or coincides with the element
+ * before it, in an edge or in the whole pixel. */
 static void print_element(FILE *out, const pick *p, const pick_element *e)
 {
     if (e->touch.painted == 0) {
@@ -318,7 +320,7 @@ static void write_node(json_writer *w, const pick_element *e)
     json_write_end_object(w);
 }
 
-/* A node of the foreign index. */
+/* Write a node of the foreign index as a JSON object. */
 static void write_foreign_node(json_writer *w, const octree_foreign_place *place)
 {
     const octree_foreign_node *node = place->node;

@@ -15,7 +15,8 @@
 
 typedef struct pick_options {
     int x, y;
-    int radius; /* if nothing is drawn at (x, y), describe the nearest drawn pixel up to `radius` pixels away */
+    /* If nothing is drawn at the pixel (x, y), the nearest drawn pixel up to `radius` pixels away is described. */
+    int radius;
     renderer_choice renderer;
     uint64_t max_ticks; /* a longer session is refused; 0: SESSION_MOST_PLAYED */
 } pick_options;
@@ -27,10 +28,12 @@ typedef struct pick_element {
     const char *layer;
     bool in_closeup;
     element_subject subject;
-    /* Copies of the data at subject.foreign, because the game may end before the pick is released. */
+    /* Copies of the data to which subject.foreign points. The game, which owns the originals, may end before the pick
+     * is released. */
     octree_foreign_place place;
     octree_foreign_node node;
-    /* The reason and the sentence of a node that is explained, at its topmost element; else zero and null. Owned. */
+    /* The explanation of the element's node, as data and as a sentence; owned. Several elements may show the same node:
+     * only the topmost has the explanation, the others have zero and null. */
     node_reason reason;
     char *explained;
 } pick_element;
@@ -44,12 +47,12 @@ typedef struct pick {
     int pixel[2]; /* the described pixel: equal to `asked`, or the nearest drawn pixel */
     int radius;
     image_color color;      /* the colour of the frame at `pixel` */
-    pick_element *elements; /* topmost first */
-    size_t count;           /* 0: nothing is drawn within the radius */
+    pick_element *elements; /* the elements at `pixel`, the topmost first */
+    size_t count;           /* number of elements; 0: nothing is drawn within the radius */
 } pick;
 
-/* Fill in *found. Returns false with an error if `path` is not a frame of the recording in its folder, or if the pixel
- * lies outside the frame. */
+/* Find what is drawn at a pixel of the frame file `path`. Returns false with an error if the file is not a frame of the
+ * recording in its folder, or if the pixel lies outside the frame. */
 bool pick_frame(const char *path, const pick_options *options, pick *found, octreel_error *error);
 void pick_release(pick *p);
 
@@ -60,7 +63,8 @@ bool pick_scene(pick *p, const playback *from, renderer *r, octreel_error *error
 /* Print the pick as text, or as one JSON object on one line. */
 void pick_print(FILE *out, const pick *p, bool json);
 
-/* Print the pick as JSON. The page calls this function, so that its module does not contain the text. */
+/* Print the pick as JSON only. The page calls this function, so that its WebAssembly module does not contain the code
+ * for text. */
 void pick_print_json(FILE *out, const pick *p);
 
 #endif

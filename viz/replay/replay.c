@@ -46,7 +46,8 @@ static uint64_t current_tick(const replay *r)
 
 static bool restart_playback(replay *r, octreel_error *error)
 {
-    picture drawing = r->playback.picture; /* keep the renderer over the restart: the view does not change */
+    /* Keep the renderer when the playback restarts, because the view does not change. */
+    picture drawing = r->playback.picture;
     r->playback.picture = (picture){0};
     playback_close(&r->playback);
     const bool ok = start_playback(r, error);

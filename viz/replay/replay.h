@@ -18,8 +18,9 @@ typedef struct replay {
     session_file session;
     uint64_t session_digest; /* digest of the bytes of session.json */
     uint64_t ticks;          /* number of ticks of the session, including tick 0 */
-    film_options film;       /* the folder, and the members `view` and `every` of recording.json */
-    playback playback;       /* has a game and a scene after replay_open(), and a renderer after replay_renderer() */
+    film_options film;       /* the folder and, from recording.json, the members `view` and `every` */
+    /* The playback; it has a game and a scene after replay_open(), and a renderer after replay_renderer(). */
+    playback playback;
 } replay;
 
 /* Read session.json and recording.json of a folder without playing the session. A session with more than `max_ticks`
@@ -30,7 +31,7 @@ bool replay_read(replay *r, const char *folder, uint64_t max_ticks, octreel_erro
 bool replay_open(replay *r, const char *folder, uint64_t max_ticks, octreel_error *error);
 void replay_close(replay *r);
 
-/* Play to a tick. To reach a tick before the current one, the session is played from the start again. Returns false
+/* Play to a tick. If the tick is before the current tick, the session is played again from the start. Returns false
  * with an error on failure, and also if the session has no such tick. */
 bool replay_up_to(replay *r, uint64_t tick, octreel_error *error);
 

@@ -19,12 +19,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* A recording that is being verified. */
+/* The state of a verification. */
 typedef struct verifying {
     const char *folder;
     const verify_options *options;
     replay replay;
-    uint64_t filmed_session; /* the session digest in the recording's first frame */
+    uint64_t filmed_session; /* the digest of the session that the recording's first frame contains */
     line_reader lines;
     bool stopped; /* true: verification has stopped at the first tick that differs */
     verify_report *report;
@@ -76,8 +76,8 @@ static bool is_file(const char *path)
     return stat(path, &status) == 0 && S_ISREG(status.st_mode);
 }
 
-/* Check the session digest and the size in the first frame. This comes first, because the renderer is opened with the
- * size in recording.json. Other differences in this frame are found when its tick is checked. */
+/* Check the session digest and the size of the first frame before the renderer is opened, because the renderer is
+ * opened with the size in recording.json. Everything else in this frame is checked later, together with its tick. */
 static bool check_first_frame(verifying *v, octreel_error *error)
 {
     char name[FRAME_NAME], *path = path_join(v->folder, frame_print_name(0, name));
@@ -94,7 +94,7 @@ static bool check_first_frame(verifying *v, octreel_error *error)
 
 /* ---- A tick ------------------------------------------------------------------------------------------------- */
 
-/* Appended to a finding if the end of the recording is missing, which means that recording was interrupted. */
+/* Appended to a finding if ticks or frames at the end of the recording are missing: recording was then interrupted. */
 #define COMPLETED "; octreel record --resume completes an interrupted recording"
 
 static bool check_line(verifying *v, const film_step *step, octreel_error *error)
@@ -141,7 +141,7 @@ static void report_pixels(verifying *v, const char *path, uint64_t tick)
                 r->drawn_by, same ? "the same: was recording.json changed, or octreel?" : r->drawn_now);
 }
 
-/* Report a wrong frame. `drawn` is true if the frame has the pixels that are drawn now, but is wrong in another way. */
+/* Report a wrong frame. `drawn` is true if the pixels of the frame are correct and something else is wrong. */
 static void report_frame(verifying *v, const char *sentence, uint64_t tick, bool drawn)
 {
     const size_t length = strlen(v->folder);
@@ -150,8 +150,8 @@ static void report_frame(verifying *v, const char *sentence, uint64_t tick, bool
                 drawn ? "; its pixels are correct" : "");
 }
 
-/* Returns false with an error if the file exists but cannot be read because of permissions or the disk. That is an
- * error of the machine, not a difference of the recording. */
+/* Check that an existing file can be read. Returns false with an error if permissions or the disk prevent this: such an
+ * error is not a difference of the recording. */
 static bool check_readable(const char *path, octreel_error *error)
 {
     char reason[FILE_REASON];
@@ -162,7 +162,7 @@ static bool check_readable(const char *path, octreel_error *error)
     return true;
 }
 
-/* Returns true if the pixel digest in a frame is the digest of the pixels drawn now. */
+/* Returns true if the pixel digest that a frame contains is the digest of the pixels that were drawn now. */
 static bool is_drawn(const verifying *v, const frame_origin *origin)
 {
     return origin->pixels == image_digest_with(origin->kind, &v->replay.playback.picture.frame);
@@ -194,7 +194,7 @@ static bool check_frame(verifying *v, const film_step *step, octreel_error *erro
     return ok;
 }
 
-/* Check one tick. This is a film_sink. It returns false on an error, and also at the first tick that differs. */
+/* Check one tick; a film_sink. Returns false on an error, and also to stop at the first tick that differs. */
 static bool check_tick(void *context, const film_step *step, octreel_error *error)
 {
     verifying *v = context;
@@ -225,7 +225,7 @@ static void check_end_of_lines(verifying *v)
                 plural_ending(v->replay.ticks));
 }
 
-/* Returns true if a file has a name like a frame, but the recording has no frame of this name. */
+/* Returns true if a file is named like a frame, but the recording has no frame with this name. */
 static bool is_extra_frame(const verifying *v, const char *name)
 {
     uint64_t tick;
@@ -234,7 +234,8 @@ static bool is_extra_frame(const verifying *v, const char *name)
             (frame_parse_name(name, &tick) && octree_session_gap(&v->replay.session.session, tick)));
 }
 
-/* If the folder has frames that the recording does not have, report the one whose name comes first. */
+/* Report extra frames: files in the folder that are named like a frame, but are not frames of the recording. Only the
+ * first by name is reported. */
 static bool check_extra_frames(verifying *v, octreel_error *error)
 {
     char **names = folder_names(v->folder, error), *first = NULL;
@@ -263,8 +264,8 @@ static void report_renderer(verifying *v)
     v->report->fill = info.fill;
 }
 
-/* Open the renderer. GL draws, because GL defines which pixels are correct. If no GL can be loaded and the user did not
- * name one, the integer rasterizer draws. */
+/* Open the renderer for the comparison. GL draws, because GL defines which pixels are correct. If no GL can be loaded
+ * and the user did not name a GL context, the integer rasterizer draws. */
 static bool open_renderer(verifying *v, octreel_error *error)
 {
     playback *p = &v->replay.playback;

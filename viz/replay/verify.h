@@ -15,7 +15,8 @@
 #include <stdint.h>
 #include <stdio.h>
 
-/* The kinds of differences. The columns are the name, the word in JSON, and the text after "tick 3 differs". */
+/* The kinds of differences. Each row has the name of a kind, its word in JSON, and the text that follows "tick 3
+ * differs". */
 #define VERIFY_KIND_MAP(X)                                                                                             \
     X(SESSION, "session", "")                   /* session.json is not the session whose digest the frames contain */  \
     X(VIEW, "view", " in its size")             /* the size in recording.json is not the size of the frames */         \
@@ -49,14 +50,13 @@ typedef struct verify_report {
     verify_finding findings[VERIFY_MOST];
     bool has_frames;        /* false: the recording has no frames, so only ticks are compared and nothing is drawn */
     uint64_t ticks, frames; /* number of identical ticks and frames before the first difference */
-    uint64_t gaps;          /* number of these ticks that are gaps; a gap is not a difference */
-    octree_gap first_gap;   /* set if there are gaps */
+    uint64_t gaps;          /* number of identical ticks that are gaps; a gap is not a difference */
+    octree_gap first_gap;   /* the first gap; set if `gaps` is not 0 */
     uint64_t pixels;        /* VERIFY_PIXELS: the number of pixels that differ */
     char drawn_by[384];     /* describes the renderer in renderer.json; "" if the recording has no frames */
     char drawn_now[384];    /* describes the renderer of this process; "" if nothing was drawn */
     const char *fill;       /* draw_fill_name() of the rasterizer of this process; "" if nothing was drawn */
-    /* Why GL could not be loaded, so that the integer rasterizer drew the frames; "" if GL was loaded or not
-     * needed. */
+    /* Why GL could not be loaded, so that the integer rasterizer drew instead; "" if GL was loaded or not needed. */
     octreel_error no_gl;
 } verify_report;
 

@@ -59,7 +59,7 @@ line_state line_reader_next(line_reader *reader, size_t limit)
 
 #define VALUE_TEXT 96
 
-/* Format a value as JSON in ASCII. A long value is shortened. */
+/* Format a JSON value in ASCII. A long text is shortened. */
 static const char *format_value(const json_t *value, char text[VALUE_TEXT])
 {
     char *whole = value ? json_dumps(value, JSON_COMPACT | JSON_ENCODE_ANY | JSON_ENSURE_ASCII) : NULL;
@@ -71,7 +71,7 @@ static const char *format_value(const json_t *value, char text[VALUE_TEXT])
     return text;
 }
 
-/* Report the two values `found` and `expected`, which differ. */
+/* Report that the found value differs from the expected value. */
 static void report_values(const json_place *at, const json_t *found, const json_t *expected, verify_finding *finding)
 {
     char place[128], texts[2][VALUE_TEXT];
@@ -95,8 +95,8 @@ static bool compare_arrays(const json_place *at, const json_t *found, const json
     return false;
 }
 
-/* Compare two objects: first the members of the expected object in their order, then the members that only the found
- * object has. */
+/* Compare two objects. The members of the expected object are compared first, in their order. Then members that only
+ * the found object has are reported. */
 static bool compare_objects(const json_place *at, const json_t *found, const json_t *expected, verify_finding *finding)
 {
     const json_t *const both[] = {expected, found};
@@ -137,8 +137,8 @@ static void report_line(verify_finding *finding, const char *what)
     snprintf(finding->text, sizeof finding->text, "%s", what);
 }
 
-/* If the line belongs to another tick, report that lines were lost, repeated or exchanged. Returns false if it is the
- * line of this tick. */
+/* Report a line that belongs to another tick: lines were lost, repeated or exchanged. Returns false if the line belongs
+ * to this tick. */
 static bool report_other_tick(const json_t *found, uint64_t tick, verify_finding *finding)
 {
     const json_t *number = json_object_get(found, "tick");
@@ -171,7 +171,8 @@ static bool line_equals(const line_reader *found, const char *text, size_t size)
     return found->size == size && memcmp(found->line, text, size) == 0;
 }
 
-/* At most LINE_FACTOR times the expected size plus LINE_SLACK bytes of a line are read. */
+/* The limit of the length of a line in bytes: LINE_FACTOR times the expected length plus LINE_SLACK. More is not
+ * read. */
 #define LINE_FACTOR 16
 #define LINE_SLACK 65536
 
@@ -181,7 +182,7 @@ size_t line_limit(const expected_line *expected)
     return LINE_FACTOR * expected->size + LINE_SLACK + (tick->split_count + tick->merge_count) * OCTREE_ADDRESS_TEXT;
 }
 
-/* Returns true if the line is the one that earlier versions of octreel wrote for this tick. Those versions listed all
+/* Returns true if the line is exactly what earlier versions of octreel wrote for this tick: those versions listed all
  * nodes that split or merged. */
 static bool is_earlier_line(const line_reader *found, const expected_line *expected)
 {

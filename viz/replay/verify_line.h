@@ -15,7 +15,7 @@ typedef struct line_reader {
 
 typedef enum line_state {
     LINE_WHOLE,
-    LINE_TORN,    /* the file ends before the line's newline */
+    LINE_TORN,    /* the file ends in the middle of the line, before its newline */
     LINE_LONG,    /* the line is longer than the limit; the part beyond the limit is not read */
     LINE_NONE,    /* no more lines: the end of the file */
     LINE_TROUBLE, /* a read error, or out of memory */
@@ -25,10 +25,10 @@ typedef enum line_state {
 bool line_reader_open(line_reader *reader, const char *folder, octreel_error *error);
 void line_reader_close(line_reader *reader);
 
-/* Read the next line. `limit` is the maximum number of bytes to read. */
+/* Read the next line of ticks.jsonl. `limit` is the maximum number of bytes to read. */
 line_state line_reader_next(line_reader *reader, size_t limit);
 
-/* The line that a tick should have, and the data from which it was made. */
+/* The line of ticks.jsonl that a tick should have, and the data from which the line was made. */
 typedef struct expected_line {
     const char *text;
     size_t size;
@@ -36,8 +36,8 @@ typedef struct expected_line {
     const tick_extras *extras;
 } expected_line;
 
-/* Returns the maximum number of bytes to read of a line. It allows for the longer lines of earlier versions, which
- * listed all nodes that split or merged. */
+/* Returns the maximum number of bytes to read of a line. The limit allows for lines of earlier versions, which are
+ * longer because they list all nodes that split or merged. */
 size_t line_limit(const expected_line *expected);
 
 /* Returns true if a line equals the expected line, or the line that an earlier version would have written. Otherwise
