@@ -14,8 +14,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The minimum number of frames for each further process. Starting a process costs about as much as filming ten small
- * frames. */
+/* One more process is started only if it films at least this many frames, because starting a process costs about as
+ * much as filming ten small frames. */
 #define FRAMES_WORTH_A_JOB 16
 
 /* ---- A session ---------------------------------------------------------------------------------------------- */
@@ -31,8 +31,8 @@ static bool find_share(const octree_session *session, const film_options *option
                      total - 1);
 }
 
-/* Count the frames of a share, by which it is divided among jobs. The frame at or before share->first counts too: the
- * job that owns this frame films the ticks that follow it. */
+/* Count the frames of a share, which decide how many jobs it can have. A frame whose tick is before share->first counts
+ * too if ticks of the share follow it: one job films these ticks. */
 static uint64_t count_frames(const film_share *share, uint64_t every)
 {
     return every == 0 ? 0 : (share->last - 1) / every - share->first / every + 1;
@@ -68,8 +68,8 @@ film_start film_count_start(const octree_session *session, const octree_tick *ti
     return start;
 }
 
-/* The two preparations of a recording. They run in parallel because they take about the same time for a large session.
- */
+/* The two preparations of a recording. They run in parallel, because both take about the same time for a large
+ * session. */
 enum { OPEN_PLAYBACK, MAKE_BYTES, PREPARATIONS };
 
 typedef struct preparation {
@@ -123,8 +123,8 @@ bool film_session(const octree_session *session, const film_options *options, fi
 
 /* ---- One tree ----------------------------------------------------------------------------------------------- */
 
-/* Check the picture before it is written to `path`. If pixels differ, both versions are kept as PNG files beside
- * `path`, or in the current folder if the picture goes to standard output. */
+/* Check the picture before it is written to `path`. If pixels differ, the pictures of both rasterizers are kept as PNG
+ * files beside `path`, or in the current folder if the picture goes to standard output. */
 static bool check_picture(picture *p, const scene *s, const char *path, frame_checks *checks, octreel_error *error)
 {
     const char *title = file_output_display_name(path);

@@ -14,27 +14,26 @@
 bool film_session(const octree_session *session, const film_options *options, film_summary *summary,
                   octreel_error *error);
 
-/* Why film_stream() returned. */
+/* The reason why film_stream() returned. */
 typedef enum film_stream_end {
     FILM_STREAM_WHOLE,   /* the stream ended, and all its ticks are recorded */
     FILM_STREAM_STOPPED, /* keep_going() of the stream or of options->watch returned false */
     FILM_STREAM_BROKEN,  /* an error occurred */
 } film_stream_end;
 
-/* Record a session from a stream while another process may still write to it. Each tick is recorded as soon as its JSON
- * object arrives. Ticks before it that have no object are recorded first. The files are the same as those of
+/* Record a session from a stream to which another process may still write. Each tick is recorded as soon as its JSON
+ * object arrives; earlier ticks without an object are recorded before it. The files are the same as those of
  * film_session() for the same text. If the stream breaks or is stopped, the recording ends with the last tick that
  * arrived. summary->ticks is then the number of recorded ticks, 0 if there is no recording. The options first, last,
- * jobs and resume are ignored. `keys` are the player's key presses, one character per tick, and replace those of the
- * stream; null: use those of the stream. */
+ * jobs and resume are ignored. `keys`: the player's key presses, one character per tick, which replace the key presses
+ * in the stream; null: the key presses in the stream are used. */
 film_stream_end film_stream(session_stream *from, const char *keys, const film_options *options, film_summary *summary,
                             octreel_error *error);
 
-/* Count the points of the session that tick 0 refused. */
+/* Count the session's points, and the points that tick 0 refused. */
 film_start film_count_start(const octree_session *session, const octree_tick *tick);
 
-/* Returns the default number of jobs: at most one per core, and few enough that each job has at least 16 frames to
- * film. */
+/* Returns the default number of jobs: at most one per core, and so few that each job films at least 16 frames. */
 unsigned film_default_jobs(const octree_session *session, const film_options *options);
 
 /* Draw one tree with the view and the renderer in `options`, and write the picture as a PNG file. */

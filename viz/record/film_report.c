@@ -14,10 +14,10 @@
 
 /* ---- Commands ----------------------------------------------------------------------------------------------- */
 
-/* Print the commands that show the recording. The ffmpeg command changes into the folder first, because characters in
- * the folder's name could be read as a pattern. "./" keeps cd from searching CDPATH. The command uses a glob pattern
- * because ffmpeg ends a numbered sequence at the first gap. Most players need yuv420p, which needs an even width and
- * height. */
+/* Print the commands that show the recording. The ffmpeg command changes into the folder first, because ffmpeg could
+ * read characters in the folder's name as a pattern. "./" keeps cd from searching CDPATH. The command uses a glob
+ * pattern, because ffmpeg ends a numbered sequence at the first missing number. Most players need yuv420p, which needs
+ * an even width and height. */
 static void print_uses(FILE *out, const film_summary *summary, const char *folder)
 {
     if (summary->frames == 0) {
@@ -154,7 +154,7 @@ void film_report(FILE *out, const film_summary *summary, const film_options *opt
         print_uses(out, summary, options->folder);
 }
 
-/* Print a world that contains all points, as a JSON member "world" of a session. */
+/* Print a world that contains all points, in the form of the member "world" of session.json. */
 static void print_world(FILE *out, const octree_session *session)
 {
     const octree_body *bodies = session->bodies;

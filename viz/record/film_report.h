@@ -7,8 +7,8 @@
 
 #include <stdio.h>
 
-/* Write the names of the kinds in `left_out`, bits LEFT_OUT_* of scene.h, such as "nodes, points and velocity arrows".
- * Returns `text`. */
+/* Write the names of the element kinds in `left_out` (bits LEFT_OUT_* of scene.h), such as "nodes, points and velocity
+ * arrows". Returns `text`. */
 #define FILM_LEFT_OUT 48
 const char *film_left_out_text(unsigned left_out, char text[FILM_LEFT_OUT]);
 
@@ -20,15 +20,15 @@ void film_report(FILE *out, const film_summary *summary, const film_options *opt
  * would keep them. */
 void film_report_start(FILE *out, const film_start *start, const octree_session *session);
 
-/* Print a note for each option of the view that shows nothing: a value that no point has, or foreign nodes that no tick
- * has. */
+/* Print a note for each view option that shows nothing: the option needs a value that no point has, or foreign nodes
+ * that no tick has. */
 void film_report_empty(FILE *out, const film_summary *summary, const film_options *options);
 
 /* Print the notes of film_report_start() and film_report_empty(), and a note if frames could not be checked. */
 void film_report_notes(FILE *out, const film_summary *summary, const film_options *options,
                        const octree_session *session);
 
-/* Print the summary of a recording that join_chunks() completed. It is shorter than that of film_report(). */
+/* Print the summary of a recording that join_chunks() completed. This summary is shorter than that of film_report(). */
 void film_report_joined(FILE *out, const film_summary *summary, const film_options *options, bool json);
 
 /* Print the number of recorded ticks and the command that resumes the recording. */

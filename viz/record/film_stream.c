@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* film_stream.c - records a session from a stream that may still be written. */
+/* film_stream.c - records a session from a stream to which another process may still write. */
 #include "film.h"
 #include "live.h"
 
@@ -8,12 +8,12 @@ typedef struct streaming {
     live_recording *live;
     const film_options *options;
     octreel_error *error;
-    uint64_t end;  /* last tick of the session, as far as the stream has been read */
+    uint64_t end;  /* the last tick of the session, according to the part of the stream that has been read */
     uint64_t last; /* last recorded tick */
 } streaming;
 
-/* Record the next tick. A null `input` has nothing but the player's key press for this tick, which the session holds.
- */
+/* Record the next tick. If `input` is null, the tick has no input other than the player's key press, which is in the
+ * session. */
 static film_stream_end film_next_tick(streaming *s, const octree_input *input)
 {
     static const octree_input nothing = {0};
@@ -25,7 +25,7 @@ static film_stream_end film_next_tick(streaming *s, const octree_input *input)
     return FILM_STREAM_WHOLE;
 }
 
-/* Record the ticks after s->last up to and including `tick`. None of them has a JSON object in the stream. */
+/* Record the ticks after s->last, up to and including `tick`. The stream has no JSON object for any of these ticks. */
 static film_stream_end film_ticks_up_to(streaming *s, uint64_t tick)
 {
     film_stream_end how = FILM_STREAM_WHOLE;
@@ -51,8 +51,8 @@ static film_stream_end film_stream_tick(streaming *s, const session_stream_tick 
     return live_add_unplayed(s->live, tick->number, &tick->input, s->error) ? how : FILM_STREAM_BROKEN;
 }
 
-/* Record the ticks after the last JSON object of the stream. Such ticks have only the player's key presses, or the
- * header's number of ticks includes them. Their number is known only when the stream has ended. */
+/* Record the ticks after the last JSON object of the stream. They exist because the player has key presses for them, or
+ * because the header's number of ticks includes them. Their number is known only at the end of the stream. */
 static film_stream_end film_remaining_ticks(streaming *s)
 {
     octree_session session = *session_stream_first_session(s->from);

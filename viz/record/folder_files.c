@@ -31,9 +31,9 @@ static bool compare_file(const char *path, const char *bytes, size_t size, bool 
     return true;
 }
 
-/* Rename a finished file from `own` to `path` unless another process has created `path` first. link() is used because
- * rename() would replace the other file. On file systems without links the last process to rename wins; its file is
- * whole too. */
+/* Rename a finished file from `own` to `path`, unless another process has created `path` first. link() is used because
+ * rename() would replace the other process's file. On a file system without links, the last process to rename wins; the
+ * file that it leaves is complete. */
 static bool publish_file(const char *own, const char *path, octreel_error *error)
 {
     if (link(own, path) == 0 || errno == EEXIST) {
@@ -60,8 +60,8 @@ static bool write_once(const folder_place *place, const char *name, const char *
     return ok;
 }
 
-/* Write a file unless it exists. If it exists with other bytes, fail with the error `unlike`; if `unlike` is null,
- * accept any bytes. */
+/* Write a file unless it exists. If it exists with other bytes, fail with the error text `unlike`; if `unlike` is null,
+ * accept any bytes in the existing file. */
 static bool write_shared(const folder_place *place, const char *name, const char *bytes, size_t size,
                          const char *unlike, octreel_error *error)
 {
@@ -203,7 +203,7 @@ static bool is_empty(const char *folder, const char *name)
     return empty;
 }
 
-/* True if this file proves that a recording reached its first tick. A recording killed before that leaves at most
+/* True if this file proves that a recording reached its first tick. A recording that was killed earlier leaves at most
  * recording.json, session.json and an empty ticks.jsonl. */
 static bool is_past_start(const char *folder, const char *name)
 {
@@ -211,7 +211,7 @@ static bool is_past_start(const char *folder, const char *name)
            strcmp(name, "session.json") != 0 && !(strcmp(name, "ticks.jsonl") == 0 && is_empty(folder, name));
 }
 
-/* Check that session.json.live, which a killed program left, contains the session with this digest. */
+/* Check that session.json.live, which a killed process left in the folder, contains the session with this digest. */
 static bool check_live_session(const char *folder, uint64_t session_digest, octreel_error *error)
 {
     session_file file;
@@ -225,8 +225,8 @@ static bool check_live_session(const char *folder, uint64_t session_digest, octr
     return ok;
 }
 
-/* Check that the folder contains recording.json and session.json. The caller has listed the folder before this check. A
- * recording writes these two files before all others, so a recording that another process has just begun passes. */
+/* Check that the folder contains recording.json and session.json. The caller must list the folder before this check: a
+ * recording that another process has just begun writes these two files before all others, and so passes. */
 static bool check_recorded_start(const char *folder, const char *past, uint64_t session_digest, octreel_error *error)
 {
     const bool view = folder_contains(folder, "recording.json"), session = folder_contains(folder, "session.json");
@@ -238,8 +238,8 @@ static bool check_recorded_start(const char *folder, const char *past, uint64_t 
 }
 
 /* Check the session digest in the folder's first frame; the other frames are not read. A frame without a digest is
- * accepted, because it is torn or another program saved it. Digest 0 is accepted too: a program that records itself
- * writes 0 until its session is complete, and it may have been killed before. */
+ * accepted, because the frame may be torn, or saved by an image editor. Digest 0 is accepted too: a program that
+ * records itself writes 0 until its session is complete, and it may have been killed earlier. */
 static bool check_session(const char *folder, const char *frame, uint64_t session_digest, octreel_error *error)
 {
     uint64_t tick, session;
@@ -253,7 +253,8 @@ static bool check_session(const char *folder, const char *frame, uint64_t sessio
 
 bool check_resumable(const char *folder, uint64_t session_digest, uint64_t ticks, uint64_t every, octreel_error *error)
 {
-    const char *past = NULL, *frame = ""; /* first file name that is_past_start() accepts; first name of a frame */
+    /* The first file name that is_past_start() accepts, and the first name of a frame. */
+    const char *past = NULL, *frame = "";
     char **names = folder_names(folder, error);
     bool ok = names;
     for (size_t i = 0; ok && names[i]; i++) {

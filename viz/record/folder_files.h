@@ -15,11 +15,11 @@
 /* The folder into which files are written, and the way in which they are written. */
 typedef struct folder_place {
     const char *folder;
-    /* A name that is unique to this process. Several processes may write the same file with the same bytes at the same
-     * time; each writes to a temporary file with its own name. A file that already exists is kept and must have these
-     * bytes. Null: only this process writes, and the folder is new. */
+    /* A name that is unique to this process, used in the names of its temporary files. Several processes may then write
+     * the same file with the same bytes at the same time. A file that already exists is kept and must have these bytes.
+     * Null: only this process writes, and the folder is new. */
     const char *writer;
-    bool dry_run; /* write nothing; only check that files that exist have the expected bytes */
+    bool dry_run; /* write nothing; only check that existing files have the expected bytes */
 } folder_place;
 
 /* The bytes of session.json, and their digest. The caller frees the bytes. */
@@ -37,8 +37,8 @@ bool write_session_file(const folder_place *place, const session_bytes *session,
 /* Write recording.json, which contains the format version, the view and `every`. */
 bool write_recording_file(const folder_place *place, const view *v, uint64_t every, octreel_error *error);
 
-/* Write renderer.json, the only file that may differ between machines. If several processes write it, the first file
- * stays. */
+/* Write renderer.json, the only file that may differ between machines. If several processes write the file, the first
+ * version stays. */
 bool write_renderer_file(const folder_place *place, const renderer_info *info, octreel_error *error);
 
 /* ---- Reading ------------------------------------------------------------------------------------------------ */
@@ -51,12 +51,14 @@ char *describe_renderer(const renderer_info *info, char *text, size_t size);
 char *describe_recorded_renderer(const char *folder, char *text, size_t size);
 
 /* Check whether a recording of this session may be resumed in a folder. The caller has already compared recording.json
- * and session.json if they exist. A folder without a recording is accepted.
+ * and session.json, if these files exist. A folder without a recording is accepted.
  *
- * Refused with an error: a folder that has frames, a ticks.jsonl with lines, or a page, but lacks recording.json or
- * session.json, because nothing then shows to which recording these files belong; a folder with a frame that this
- * recording does not have; and a folder whose first frame has another session digest. If a program was killed while it
- * recorded itself, session.json.live is used in place of session.json. */
+ * Three kinds of folders are refused with an error. (1) The folder has frames, a ticks.jsonl with lines, or a page, but
+ * lacks recording.json or session.json: nothing then shows to which recording the files belong. (2) The folder has a
+ * frame that this recording does not have. (3) The folder's first frame contains another session digest.
+ *
+ * If a program was killed while it recorded itself, session.json.live is used in place of session.json.
+ */
 bool check_resumable(const char *folder, uint64_t session_digest, uint64_t ticks, uint64_t every, octreel_error *error);
 
 #endif

@@ -25,7 +25,7 @@ static uint64_t count_different(const image *drawn, const uint8_t *by_gl)
     return count;
 }
 
-/* Write p->frame to the PNG file PREFIX.RASTERIZER.png. */
+/* Write p->frame to a PNG file. The path of the file is `prefix`, a dot, `rasterizer` and ".png". */
 static bool keep_picture(const picture *p, const char *prefix, const char *rasterizer, octreel_error *error)
 {
     const size_t size = strlen(prefix) + sizeof ".integers.png";

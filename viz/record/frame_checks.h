@@ -16,15 +16,15 @@
 /* The result of all checks. It contains no pointers, because jobs send its bytes through a pipe. */
 typedef struct frame_checks {
     uint64_t count;       /* number of frames that were checked and have the same pixels */
-    draw_context by;      /* the GL context that draws the checked frames; DRAW_AUTO before the first check */
-    octreel_error reason; /* why no further frame can be checked; "" if frames can be checked */
+    draw_context by;      /* the GL context that draws the checked frames; DRAW_AUTO until the first check */
+    octreel_error reason; /* the reason why no further frame can be checked; "" if frames can be checked */
 } frame_checks;
 
 /* Returns the title of a GL context, such as "OSMesa" or "EGL". */
 const char *frame_checks_title(draw_context by);
 
 /* Draw scene `s` with GL and compare the pixels with p->frame. `name` is the name of the frame in error messages.
- * Returns false if pixels differ. The two pictures are then kept as PREFIX.integers.png and PREFIX.gl.png, and p->frame
+ * Returns false if pixels differ. Both pictures are then kept, as PREFIX.integers.png and PREFIX.gl.png, and p->frame
  * contains the pixels of GL. */
 bool frame_checks_compare(frame_checks *checks, picture *p, const scene *s, const char *name, const char *prefix,
                           octreel_error *error);

@@ -41,14 +41,16 @@ static bool pipe_write(int pipe, const void *bytes, size_t size)
     return true;
 }
 
-/* Read exactly `size` bytes. False on an error, and with an errno of 0 if the other end is closed. */
+/* Read exactly `size` bytes. Returns false on an error. If the other process has closed its end, returns false with
+ * errno 0. */
 static bool pipe_read(int pipe, void *bytes, size_t size)
 {
     for (char *at = bytes; size > 0;) {
         const ssize_t got = read(pipe, at, size);
         if (got < 0 && errno == EINTR)
             continue;
-        if (got == 0 || (got < 0 && errno == ECONNRESET)) /* reset: closed with bytes that nobody has read */
+        /* ECONNRESET: the other process closed its end before it had read all bytes sent to it. */
+        if (got == 0 || (got < 0 && errno == ECONNRESET))
             errno = 0;
         if (got <= 0)
             return false;
@@ -89,13 +91,14 @@ static bool write_message(int pipe, message m, const void *bytes, size_t size)
 
 typedef struct job {
     pid_t pid;
-    int pipe; /* a socket between the starter and the job; each process holds its own end */
+    int pipe; /* a socket between the starter and the job; each of the two processes holds one end */
     const film_options *options;
     uint64_t session; /* digest of session.json, valid if has_session is true */
     bool has_session;
 } job;
 
-/* Wait until the starter sends the digest of session.json. If the starter stops the job before, the process exits. */
+/* Wait until the starter sends the digest of session.json. If the starter stops the job first, the job's process
+ * exits. */
 static void wait_for_session(job *self)
 {
     if (!self->has_session && !pipe_read(self->pipe, &self->session, sizeof self->session))
@@ -110,7 +113,7 @@ static void learn_session(uint64_t *digest, void *context)
     *digest = self->session;
 }
 
-/* Returns false if the caller of the recording or the starter stops this job, or if the starter has died. */
+/* Returns false if the job must stop: the caller of the recording or the starter stops it, or the starter has died. */
 static bool job_keeps_going(void *context)
 {
     const job *self = context;
@@ -149,16 +152,18 @@ static bool write_step(void *context, const film_step *step, octreel_error *erro
            error_set(error, "the process that collects the ticks has ended");
 }
 
-/* Run a job. It ends with _exit() because the buffers of stdio are copies of the starter's and must not be flushed
- * twice. */
+/* Run a job in its own process. The process ends with _exit(), because its stdio buffers are copies of the starter's
+ * buffers and must not be flushed a second time. */
 static _Noreturn void run_job(job *self, const recording *r, playback *p, const film_share *share)
 {
     octreel_error error;
     const watcher watch = {.keep_going = job_keeps_going, .context = self};
-    setenv("LP_NUM_THREADS", "0", 0); /* no threads in llvmpipe: other jobs use the other cores */
-    draw_context_set_report(NULL);    /* the starter, not the job, reports the GL context */
+    /* Llvmpipe, the software GL, must not start threads: other jobs use the other cores. */
+    setenv("LP_NUM_THREADS", "0", 0);
+    draw_context_set_report(NULL); /* the starter reports the GL context, so the job must not */
     begin_watch(self);
-    p->learn_session = learn_session; /* wait for the digest only after the first frame is drawn */
+    /* P->learn_session waits for the digest; it is called only after the first frame is drawn. */
+    p->learn_session = learn_session;
     p->learn_context = self;
     const bool ok = recording_open_picture(r, p, &error) && playback_run(p, share, write_step, self, &watch, &error);
     if (ok && share->index == 0)
@@ -173,7 +178,7 @@ static _Noreturn void run_job(job *self, const recording *r, playback *p, const 
 typedef struct job_pool {
     recording *recording;
     job *jobs;
-    unsigned wanted, count; /* number of jobs to start; number already started */
+    unsigned wanted, count; /* number of jobs to start, and number of jobs that are already started */
     bool stopped;           /* true: no job begins another frame */
     char *bytes;            /* bytes of the last message */
 } job_pool;
@@ -189,7 +194,8 @@ static bool start_job(job_pool *pool, playback *p, octreel_error *error)
     if (pid == 0) {
         close(ends[0]);
         for (unsigned i = 0; i < pool->count; i++)
-            close(pool->jobs[i].pipe); /* a socket closes only when all copies of its other end are closed */
+            /* Close the copies that fork() made: a socket closes only when all copies of its other end are closed. */
+            close(pool->jobs[i].pipe);
         share.index = pool->count;
         share.count = pool->wanted;
         run_job(&(job){.pipe = ends[1], .options = r->options}, r, p, &share);
@@ -212,7 +218,8 @@ static void stop_jobs(job_pool *pool)
     pool->stopped = true;
 }
 
-/* Wait until a job sends something or ends. If the caller's watcher stops the recording meanwhile, stop all jobs. */
+/* Wait until a job sends a message or ends. If the caller's watcher stops the recording during the wait, stop all
+ * jobs. */
 static void wait_for_job(job_pool *pool, const job *j)
 {
     enum { PATIENCE = 50 }; /* milliseconds between two calls of the watcher */
@@ -241,8 +248,8 @@ static bool read_message(job_pool *pool, const job *j, message *m, octreel_error
     return errno == 0 || error_set(error, "cannot read the ticks of a job: %s", strerror(errno));
 }
 
-/* Wait for the end of a job. Its socket is closed first, which ends a job that waits for the starter. Returns false if
- * its status is unknown. */
+/* Wait for the end of a job. The job's socket is closed first; this ends a job that waits for the starter. Returns
+ * false if the exit status of the job is unknown. */
 static bool wait_for_end(job *j, int *status)
 {
     pid_t ended;
@@ -254,7 +261,8 @@ static bool wait_for_end(job *j, int *status)
     return ended > 0;
 }
 
-/* Called if a job ended before its last tick. Returns true if the job was stopped, false with an error if it failed. */
+/* Find out why a job ended before its last tick. Returns true if the job was stopped, false with an error if it
+ * failed. */
 static bool explain_end(job_pool *pool, unsigned i, octreel_error *error)
 {
     int status = 0;
@@ -310,8 +318,8 @@ static bool collect_ticks(job_pool *pool, octreel_error *error)
     return receive_message(pool, 0, &m, error);
 }
 
-/* Stop the jobs and wait until they have ended. Their messages are read and dropped, so that each job finishes its
- * frame and does not wait for room in its socket. */
+/* Stop the jobs and wait until they have ended. Messages of the jobs are read and dropped: a job must finish its frame,
+ * and must not wait for room in its socket. */
 static void end_jobs(job_pool *pool)
 {
     char ignored[1 << 12];
@@ -334,14 +342,16 @@ static bool start_all_jobs(job_pool *pool, playback *p, octreel_error *error)
     while (pool->count < pool->wanted)
         if (!start_job(pool, p, error))
             return false;
-    octree_game_destroy(p->game); /* each job has a copy of the game, and the starter plays nothing */
+    /* Free the starter's game: each job has its own copy, and the starter plays no tick. */
+    octree_game_destroy(p->game);
     p->game = NULL;
     const bool begun = recording_open_picture(pool->recording, p, error) && recording_begin(pool->recording, p, error);
     picture_close(&p->picture);
     return begun;
 }
 
-/* Send the digest of session.json to all jobs. If a job has died, this is noticed later, when its messages are read. */
+/* Send the digest of session.json to all jobs. A job that has died is not noticed here, but later, when its messages
+ * are read. */
 static bool send_session(const job_pool *pool, uint64_t session, octreel_error *error)
 {
     for (unsigned i = 0; i < pool->count; i++)

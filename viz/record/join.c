@@ -22,8 +22,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A chunk's file, ticks_A_B.jsonl. It has a line for each tick from first to last - 1; lines at the end may be missing.
- */
+/* The file of a chunk, ticks_A_B.jsonl. The file has a line for each tick from `first` to `last` - 1. Lines at its end
+ * may be missing. */
 typedef struct chunk {
     uint64_t first, last;
     char name[CHUNK_NAME];
@@ -35,7 +35,7 @@ typedef struct joining {
     const octree_session *session;
     film_summary *summary;   /* summary->ticks is the number of ticks joined so far */
     uint64_t session_digest; /* digest of session.json */
-    chunk *chunks;           /* sorted by their first tick */
+    chunk *chunks;           /* the chunks, sorted by their first tick */
     size_t count;
     file_writer ticks; /* the new ticks.jsonl */
     char *line;        /* the current line of a chunk */
@@ -57,7 +57,8 @@ static bool add_chunk(joining *j, chunk c, octreel_error *error)
     return true;
 }
 
-/* Add a file of the folder to the chunks if it is a chunk's file. An existing ticks.jsonl is a chunk of all ticks. */
+/* If a file of the folder is the file of a chunk, add it to the list of chunks. An existing ticks.jsonl counts as a
+ * chunk of all ticks. */
 static bool add_entry(joining *j, const char *name, octreel_error *error)
 {
     uint64_t tick;
@@ -104,7 +105,7 @@ static bool check_frame(joining *j, uint64_t scene, octreel_error *error)
     return true;
 }
 
-/* Check that j->line is the line of the next tick, and copy it. */
+/* Check that j->line is the line of the next tick, and copy it to the new ticks.jsonl. */
 static bool join_line(joining *j, const chunk *c, size_t size, octreel_error *error)
 {
     char begin[48];
@@ -116,14 +117,15 @@ static bool join_line(joining *j, const chunk *c, size_t size, octreel_error *er
         return error_set(error, "%s/%s: expected the line of tick %" PRIu64, j->options->folder, c->name, tick);
     if (filmed && !check_frame(j, scene, error))
         return false;
-    fwrite(j->line, 1, size, j->ticks.stream); /* errors are reported by file_writer_close() */
+    fwrite(j->line, 1, size, j->ticks.stream); /* a write error is reported later, by file_writer_close() */
     j->summary->ticks++;
     j->summary->gaps += gap;
     watcher_report(&j->options->watch, j->summary->ticks, j->summary->total);
     return true;
 }
 
-/* Join the lines of a chunk, without ticks that earlier chunks contain. A last line without a newline is ignored. */
+/* Join the lines of a chunk. Ticks that earlier chunks contain are skipped. A last line without a newline is
+ * ignored. */
 static bool join_lines(joining *j, const chunk *c, FILE *stream, bool *stopped, octreel_error *error)
 {
     ssize_t size;

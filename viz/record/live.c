@@ -32,15 +32,16 @@ struct live_recording {
     playback playback;
     film_summary summary;
     recording recording;
-    size_t key_count;  /* length of start.session.keys, the player's key presses */
+    size_t key_count;  /* length of start.session.keys, which holds the player's key presses */
     uint64_t ticks;    /* number of recorded ticks, without tick 0 */
     FILE *stream;      /* the open session.json.live; null if it does not exist */
     char *path;        /* path of session.json.live */
     off_t head, whole; /* offsets in session.json.live: the start of its ticks, and the end of its last complete tick */
-    uint64_t *gaps;    /* numbers of the ticks that should have a frame but have none, because they are gaps */
+    /* Numbers of the ticks that have no frame because they are gaps, though `every` would give them one. */
+    uint64_t *gaps;
     size_t gap_count, gap_room;
-    bool begun;  /* tick 0 is filmed */
-    bool broken; /* a tick failed: no more ticks are recorded */
+    bool begun;  /* true: tick 0 is filmed */
+    bool broken; /* true: a tick failed, so no more ticks are recorded */
 };
 
 /* ---- session.json.live -------------------------------------------------------------------------------------- */
@@ -59,8 +60,8 @@ static bool flush_session(live_recording *live, octreel_error *error)
     return true;
 }
 
-/* Returns the input of tick 0. Queries and shapes that belong to every tick are not part of it; the session's header
- * has them. */
+/* Returns the input of tick 0, without the queries and shapes that belong to every tick: the session's header has
+ * those. */
 static octree_input make_first_input(const octree_session *session)
 {
     octree_input input = {
@@ -79,7 +80,7 @@ static bool open_session(live_recording *live, octreel_error *error)
     live->path = path_join(live->folder, "session.json.live");
     if (!live->path)
         return error_no_memory(error);
-    unlink(live->path); /* the path may be an old pipe or a link */
+    unlink(live->path); /* remove what is at the path first: it may be an old pipe or link */
     live->stream = fopen(live->path, "w+bx");
     return live->stream || report_write_failure(live, error);
 }
@@ -127,7 +128,7 @@ static bool copy_ticks(live_recording *live, FILE *out, octreel_error *error)
         const size_t wanted = left < (off_t)sizeof buffer ? (size_t)left : sizeof buffer;
         if (fread(buffer, 1, wanted, live->stream) != wanted)
             return error_set(error, "%s: cannot be read", live->path);
-        fwrite(buffer, 1, wanted, out); /* errors are reported by file_writer_close() */
+        fwrite(buffer, 1, wanted, out); /* a write error is reported later, by file_writer_close() */
         left -= (off_t)wanted;
     }
     return true;
@@ -174,7 +175,8 @@ static bool digest_file(const char *path, uint64_t *digest, octreel_error *error
     return ok || error_set(error, "%s: cannot be read", path);
 }
 
-/* Write the digest of session.json into every frame. It is known only after session.json is complete. */
+/* Write the digest of session.json into every frame. The digest is known only now, because session.json has just been
+ * completed. */
 static bool write_digest_into_frames(const live_recording *live, uint64_t digest, octreel_error *error)
 {
     size_t gap = 0;

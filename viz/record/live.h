@@ -15,18 +15,19 @@ typedef struct live_recording live_recording;
  * jobs and resume are ignored. Returns null with an error on failure. */
 live_recording *live_open(const octree_session *start, const film_options *options, octreel_error *error);
 
-/* Create the folder and its first files. If this fails, the files are removed again, and only live_close() may be
- * called. */
+/* Create the folder and the first files of the recording. If this fails, the created files are removed again, and only
+ * live_close() may be called afterwards. */
 bool live_begin(live_recording *live, octreel_error *error);
 
-/* Record tick 0. If this fails, all files of the recording are removed, and only live_close() may be called. */
+/* Record tick 0. If this fails, all files of the recording are removed, and only live_close() may be called
+ * afterwards. */
 bool live_film_first(live_recording *live, octreel_error *error);
 
-/* Record the next tick. If input->key is 0, the session's key press for this tick is used. If this fails, only
- * live_close() may be called. */
+/* Record the next tick. If input->key is 0, the key press that the session has for this tick is used. If this fails,
+ * only live_close() may be called afterwards. */
 bool live_film_tick(live_recording *live, const octree_input *input, octreel_error *error);
 
-/* Add a tick after the last tick of the session. It is written to session.json but not played. */
+/* Add a tick to session.json after the session's last tick. The tick is not played. */
 bool live_add_unplayed(live_recording *live, uint64_t tick, const octree_input *input, octreel_error *error);
 
 /* Check the last frame, write session.json with all ticks, write the page, and free all memory. `ticks` is the number

@@ -23,9 +23,9 @@
 typedef struct cutter {
     FILE *out;
     unsigned depth;
-    unsigned cut;         /* depth of the list whose entries are being dropped; 0: no list */
-    bool lists[DEPTH];    /* lists[d]: the value open at depth d is a list, not an object */
-    size_t commas[DEPTH]; /* commas[d]: number of commas so far in the value open at depth d */
+    unsigned cut;         /* depth of the list whose surplus entries are being dropped; 0: no list */
+    bool lists[DEPTH];    /* lists[d]: true if the open value at depth d is a list, false if it is an object */
+    size_t commas[DEPTH]; /* commas[d]: number of commas so far in the open value at depth d */
     bool quoted, escaped;
 } cutter;
 
@@ -69,7 +69,7 @@ static char *shorten_lists(const char *text, size_t size, size_t *left)
     text_stream s;
     bool ok = text_stream_begin(&s);
     cutter c = {.out = s.stream};
-    size_t from = 0; /* offset of the first character that is not yet written */
+    size_t from = 0; /* offset of the first character that is neither copied nor dropped yet */
     for (size_t i = 0; ok && i < size; i++) {
         const bool cut = c.cut;
         ok = advance_in_string(&c, text[i]) || advance_in_lists(&c, text[i]);
@@ -89,8 +89,8 @@ static char *shorten_lists(const char *text, size_t size, size_t *left)
 
 /* ---- Ticks -------------------------------------------------------------------------------------------------- */
 
-/* Write JSON text with '<' escaped, because "</script>" would end the script element. In JSON '<' occurs only in
- * strings. */
+/* Write JSON text with each '<' escaped, because "</script>" would end the script element of the page. In JSON, '<'
+ * occurs only inside strings. */
 static void write_escaped_json(FILE *page, const char *text, size_t size)
 {
     const char *end = text + size, *found;
@@ -101,7 +101,7 @@ static void write_escaped_json(FILE *page, const char *text, size_t size)
     fwrite(text, 1, (size_t)(end - text), page);
 }
 
-/* Write an object as one line of ASCII. Returns false if memory runs out. */
+/* Write a JSON object as one line of ASCII text. Returns false if memory runs out. */
 static bool write_object(const json_t *object, FILE *page)
 {
     char *text = json_dumps(object, JSON_COMPACT | JSON_ENSURE_ASCII);
@@ -128,18 +128,20 @@ static bool write_json_text(const char *text, size_t size, FILE *page, const cha
 
 /* ---- Ticks in which nothing happens -------------------------------------------------------------------------- */
 
-/* Most ticks of a long session are like the tick before them. Such a tick is written as its scene digest, or, if it has
- * no frame, only counted. The page restores the members that differ: the number, the frame and the scene. */
+/* Most ticks of a long session are like the tick before them. Such a tick is not written as a whole line: if it has a
+ * frame, its scene digest is written, otherwise the tick is only counted. The page restores the members that differ:
+ * the tick number, the frame and the scene digest. */
 
 /* A tick's line of ticks.jsonl without "tick", "frame" and "scene". */
 typedef struct tick_rest {
     const char *text;
     size_t size;
     bool has_frame;
-    uint64_t scene; /* the scene digest if there is a frame */
+    uint64_t scene; /* the scene digest; valid if `has_frame` is true */
 } tick_rest;
 
-/* Find the rest of a line as tick_write() writes it. Returns false for other lines, which are never repetitions. */
+/* Find the part of a line of ticks.jsonl that repetitions have in common (tick_rest). Returns false if tick_write() did
+ * not write the line; such a line is never treated as a repetition. */
 static bool find_rest(const char *line, size_t size, uint64_t tick, tick_rest *rest)
 {
     char begin[40], name[FRAME_NAME];
@@ -162,7 +164,7 @@ static void write_repeated(page_writer *w)
     w->repeated = 0;
 }
 
-/* Returns true if a tick was written as a repetition of the last one. */
+/* If the tick repeats the last tick, write it as a repetition and return true. */
 static bool write_repetition(page_writer *w, const char *line, size_t size)
 {
     tick_rest last, rest;

@@ -11,22 +11,22 @@
 #include <stdint.h>
 #include <stdio.h>
 
-/* The maximum number of entries that the page has of each list of a tick. {"more": N} follows if N entries were left
- * out. */
+/* The maximum number of entries that the page keeps of each list in a tick. If N entries were left out, the entry
+ * {"more": N} follows. */
 #define PAGE_LIST 32
 
-/* The maximum size in bytes of a session.json that is embedded in a page. For a larger session the page asks the reader
- * for the file. */
+/* The maximum size in bytes of a session.json that is embedded in a page. For a larger session, the page asks its
+ * reader to choose the file. */
 #define PAGE_MOST_SESSION ((size_t)128 << 20)
 
-/* Returns true if pages contain the program as WebAssembly. If not, pages only show frames. */
+/* Returns true if pages contain the program as WebAssembly and so can play. Otherwise pages only show frames. */
 bool page_plays(void);
 
 typedef struct page_writer {
     FILE *out;
-    uint64_t ticks; /* number of ticks so far */
-    /* The last tick that was written as a whole line: its line of ticks.jsonl, its number, and the number of ticks
-     * without a frame that repeat it and are not yet written. */
+    uint64_t ticks; /* number of ticks added so far */
+    /* The last tick that was written as a whole line: its line of ticks.jsonl and its number. `repeated` counts the
+     * ticks without a frame that repeat this tick and are not yet written. */
     char *last;
     size_t last_size;
     uint64_t last_tick, repeated;
@@ -41,8 +41,8 @@ bool page_add_tick(page_writer *w, const char *path, const char *line, size_t si
 void page_end(page_writer *w, const char *session, size_t size);
 void page_release(page_writer *w);
 
-/* Write index.html into a recording, from the other files in its folder. An incomplete last line of ticks.jsonl is
- * ignored. An existing index.html is replaced, but stays as it is if this fails. */
+/* Write the file index.html of a recording, from the other files in its folder. An incomplete last line of ticks.jsonl
+ * is ignored. An existing index.html is replaced; if writing fails, it stays unchanged. */
 bool page_write(const char *folder, octreel_error *error);
 
 #endif

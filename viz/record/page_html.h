@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* page_html.h - the bytes of viz/page/viewer/index.html with its style and scripts, in two parts: the part before the
- * data of a recording, and the part after the data. CMake makes these bytes. */
+/* page_html.h - the bytes of viz/page/viewer/index.html with its style sheet and scripts, in two parts: the part before
+ * the data of a recording, and the part after the data. CMake generates these bytes. */
 #ifndef RECORD_PAGE_HTML_H
 #define RECORD_PAGE_HTML_H
 

@@ -11,8 +11,10 @@
 
 typedef struct picture {
     renderer *renderer;
-    image frame;   /* pixels of the last scene: indices into the palette of the theme, or RGB if view_is_rgb() */
-    image samples; /* only if the frame is RGB: the palette indices from which the frame is made; else empty */
+    /* The frame, drawn from the last scene; pixels are indices into the palette of the theme, or RGB if
+     * view_is_rgb(). */
+    image frame;
+    image samples; /* the palette indices from which an RGB frame is made; empty if the frame is not RGB */
 } picture;
 
 /* Fit a view's camera and scales to the first tree that it shows. Returns false with an error if the view's filter

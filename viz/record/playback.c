@@ -90,7 +90,7 @@ static uint64_t find_session_digest(playback *p)
 }
 
 /* Returns true if a frame is to be checked: the first and the last frame of a share, and every CHECK_EVERY-th frame.
- * Every `every`-th tick has a frame. */
+ * `frame` is a number of a frame: its tick divided by `every`. */
 static bool is_checked(const film_share *share, uint64_t frame, uint64_t every)
 {
     return frame % CHECK_EVERY == 0 || frame == (share->first + every - 1) / every ||
@@ -117,8 +117,8 @@ bool playback_check_last(playback *p, octreel_error *error)
     return same;
 }
 
-/* Check the last drawn frame if is_checked() returns true for it. The first frame that a process draws is always
- * checked. */
+/* Check the last drawn frame if its number is one that is_checked() selects. The first frame that a process draws is
+ * always checked. */
 static bool check_frame(playback *p, uint64_t tick, octreel_error *error)
 {
     const film_share *share = &p->share;
@@ -160,7 +160,7 @@ static bool film_frame(playback *p, film_step *step, octreel_error *error)
     return done;
 }
 
-/* Make the line of ticks.jsonl in memory, because callers write it in one piece, send it to another process or compare
+/* Make the line of ticks.jsonl in memory. Callers then write it in one piece, send it to another process, or compare
  * it. */
 static bool make_tick_line(playback *p, film_step *step, octreel_error *error)
 {

@@ -21,7 +21,7 @@
 #include "watcher.h"
 
 typedef enum playback_frames {
-    FRAMES_SHOW,  /* draw frames into playback.picture; write no files */
+    FRAMES_SHOW,  /* draw frames into playback.picture, but write no files */
     FRAMES_WRITE, /* draw frames and write them into the folder */
     FRAMES_KEEP,  /* keep frame files that exist and are complete and correct; draw and write all others */
 } playback_frames;
@@ -42,23 +42,23 @@ uint64_t share_find_job(const film_share *share, uint64_t frame, uint64_t every)
 typedef struct playback_target {
     playback_frames frames;
     const char *folder; /* the folder for frames; not used with FRAMES_SHOW */
-    uint64_t every;     /* ticks 0, every, 2 * every ... have a frame unless they are gaps; 0: no frames */
+    uint64_t every;     /* ticks 0, every, 2 * every ... have a frame unless the tick is a gap; 0: no frames */
     renderer_choice renderer;
 } playback_target;
 
 typedef struct playback {
-    view view; /* the view, fitted to tick 0 */
+    view view; /* the view, with its camera and scales fitted to tick 0 */
     octree_game *game;
     const point_values *values; /* values of the session's points; may be null */
     tick_history history;       /* history of all ticks played so far */
     scene scene;
     playback_target target;
-    film_share share;           /* the share that playback_run() films */
-    frame_checks checks;        /* result of the checks; used with DRAW_FILL_CHECKED */
-    char unchecked[FRAME_NAME]; /* name of the frame that playback.picture shows if it is not yet checked; else "" */
+    film_share share;           /* the share of the ticks that playback_run() films */
+    frame_checks checks;        /* the result of the frame checks; used with DRAW_FILL_CHECKED */
+    char unchecked[FRAME_NAME]; /* if the frame in playback.picture is not yet checked: its name; otherwise "" */
     /* Digest of session.json, written into frames; set by the caller or by learn_session(). */
     uint64_t session_digest;
-    /* Sets the digest; called before the first frame is written; may be null. */
+    /* A function that sets the session digest; called before the first frame is written; may be null. */
     void (*learn_session)(uint64_t *digest, void *context);
     void *learn_context;
     picture picture;
@@ -72,14 +72,15 @@ typedef struct film_step {
     unsigned events;      /* events of the tick, as bits of octree_event */
     size_t refusals;      /* number of refused points, edits and steps */
     bool foreign_nodes;   /* the tick shows the nodes of a foreign index */
-    bool gap;             /* the tick was refused and has no data */
+    bool gap;             /* the tick is a gap: it was refused and has no data */
     bool filmed;          /* the tick has a frame */
-    bool kept;            /* the frame existed already and was correct */
+    bool kept;            /* the frame existed already and was correct, so it was not drawn */
     unsigned over_budget; /* kinds of elements that the view's budget left out, as bits LEFT_OUT_* of scene.h */
-    /* Kinds of elements left out because they are smaller than the view's lod, as the same bits. */
+    /* Kinds of elements left out because they are smaller than the view's lod, as bits LEFT_OUT_* of scene.h. */
     unsigned below_lod;
-    uint64_t left_out; /* number of elements that could not be drawn */
-    const char *line;  /* line of ticks.jsonl, with its newline; valid until the next tick is filmed */
+    /* Number of elements that could not be drawn, because a coordinate is not finite or overflows a double. */
+    uint64_t left_out;
+    const char *line; /* line of ticks.jsonl, with its newline; valid until the next tick is filmed */
     size_t size;
 } film_step;
 
@@ -92,7 +93,8 @@ void playback_close(playback *p);
 /* Open the picture into which frames are drawn. Does nothing if the target has no frames. */
 bool playback_open_picture(playback *p, const playback_target *target, octreel_error *error);
 
-/* Play the next tick: with the input that the session has for it, or with the input of the caller. */
+/* Play the next tick. playback_advance() uses the input that the session has for the tick; playback_play_input() uses
+ * the caller's input. */
 bool playback_advance(playback *p, octreel_error *error);
 bool playback_play_input(playback *p, const octree_input *input, octreel_error *error);
 
@@ -102,11 +104,12 @@ bool playback_compose_scene(playback *p, octreel_error *error);
 /* Make the scene, the frame and the line of ticks.jsonl for the last played tick. */
 bool playback_film_tick(playback *p, film_step *step, octreel_error *error);
 
-/* Check the last drawn frame, unless it is checked already. A live recording calls this when it is closed, because only
- * then is the last frame known. That frame has been written by then. */
+/* Check the last drawn frame, unless it was checked already. A live recording calls this function when it is closed,
+ * because only then is it known which frame is the last. By then that frame has been written. */
 bool playback_check_last(playback *p, octreel_error *error);
 
-/* Called for each tick of a share, in order. If it returns false, playback_run() ends and returns false. */
+/* A function that is called for each tick of a share, in order. If it returns false, playback_run() ends and returns
+ * false. */
 typedef bool film_sink(void *context, const film_step *step, octreel_error *error);
 
 /* Play to the end of a share and film its ticks. `watch` may be null; its keep_going() is called after each tick, its

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The state of writing a page. */
+/* The state of the writing of a page. */
 typedef struct playing {
     const film_options *options;
     film_summary *summary;
@@ -29,7 +29,7 @@ static bool add_tick(void *context, const film_step *step, octreel_error *error)
     return true;
 }
 
-/* Begin the page with the text of recording.json for a recording without frames. */
+/* Begin the page with the text of recording.json that a recording without frames would have. */
 static bool begin_page(playing *p, const view *v, octreel_error *error)
 {
     text_stream s;
@@ -66,8 +66,8 @@ static bool check_size(size_t size, octreel_error *error)
                PAGE_MOST_SESSION / 1000000);
 }
 
-/* Returns a lower bound of the size of session.json in bytes. A far too large session is thus found before it is
- * written. */
+/* Returns a lower bound of the size of session.json in bytes, so that a session that is far too large is refused before
+ * its text is made. */
 static size_t find_least_size(const octree_session *session)
 {
     return (session->keys ? strlen(session->keys) : 0) + session->body_count * strlen("[0,0,0],");

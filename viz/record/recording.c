@@ -24,7 +24,7 @@ bool recording_open_picture(const recording *r, playback *p, octreel_error *erro
     return playback_open_picture(p, &target, error);
 }
 
-/* What is known of a recording before its first tick. */
+/* The data with which a recording begins, before its first tick. */
 typedef struct beginning {
     const view *view;
     renderer_info info; /* the renderer; set only if there are frames */
@@ -45,8 +45,8 @@ static bool open_log(recording *r, octreel_error *error)
     return tick_log_open(&r->log, r->options->folder, name, r->options->resume, error);
 }
 
-/* Begin a recording in a folder without a recording, or replace the recording in it. ticks.jsonl is created first,
- * because its lock keeps other processes away from the folder. */
+/* Begin a recording in a folder that has no recording, or replace the recording in the folder. ticks.jsonl is created
+ * first, because its lock keeps other processes out of the folder. */
 static bool begin_whole_recording(recording *r, const beginning *b, octreel_error *error)
 {
     const char *folder = r->options->folder;
@@ -67,7 +67,7 @@ static bool begin_whole_recording(recording *r, const beginning *b, octreel_erro
     return false;
 }
 
-/* Return an error if the chunk's file exists and the chunk is not being resumed. */
+/* Return false with an error if the file of the chunk exists and the chunk is not being resumed. */
 static bool check_new_chunk(const recording *r, octreel_error *error)
 {
     char name[CHUNK_NAME];
@@ -75,8 +75,9 @@ static bool check_new_chunk(const recording *r, octreel_error *error)
            error_set(error, "%s: already holds this chunk (%s); use --resume to complete it", r->options->folder, name);
 }
 
-/* Begin a recording in a folder that may already contain a part of it, and into which other processes may be recording
- * other chunks. A dry run and the checks come first, so that a folder with another recording stays unchanged. */
+/* Begin a recording in a folder that may already contain a part of it. Other processes may be recording other chunks
+ * into this folder. A dry run and all checks come first, so that a folder with a different recording stays
+ * unchanged. */
 static bool begin_chunk_of_recording(recording *r, const beginning *b, octreel_error *error)
 {
     char writer[CHUNK_NAME];

@@ -14,10 +14,12 @@ typedef struct recording {
     const film_options *options;
     film_summary *summary;
     film_share share;              /* the ticks to record */
-    const octree_session *session; /* null: the session is not yet complete, as in a live recording */
-    session_bytes bytes;           /* bytes and digest of session.json; no bytes if the session is not yet complete */
+    const octree_session *session; /* the session; null while it is not yet complete, as in a live recording */
+    /* The bytes and the digest of session.json; no bytes while the session is not yet complete. */
+    session_bytes bytes;
     tick_log log;
-    replacement replaced; /* the old recording that is being replaced; kept until a tick is filmed */
+    /* The old recording that is being replaced; kept until tick 0 of the new recording is filmed. */
+    replacement replaced;
 } recording;
 
 /* Call playback_open_picture() with the options of the recording. */
@@ -27,11 +29,11 @@ bool recording_open_picture(const recording *r, playback *p, octreel_error *erro
  * complete. Frees r->bytes and sets p->session_digest. If this fails, the folder stays as it was. */
 bool recording_begin(recording *r, playback *p, octreel_error *error);
 
-/* Write the line of the next tick to ticks.jsonl. This is a film_sink; its context is the recording. */
+/* Write the line of the next tick to ticks.jsonl. This function is a film_sink, whose context is the recording. */
 bool recording_add_tick(void *context, const film_step *step, octreel_error *error);
 
-/* Close ticks.jsonl and write the page, also after a stop or a failure. After a failure `ok` is false, and the result
- * is false too. */
+/* Close ticks.jsonl and write the page; also called after a stop or a failure. `ok` is false after a failure, and the
+ * result is then false too. */
 bool recording_end(recording *r, bool ok, octreel_error *error);
 
 #endif

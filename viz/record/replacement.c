@@ -48,7 +48,8 @@ static bool is_frame(const char *name)
     return frame_parse_name(whole, &tick);
 }
 
-/* Returns true if a recording uses this file name. FOLDER_ASIDE is not a file and returns false. */
+/* Returns true if a recording uses this file name. FOLDER_ASIDE is the name of a folder, so the result is false for
+ * it. */
 static bool is_recording_file(const char *name)
 {
     if (strncmp(name, "frame_", 6) == 0)
@@ -79,8 +80,8 @@ static bool has_recording_aside(const char *folder)
     return has;
 }
 
-/* Check one entry of a folder. *past is set to true if the entry is a file that a recording writes after its start. A
- * recording that was killed at its start leaves at most an empty ticks.jsonl. */
+/* Check one entry of a folder. Sets *past to true if the entry is a file that a recording writes only after its start.
+ * A recording that was killed at its start leaves at most an empty ticks.jsonl. */
 static bool check_entry(const char *folder, const char *name, bool *past, octreel_error *error)
 {
     struct stat status;
@@ -165,9 +166,9 @@ static bool remove_recording(const char *folder)
     return move_or_remove(folder, NULL, mark) && move_or_remove_rest(folder, NULL);
 }
 
-/* Empty the folder aside if a killed process left files in it. If the folder itself has a recording.json, the new
- * recording was in its first tick and is removed. If not, the new recording has at most an empty ticks.jsonl and an
- * unfinished recording.json. */
+/* Empty the folder FOLDER_ASIDE if a killed process left files in it. If the outer folder has a recording.json, the
+ * process was killed during the first tick of the new recording, which is removed. Otherwise the new recording has at
+ * most an empty ticks.jsonl and an unfinished recording.json. */
 static bool recover_from_crash(const replacement *r, octreel_error *error)
 {
     bool ok = true;
@@ -193,8 +194,8 @@ static void release_replacement(replacement *r)
     *r = (replacement){0};
 }
 
-/* Returns true if the open folder aside still exists under its name. The process that held its lock before may have
- * removed it. */
+/* Returns true if the folder FOLDER_ASIDE that was opened still exists under its name. The process that held the lock
+ * before may have removed the folder. */
 static bool old_recording_exists(const replacement *r)
 {
     struct stat open, named;
@@ -230,7 +231,7 @@ bool replacement_begin(replacement *r, const char *folder, octreel_error *error)
     *r = (replacement){.folder = strdup(folder), .aside = path_join(folder, FOLDER_ASIDE), .lock = -1};
     bool ok = (r->folder && r->aside) || error_no_memory(error);
     ok = ok && folder_create(folder, error) && replacement_check(folder, error);
-    /* Check again, because another process may have changed the folder before the lock was taken. */
+    /* check again, because another process may have changed the folder before this process had the lock */
     ok = ok && create_aside_folder(r, error) && replacement_check(folder, error);
     ok = ok && recover_from_crash(r, error) && move_recording_aside(r, error);
     if (!ok)

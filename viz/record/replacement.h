@@ -6,27 +6,31 @@
 
 #include "folder.h"
 
-/* Returns true if --replace may be used on a folder: it has a recording.json, all files whose names a recording uses
- * are regular files, and no process is recording into it. A folder without a recording or a missing folder is accepted
- * too. */
+/* Returns true if --replace may be used on a folder. The folder must have a recording.json; all files in it whose names
+ * a recording uses must be regular files; and no process may be recording into it. A missing folder and a folder
+ * without a recording are accepted too. */
 bool replacement_check(const char *folder, octreel_error *error);
 
 typedef struct replacement {
-    char *folder, *aside; /* `aside` is a folder inside `folder`, for the old files; null: no old recording */
-    int lock;             /* descriptor of `aside`, open and locked; -1: none */
+    /* The folder of the recording, and the folder inside it that holds the old files; `aside` null: no old
+     * recording. */
+    char *folder, *aside;
+    int lock; /* descriptor of the folder `aside`, open and locked; -1: no such folder is open */
 } replacement;
 
-/* Check the folder again and move its recording into the folder aside. Does nothing if there is no recording. If this
- * fails, the folder stays as it was. */
+/* Check the folder again and move its recording into the folder `aside`. Does nothing if the folder has no recording.
+ * If this fails, the folder stays as it was. */
 bool replacement_begin(replacement *r, const char *folder, octreel_error *error);
 
-/* Remove the files in the folder aside, if there are any. */
+/* Remove the old files in the folder `aside`, if there are any. */
 void replacement_remove_old(replacement *r);
 
-/* Remove the new recording and move the old one back. Returns false if there is no old recording. */
+/* Remove the new recording and move the old recording back into the folder. Returns false if there is no old
+ * recording. */
 bool replacement_undo(replacement *r);
 
-/* Remove old files that a killed process left in the folder aside. Call this once the new recording is complete. */
+/* Remove old files that a killed process left in the folder FOLDER_ASIDE. Call this function once the new recording is
+ * complete. */
 void replacement_sweep(const char *folder);
 
 #endif

@@ -50,7 +50,7 @@ static bool cut_and_close(tick_log *log, octreel_error *error)
     return report_write_failure(log, error, cut ? "" : "; its last line is torn");
 }
 
-/* Returns true if the line equals the next line of the earlier log, which can then stay in the file. */
+/* Returns true if the line equals the next line of the earlier log. That earlier line can then stay in the file. */
 static bool is_kept(const tick_log *log, const char *line, size_t size)
 {
     if (log->kept - log->whole < (off_t)size)
@@ -61,7 +61,7 @@ static bool is_kept(const tick_log *log, const char *line, size_t size)
     return true;
 }
 
-/* Truncate the earlier log here, because its next line differs from the new line. */
+/* Truncate the file before the next line of the earlier log, because that line differs from the new line. */
 static bool remove_old_lines(tick_log *log)
 {
     log->kept = 0;
@@ -87,7 +87,7 @@ bool tick_log_close(tick_log *log, bool whole, octreel_error *error)
     const bool cut =
         !log->stream || !whole || log->kept == 0 || remove_old_lines(log) || report_write_failure(log, error, "");
     if (log->stream)
-        /* Unlock explicitly: a child of this program may have the file open too, which would keep the lock. */
+        /* unlock explicitly: a child process may have the file open too, and would keep the lock */
         flock(fileno(log->stream), LOCK_UN);
     const bool ok = (!log->stream || fclose(log->stream) == 0 || report_write_failure(log, error, "")) && cut;
     free(log->path);
