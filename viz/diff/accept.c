@@ -15,8 +15,8 @@
 
 /* ---- Deciding ----------------------------------------------------------------------------------------------- */
 
-/* Check that the name of a new reference fits its kind. A name such as "x.json" is refused for a folder, and a name
- * without ".png" is refused for a picture. */
+/* Check that the name of a new reference fits its kind. A folder may not have a name such as "x.json"; a picture
+ * must have a name that ends in ".png". */
 static bool check_new_name(const accept_options *o, diff_kind kind, octreel_error *error)
 {
     const output_kind name = output_kind_of_name(o->reference);
@@ -36,8 +36,8 @@ static bool check_new_name(const accept_options *o, diff_kind kind, octreel_erro
                      o->reference);
 }
 
-/* Check that the options fit the kind of the reference: a baseline needs a reason; a picture, a folder or a
- * recording takes none. */
+/* Check that the options fit the kind of the reference. A baseline must be given a reason. A picture, a folder or a
+ * recording may not be given a reason. */
 static bool check_options(const accepting *a, octreel_error *error)
 {
     const accept_options *o = a->options;
@@ -49,15 +49,15 @@ static bool check_options(const accepting *a, octreel_error *error)
                      o->reference, diff_kind_name(a->reference.kind));
 }
 
-/* Return a side without frames, which stands for a reference that does not exist yet. */
+/* Return a side without frames. It stands for a reference that does not exist yet. */
 static diff_side empty_side(const char *path, diff_kind kind, bool no_frames)
 {
     return (diff_side){.path = path, .source = path, .kind = kind, .background = IMAGE_WHITE, .no_frames = no_frames};
 }
 
-/* Open the reference and the frames. A reference that does not exist yet becomes an empty side: a baseline if a
- * reason was given, else a side of the same kind as the frames. An empty folder becomes a recording if a recording
- * is accepted into it. */
+/* Open the reference and the frames. A reference that does not exist yet becomes a side without frames: a baseline
+ * if a reason was given, else a side of the same kind as the frames. If a recording is accepted into an empty
+ * folder, the reference is a recording. */
 static bool open_sides(accepting *a, octreel_error *error)
 {
     const accept_options *o = a->options;
@@ -96,7 +96,8 @@ static bool is_name_listed(const accept_options *options, const char *name)
     return options->names->count == 0;
 }
 
-/* Return the name of the first frame whose file has the same name, but which lies in another folder, or null. */
+/* Frames in different folders may have the same file name. Return the name of the first frame, in any folder, that
+ * has the file name of `name`. Return null if there is none. */
 static const char *find_elsewhere(const diff_result *result, const char *name)
 {
     for (size_t i = 0; i < result->count; i++) {
@@ -132,16 +133,16 @@ static action choose_action(diff_finding finding)
     return finding == FOUND_SAME_BYTES || finding == FOUND_SAME_PIXELS ? KEPT : CHANGED;
 }
 
-/* Check that a new frame can be read, and compute its digest. An unreadable reference is no error, because the new
- * frame replaces it. */
+/* Check that a new frame can be read, and compute its digest. If the reference cannot be read, this is no error,
+ * because the new frame replaces it. */
 static bool check_frame(const accepting *a, diff_pair *pair, octreel_error *error)
 {
     pair->about[1].kind = IMAGE_DIGEST_NEWEST;
     return digest_picture(pair->b->path, a->reference.background, &pair->about[1], error);
 }
 
-/* Check that a frame is really missing. The frames of folders that were not searched have no pair, and their references
- * must stay. */
+/* Check that the new frame of a reference is really missing. The frames in folders that were not searched are
+ * unknown, and their references must stay. */
 static bool check_is_gone(const accepting *a, const char *name, octreel_error *error)
 {
     char *path = path_join(a->frames.path, name);

@@ -10,17 +10,18 @@
 
 typedef struct accept_options {
     const char *reference; /* a PNG, a folder, a recording or a baseline; created if it does not exist */
-    const char *frames;    /* a PNG, a folder or a recording */
-    bool flat;             /* leave out the subfolders of folders */
-    /* The names of the frames to accept. Empty: accept all frames and remove references without a frame. */
+    const char *frames;    /* the new frames: a PNG, a folder or a recording */
+    bool flat;             /* true: the subfolders of a folder are not searched for frames */
+    /* The names of the frames to accept. If the list is empty, all frames are accepted, and each reference without a
+     * new frame is removed. */
     const frame_list *names;
 
-    /* `note`, `store` and `variant` are for baselines only. If a reason is given, a reference that does not exist
-     * becomes a baseline. */
+    /* The members `note`, `store` and `variant` are used only for baselines. If a reason is given, a reference that
+     * does not exist becomes a baseline. */
     acceptance_note note; /* note.reason is null if no reason was given */
-    const char *store;    /* the folder where pictures are stored; null: they are not stored */
-    bool variant;         /* keep the previously accepted digests of a frame */
-    bool json;            /* print the changes as one JSON object that lists all changed frames */
+    const char *store;    /* the folder in which accepted pictures are stored; null: no pictures are stored */
+    bool variant;         /* true: a frame keeps its previously accepted digests */
+    bool json;            /* true: the summary is one JSON object that lists all changed frames */
 } accept_options;
 
 /* Compare the new frames with the references, then replace the references that differ. References with equal pixels are

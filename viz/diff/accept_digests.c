@@ -6,8 +6,8 @@
 
 #include <stdlib.h>
 
-/* Store the pictures of all frames that the new baseline accepts. Unchanged frames are included, so that a store
- * that was empty becomes complete. */
+/* Store the pictures of all frames in the new baseline. The pictures of unchanged frames are stored, too, so that
+ * the store becomes complete even if it was empty. */
 static bool store_pictures(const accepting *a, octreel_error *error)
 {
     bool ok = true;
@@ -46,7 +46,7 @@ bool accept_digests(accepting *a, octreel_error *error)
     diff_side now = a->reference;
     now.frames = NULL;
     now.count = now.room = 0;
-    a->reference.acceptances = NULL; /* `now` owns the acceptances */
+    a->reference.acceptances = NULL; /* `now` owns the acceptances from here on */
     a->reference.acceptance_count = 0;
     bool ok = store_pictures(a, error);
     for (size_t i = 0; ok && i < a->result.count; i++) {

@@ -12,7 +12,7 @@
 /* ---- A set of files that is replaced together ---------------------------------------------------------------- */
 
 typedef struct set_file {
-    file_writer copy; /* a complete copy named NAME.part, not yet renamed */
+    file_writer copy; /* a complete copy that is named NAME.part until it is renamed */
     char *path;       /* the final name of the copy; owned */
 } set_file;
 
@@ -21,8 +21,8 @@ typedef struct file_set {
     size_t count, room;
 } file_set;
 
-/* Copy the file `from` to NAME.part beside its final path. The set takes ownership of `path`. A null `path` means
- * that memory ran out. */
+/* Copy the file `from` into the folder of its final path, with the name NAME.part. The set takes ownership of
+ * `path`. If `path` is null, the caller ran out of memory, and the function reports this. */
 static bool prepare_copy(file_set *set, const char *from, char *path, octreel_error *error)
 {
     const bool room = path && array_grow(&set->files, set->count + 1, &set->room, sizeof *set->files);
@@ -61,8 +61,8 @@ static char *copy_final_path(const accepting *a, const diff_pair *pair)
     return a->reference.kind == DIFF_PICTURE ? strdup(a->reference.path) : path_join(a->reference.path, pair->b->name);
 }
 
-/* Prepare a copy of one of the recording's files, unless the reference has the same bytes or the recording has no
- * such file. */
+/* Prepare a copy of a file of the recording. If the recording has no such file, or the file of the reference has the
+ * same bytes, do nothing. */
 static bool prepare_recording_file(const accepting *a, const char *name, file_set *set, octreel_error *error)
 {
     char *from = path_join(a->frames.path, name), *to = path_join(a->reference.path, name);
@@ -76,8 +76,8 @@ static bool prepare_recording_file(const accepting *a, const char *name, file_se
     return ok;
 }
 
-/* Prepare copies of all files that change. If a whole recording is accepted, the files that describe its frames are
- * copied, too. Frames with equal pixels are also copied, because their text chunks may name another session. */
+/* Prepare copies of all files that change. If a whole recording is accepted, also copy the files that describe its
+ * frames. In this case, also copy frames with equal pixels, because their text chunks may name another session. */
 static bool prepare_copies(const accepting *a, file_set *set, octreel_error *error)
 {
     const bool whole = a->reference.kind == DIFF_RECORDING && a->options->names->count == 0;
@@ -98,7 +98,7 @@ static bool prepare_copies(const accepting *a, file_set *set, octreel_error *err
 
 /* ---- Replacing ----------------------------------------------------------------------------------------------- */
 
-/* Remove each reference that has no new frame, and the subfolders that are empty then. */
+/* Remove each reference that has no new frame, then the subfolders that became empty. */
 static bool remove_references(const accepting *a, octreel_error *error)
 {
     for (size_t i = 0; i < a->result.count; i++) {
@@ -112,7 +112,7 @@ static bool remove_references(const accepting *a, octreel_error *error)
     return true;
 }
 
-/* Remove the empty subfolders that a failed change has created. */
+/* After a failed change, remove the empty subfolders that it created. */
 static void remove_new_folders(const accepting *a)
 {
     for (size_t i = 0; i < a->result.count; i++)
@@ -137,6 +137,6 @@ bool accept_pictures(accepting *a, octreel_error *error)
         return false;
     const bool ok = replace_files(a, error);
     if (!ok && makes)
-        rmdir(a->reference.path); /* fails if the folder is not empty */
+        rmdir(a->reference.path); /* this call fails if the folder is not empty */
     return ok;
 }

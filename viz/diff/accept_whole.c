@@ -24,8 +24,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Refuse a recording that is still being written: the acceptance would miss its later frames. A chunk of a recording
- * has its own tick log, ticks-*.jsonl. */
+/* Refuse a recording that is still being written, because its later frames would not be accepted. A chunk of a
+ * recording has its own tick log, ticks-*.jsonl. */
 bool accept_check_ended(const diff_side *side, octreel_error *error)
 {
     octreel_error ignored;

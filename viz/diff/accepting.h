@@ -6,21 +6,22 @@
 #include "accept.h"
 #include "diff.h"
 
-/* What happens to each reference. */
+/* What the accept command does with a reference. */
 typedef enum action { KEPT, CHANGED, ADDED, REMOVED, ACTIONS } action;
 
 typedef struct accepting {
     const accept_options *options;
     diff_side reference, frames;
-    bool is_new; /* the reference does not exist yet and is created */
+    bool is_new; /* true: the reference does not exist yet and is created */
     diff_result result;
-    action *actions; /* one action for each pair */
+    action *actions; /* actions[i]: the action for pair i */
     size_t counts[ACTIONS];
     FILE *out;
 } accepting;
 
-/* Check that no process is writing a recording, and that the recording is complete: a missing frame would remove its
- * reference. Both functions accept sides that are not recordings. They return false with an error. */
+/* The first function checks that no process is writing a recording. The second checks that the recording is
+ * complete, because the reference of each missing frame would be removed. Both functions do nothing for a side that
+ * is not a recording. They return false with an error if the check fails. */
 bool accept_check_ended(const diff_side *side, octreel_error *error);
 bool accept_check_whole(const diff_side *side, octreel_error *error);
 

@@ -39,7 +39,8 @@ bool baseline_is_date(const char *text)
            (month != 2 || day < 29 || leap);
 }
 
-/* A name or a reason must fit on one line, so it must not contain control characters such as newline. */
+/* Return whether a text contains a control character, such as a newline. A name or a reason must not contain one,
+ * because it must fit on one line. */
 static bool has_control_character(const char *text)
 {
     for (; *text; text++)
@@ -54,8 +55,8 @@ bool baseline_is_reason(const char *text)
     return length > 0 && text[0] != ' ' && text[length - 1] != ' ' && !has_control_character(text);
 }
 
-/* Return the length of a name as it is written: without its ".png". If the rest of the name ends with ".png" or a
- * blank, the ending stays, because read_name() could not restore it. */
+/* Return the length of a frame's name as a baseline contains it: without ".png". If the rest would end with ".png"
+ * or a blank, the whole name is written, because read_name() could not restore it. */
 static size_t written_length(const char *name)
 {
     const size_t length = strlen(name), stem = length > 4 ? length - 4 : 0;
@@ -64,7 +65,8 @@ static size_t written_length(const char *name)
     return plain ? stem : length;
 }
 
-/* Return the name of a frame from its written form, or null if memory runs out. The caller frees the name. */
+/* Return the name of a frame for the name that a baseline contains, or null if memory runs out. The caller frees the
+ * name. */
 static char *read_name(const char *written)
 {
     const size_t length = strlen(written);
@@ -109,8 +111,8 @@ static bool append_acceptance(diff_side *side, const acceptance *from, octreel_e
     return true;
 }
 
-/* Set a->id to a free id: start at the hash of the acceptance and take the next free one. Return false when all ids
- * are in use. */
+/* Set a->id to an id that no acceptance of the side uses. The search starts at the hash of the acceptance and tries
+ * the following ids in order. Return false if all ids are in use. */
 static bool choose_id(const diff_side *side, acceptance *a)
 {
     uint64_t digest = octree_digest_bytes(OCTREE_DIGEST_START, a->date, strlen(a->date));
@@ -144,9 +146,9 @@ bool baseline_add_acceptance(diff_side *side, const acceptance_note *note, frame
 
 /* ---- Reading -------------------------------------------------------------------------------------------------
  *
- * Values are read with sscanf() and printed again. A line is valid only if it begins with the text that
- * baseline_write() prints for these values. Additional blanks, additional zeros, signs and capital letters are
- * therefore refused.
+ * The values of a line are read with sscanf() and printed again. The line is valid only if it begins with the printed
+ * text, which is the text that baseline_write() writes. Additional blanks, additional zeros, signs and capital letters
+ * are therefore refused.
  */
 
 static bool report_bad_line(const diff_side *side, size_t number, octreel_error *error)
@@ -162,7 +164,7 @@ static bool is_side_length(int length)
     return length > 0 && length <= IMAGE_MAX_SIDE;
 }
 
-/* Read the part of a line after "accepted ". */
+/* Read an acceptance. `line` is the part of its line after "accepted ". */
 static bool read_acceptance(diff_side *side, char *line, size_t number, octreel_error *error)
 {
     acceptance a = {.id = ""};
@@ -192,7 +194,8 @@ static bool read_acceptance(diff_side *side, char *line, size_t number, octreel_
                      side->path, number, a.id);
 }
 
-/* Return whether a name is the path of a file below a folder: no part of it is empty, "." or "..". */
+/* Return whether a name is the path of a file in a folder or its subfolders: no part of the path is empty, "." or
+ * "..". */
 static bool is_path_below(const char *name)
 {
     for (const char *at = name;; at++) {
@@ -313,7 +316,7 @@ bool baseline_read(diff_side *side, octreel_error *error)
 
 /* ---- Frames and their variants ------------------------------------------------------------------------------- */
 
-/* Skip a variant that the frame already has: a union merge may repeat the line of a variant. */
+/* If the frame already has this variant, nothing is added: a union merge by git may repeat the line of a variant. */
 bool baseline_add_variant(diff_frame *frame, const frame_digest *digest)
 {
     for (size_t i = 0; i < frame->variant_count; i++)
@@ -327,7 +330,7 @@ bool baseline_add_variant(diff_frame *frame, const frame_digest *digest)
     return true;
 }
 
-/* Set frame->digest to the variant that was accepted last. */
+/* Set frame->digest to the newest variant: the variant that was accepted last. */
 static void choose_newest(const diff_side *side, diff_frame *frame)
 {
     frame->digest = frame->variants[0];

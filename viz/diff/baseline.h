@@ -27,10 +27,10 @@
 
 #include <stdio.h>
 
-/* The date on which frames are accepted, and the reason. */
+/* The date on which frames are accepted, and the reason for accepting them. */
 typedef struct acceptance_note {
     const char *date;   /* YYYY-MM-DD */
-    const char *reason; /* one line */
+    const char *reason; /* a text of one line */
 } acceptance_note;
 
 /* Return whether a text is a calendar date, YYYY-MM-DD. */
@@ -39,22 +39,22 @@ bool baseline_is_date(const char *text);
 /* Return whether a text can be a reason: it is not empty, is one line, and neither begins nor ends with a blank. */
 bool baseline_is_reason(const char *text);
 
-/* Read the baseline at side->source into side. On failure return false; the error names the file, the line and the
- * reason. Cost: O(n log n) time in the size of the file; at most 16 bytes of memory for each byte of the file. */
+/* Read the baseline at side->source into `side`. On failure return false with an error that names the file, the line
+ * and the reason. Cost: O(n log n) time for a file of n bytes; at most 16 bytes of memory for each byte of the file. */
 bool baseline_read(diff_side *side, octreel_error *error);
 
-/* Parse a baseline from a text in memory. The text ends with a zero byte and is modified. Otherwise like
- * baseline_read(). */
+/* Parse a baseline from a text in memory, as baseline_read() does from a file. The text must end with a zero byte.
+ * The function modifies the text. */
 bool baseline_parse(diff_side *side, char *text, size_t size, octreel_error *error);
 
-/* Sort the frames by name, and merge frames of the same name into one frame with the variants of all. */
+/* Sort the frames by name. Merge frames of the same name into one frame that has the variants of all of them. */
 bool baseline_merge_frames(diff_side *side, octreel_error *error);
 
-/* Set digest->acceptance to the side's acceptance with this date, this reason, and the size and kind of the digest.
- * If the side has no such acceptance, append it. */
+/* Set digest->acceptance to the acceptance with the date and reason of `note` and the size and kind of the digest.
+ * If the side has no such acceptance, append one. */
 bool baseline_add_acceptance(diff_side *side, const acceptance_note *note, frame_digest *digest, octreel_error *error);
 
-/* Append a frame with a list of variants. The side must already contain the acceptances of the variants. */
+/* Append a frame with a list of variants. The acceptances of the variants must already be in the side. */
 bool baseline_add_frame(diff_side *side, const char *name, const frame_digest *variants, size_t count,
                         octreel_error *error);
 

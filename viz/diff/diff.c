@@ -90,7 +90,8 @@ static bool same_color(image_color a, image_color b)
     return a.r == b.r && a.g == b.g && a.b == b.b;
 }
 
-/* Return whether a side has at most one frame: it is a picture or such a baseline. A new baseline has no frame. */
+/* Return whether a side has at most one frame: a picture, or a baseline with at most one frame. A baseline that does
+ * not exist yet has no frame. */
 static bool has_one_frame(const diff_side *side)
 {
     return side->kind == DIFF_PICTURE || (side->kind == DIFF_BASELINE && side->count <= 1);
@@ -139,8 +140,8 @@ bool diff_check(const diff_side *a, const diff_side *b, const diff_options *opti
     return true;
 }
 
-/* Compare the next frame names of both sides; the result is as of strcmp(). Two single pictures are always a pair,
- * even if their names differ. */
+/* Compare the name of frame i of `a` with the name of frame j of `b`; the result has the sign of strcmp(). Two
+ * single pictures are a pair even if their names differ, so the result is 0 for them. */
 static int compare_next_names(const diff_side *a, size_t i, const diff_side *b, size_t j)
 {
     if (i == a->count || j == b->count)
@@ -165,13 +166,13 @@ static bool make_pairs(const diff_side *a, const diff_side *b, diff_result *resu
 
 /* ---- One pair ------------------------------------------------------------------------------------------------- */
 
-/* Set the finding if both files are PNG files with the same bytes. Return whether the finding was set. */
+/* If both files are PNG files with the same bytes, set the finding of the pair. Return whether the finding was set. */
 static bool compare_bytes(diff_pair *pair)
 {
     frame_digest about = {0};
     if (!pair->a->path || !pair->b->path || !have_same_bytes(pair->a->path, pair->b->path) ||
         !image_read_png_size(pair->a->path, &about.width, &about.height))
-        return false; /* not proven equal: pixels or digests decide */
+        return false; /* the files differ, so pixels or digests decide */
     pair->about[0] = pair->about[1] = about;
     pair->finding = FOUND_SAME_BYTES;
     return true;
@@ -182,20 +183,20 @@ void set_unreadable(diff_pair *pair, const octreel_error *error)
     octreel_error ignored;
     pair->lacks_resources = !check_system_resources(&ignored);
     pair->finding = FOUND_UNREADABLE;
-    pair->trouble = strdup(error->text); /* if this fails, reports print "out of memory" */
+    pair->trouble = strdup(error->text); /* if strdup() fails, reports print "out of memory" */
 }
 
 /* ---- Pictures, a band of rows at a time ---------------------------------------------------------------------- */
 
-/* A picture that is read in bands of rows. */
+/* A picture that is read one band of rows at a time. */
 typedef struct reading {
-    image_source *source; /* null: the picture cannot be read */
+    image_source *source; /* null if the picture cannot be read */
     int rows;             /* the number of rows of a band */
     octreel_error error;
 } reading;
 
-/* Open a picture. Recognizing anti-aliasing needs the rows above and below each row, so with --antialias the band is
- * the whole picture. */
+/* Open a picture. With --antialias the band is the whole picture, because recognizing anti-aliasing needs the rows
+ * above and below each row. */
 static void open_reading(reading *r, const char *path, const diff_options *options)
 {
     r->source = image_source_open(path, options->background, options->tolerance.antialias, &r->error);
@@ -215,8 +216,8 @@ static bool read_next_rows(reading *r, image *band)
     return r->source && image_source_read_band(r->source, r->rows, band);
 }
 
-/* Compare two pictures. Both are read to the end even if their sizes differ, because a damaged part may come late.
- * An error in the first picture ends the loop, and this error is reported. */
+/* Compare two pictures. Both pictures are read to the end even if their sizes differ, because a later part of a file
+ * may be damaged. An error in the first picture ends the loop and is reported. */
 static image_difference compare_rows(reading of[2], const image_tolerance *tolerance)
 {
     const bool opened = of[0].source && of[1].source;
@@ -277,7 +278,7 @@ static void compare_pictures(diff_pair *pair, const diff_options *options)
 
 /* ---- Digests ------------------------------------------------------------------------------------------------- */
 
-/* The digests of a frame: the digest of its picture, or all variants of a baseline. */
+/* The digests of one frame. A picture has one digest; a frame of a baseline has all its variants. */
 typedef struct known_digests {
     frame_digest newest; /* the digest of the picture, or the newest variant of the requested kind */
     const frame_digest *list;
@@ -304,8 +305,8 @@ static bool collect_digests(const diff_frame *frame, image_digest_kind kind, ima
     return k->newest.kind == kind;
 }
 
-/* Compare two frames by digests of one kind. The frames are equal if any digest of one equals any digest of the
- * other, size included. Return false if a frame has no digest of this kind. */
+/* Compare two frames by digests of one kind. The frames are equal if any digest of the first frame equals any digest
+ * of the second frame; the sizes must be equal, too. Return false if a frame has no digest of this kind. */
 static bool compare_digests_of_kind(diff_pair *pair, image_digest_kind kind, image_color background,
                                     octreel_error *error)
 {

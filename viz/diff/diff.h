@@ -7,7 +7,7 @@
 #include "side.h"
 #include "image_compare.h"
 
-/* Each finding, its name in reports, and the verdict that it causes. */
+/* The findings. Each row has the finding, its name in reports, and the verdict for a pair with this finding. */
 #define DIFF_FINDING_MAP(X)                                                                                            \
     X(SAME_BYTES, "same_bytes", DIFF_SAME)          /* the files have equal bytes and were not decoded */              \
     X(SAME_PIXELS, "same_pixels", DIFF_SAME)        /* the files differ, but their pixels are equal */                 \
@@ -15,8 +15,8 @@
     X(PIXELS, "pixels", DIFF_DIFFERENT)             /* the pixels differ beyond the tolerance */                       \
     X(SIZE, "size", DIFF_DIFFERENT)                 /* the widths or heights differ */                                 \
     X(DIGEST, "digest", DIFF_DIFFERENT)             /* the sizes are equal, but the digests differ */                  \
-    X(NO_FRAME, "no_frame", DIFF_DIFFERENT)         /* the reference has no frame */                                   \
-    X(NO_REFERENCE, "no_reference", DIFF_DIFFERENT) /* the frame has no reference */                                   \
+    X(NO_FRAME, "no_frame", DIFF_DIFFERENT)         /* the reference frame has no compared frame of the same name */   \
+    X(NO_REFERENCE, "no_reference", DIFF_DIFFERENT) /* the compared frame has no reference frame of the same name */   \
     X(UNREADABLE, "unreadable", DIFF_TROUBLE)
 
 typedef enum diff_finding {
@@ -26,7 +26,7 @@ typedef enum diff_finding {
         DIFF_FINDINGS
 } diff_finding;
 
-/* In ascending order of severity. The verdict of a comparison is the verdict of its worst pair. */
+/* The verdicts, in ascending order of severity. The verdict of a comparison is the worst verdict of any pair. */
 typedef enum diff_verdict { DIFF_SAME, DIFF_DIFFERENT, DIFF_TROUBLE } diff_verdict;
 
 const char *diff_finding_name(diff_finding finding);
@@ -35,70 +35,74 @@ diff_verdict diff_finding_verdict(diff_finding finding);
 struct diff_pair;
 
 /* A callback that adds the pixels of ignored layers to the mask of each pair. The caller of diff_run() provides it,
- * because this folder cannot play recordings. Returns false with an error on failure. */
+ * because this folder cannot play recordings. The callback returns false with an error on failure. */
 typedef bool diff_mask(void *context, const diff_side *a, const diff_side *b, struct diff_pair **pairs, size_t count,
                        octreel_error *error);
 
 typedef struct diff_options {
     image_tolerance tolerance;
-    image_color background; /* the color behind transparent pixels */
-    diff_mask *mask;        /* null: no layer is ignored */
+    image_color background; /* the color that is drawn behind transparent pixels */
+    diff_mask *mask;        /* the callback that masks ignored layers; null: no layer is ignored */
     void *mask_context;
     const char *layers; /* the names of the ignored layers, separated by commas */
-    const char *store;  /* the picture store of the reference, which must be a baseline; null: none */
+    const char *store;  /* the picture store of the reference; then the reference must be a baseline; null: no store */
 } diff_options;
 
 /* Return options without a tolerance and with a white background. */
 diff_options diff_options_default(void);
 
-/* A frame `a` of the reference, the frame `b` that is compared with it, and the result. */
+/* A pair: the frame `a` of the reference, the compared frame `b`, and the result of their comparison. */
 typedef struct diff_pair {
-    const diff_frame *a, *b; /* null: the side has no frame of this name */
+    const diff_frame *a, *b; /* null if the side has no frame of this name */
     diff_finding finding;
-    frame_digest about[2];       /* the size of each frame, and its digest if one side is a baseline; zero: unknown */
-    bool transparent;            /* a frame has transparent pixels, so the background color shows */
-    bool other_color_space;      /* gamma or color profile differ; they are ignored */
-    image_difference difference; /* valid if both frames were decoded */
+    /* the size of each frame; if a side is a baseline, also the digest of each frame; zero: unknown */
+    frame_digest about[2];
+    bool transparent;            /* true: a frame has transparent pixels, so the background color is visible */
+    bool other_color_space;      /* true: the frames differ in gamma or color profile, which the comparison ignores */
+    image_difference difference; /* valid only if both frames were decoded */
     pixel_mask mask;             /* the pixels of ignored layers */
-    char *trouble;               /* the error if a frame is unreadable; owned */
-    char *no_picture;            /* why the store has no picture of the reference, so no tolerance applies; owned */
-    bool lacks_resources;        /* the system refused memory or a file handle, so the frame may be readable */
+    char *trouble;               /* the error, if a frame could not be read; else null; owned */
+    /* why the store has no picture of the reference, so that the tolerance cannot be applied; else null; owned */
+    char *no_picture;
+    /* true: the system lacked memory or file handles, so the frame itself may be readable */
+    bool lacks_resources;
 } diff_pair;
 
 typedef struct diff_result {
-    diff_options options; /* the options of the comparison */
-    diff_pair *pairs;     /* sorted by the names of their frames */
+    diff_options options; /* the options with which the sides were compared */
+    diff_pair *pairs;     /* the pairs, sorted by the names of their frames; owned */
     size_t count;
-    size_t found[DIFF_FINDINGS]; /* the number of pairs with each finding */
+    size_t found[DIFF_FINDINGS]; /* found[f]: the number of pairs with finding f */
     diff_verdict verdict;
-    bool by_ticks; /* neither recording has frames, so their ticks.jsonl files were compared byte by byte */
+    bool by_ticks; /* true: neither recording has frames, so their ticks.jsonl files were compared byte by byte */
 } diff_result;
 
-/* Check that two sides can be compared, without reading a picture. Return false with an error for a picture and a
- * folder, a baseline with a tolerance but without a store, a store without a baseline as reference, or two empty
- * folders. Also return false if only one side is a recording without frames. */
+/* Check that two sides can be compared. No picture is read. Return false with an error in these cases: a picture and
+ * a folder; a baseline with a tolerance but without a store; a store but no baseline as the reference; two empty
+ * folders; only one side is a recording without frames. */
 bool diff_check(const diff_side *a, const diff_side *b, const diff_options *options, octreel_error *error);
 
-/* Compare the frames of b with the reference a, on all cores. Files with equal bytes are not decoded. Other pairs
- * are read a few rows at a time. Whole pictures are in memory only for --antialias, and if a picture is interlaced
+/* Compare the frames of `b` with the reference `a`, on all cores. Files with equal bytes are not decoded. Other
+ * pictures are read a few rows at a time. A whole picture is in memory only with --antialias, or if it is interlaced
  * or has 16 bits a sample. Both sides and the lists in the options must outlive the result. Return false with an
  * error if diff_check() fails or memory runs out. */
 bool diff_run(const diff_side *a, const diff_side *b, const diff_options *options, diff_result *result,
               octreel_error *error);
 void diff_release(diff_result *result);
 
-/* Count the findings of all pairs and update the verdict. */
+/* Count the pairs with each finding, and update the verdict of the result. */
 void diff_count(diff_result *result);
 
-/* Compare the two frames of a pair and set the finding. Compare pixels or, if one side is a baseline, digests. */
+/* Compare the two frames of a pair and set the finding. If one side is a baseline, compare digests; else compare
+ * pixels. */
 void compare_pixels(diff_pair *pair, const diff_options *options);
 
-/* Set the finding of a pair that cannot be compared, and copy the error. pair->lacks_resources follows from errno,
- * which the caller set to 0 before it read the pictures. */
+/* Set the finding of a pair that cannot be compared, and copy the error. The function sets pair->lacks_resources by
+ * errno. The caller must set errno to 0 before it reads the pictures. */
 void set_unreadable(diff_pair *pair, const octreel_error *error);
 
-/* Set *tolerance to the tolerance of the options together with the mask of one pair. Return false if memory runs
- * out. Release the tolerance in any case. */
+/* Set *tolerance to the tolerance of the options, with the mask of this pair added. Return false if memory runs out.
+ * The caller releases the tolerance in any case. */
 bool pair_tolerance(const diff_pair *pair, const diff_options *options, image_tolerance *tolerance);
 void pair_tolerance_release(image_tolerance *tolerance);
 
@@ -108,7 +112,8 @@ bool diff_is_exact(const diff_options *options);
 /* Return the name of a pair: the name of its frame or, if the frame is missing, of its reference. */
 const char *diff_pair_name(const diff_pair *pair);
 
-/* Return the tick in the name of a pair. Return DIFF_NO_TICK if the name is not the name of a recording's frame. */
+/* Return the tick in the name of a pair of frames. Return DIFF_NO_TICK if the name is not that of a frame of a
+ * recording. */
 #define DIFF_NO_TICK UINT64_MAX
 uint64_t diff_pair_tick(const diff_pair *pair);
 

@@ -32,8 +32,8 @@ static void print_forgiven(FILE *out, const image_difference *d)
         fprintf(out, ", %" PRIu64 " more in ignored areas", d->ignored);
 }
 
-/* Print the largest difference and its position. If pixels differ beyond the tolerance, take the largest difference
- * among them, else among all pixels. */
+/* Print the largest difference of a pixel, and its position. If some pixels differ beyond the tolerance, only these
+ * pixels are considered. */
 static void print_worst(FILE *out, const image_difference *d)
 {
     const image_tally *tally = d->counted.pixels ? &d->counted : &d->unlike;
@@ -147,7 +147,7 @@ void diff_print_verdict(FILE *out, const diff_result *result, diff_verdict verdi
 
 /* ---- The tolerance ------------------------------------------------------------------------------------------- */
 
-/* Print one item of a list. The text before it is "forgiven: " for the first item and a comma for others. */
+/* Print one item of a list of tolerances. The list begins with "forgiven: "; its items are separated by commas. */
 static void print_item(FILE *out, bool *first, const char *format, ...)
 {
     va_list arguments;
@@ -166,7 +166,7 @@ static bool any_transparent(const diff_result *result)
     return false;
 }
 
-/* Return whether a rectangle lies outside of all frames. The user probably mistyped such a rectangle. */
+/* Return whether a rectangle lies outside of all frames. Such a rectangle is probably a typing error of the user. */
 static bool is_outside(const image_rectangle *r, const diff_result *result)
 {
     bool compared = false;
@@ -180,7 +180,8 @@ static bool is_outside(const image_rectangle *r, const diff_result *result)
     return compared;
 }
 
-/* Print in how many frames the tolerance was not applied, because the store has no picture of the reference. */
+/* Print the number of frames to which the tolerance was not applied, because the store has no picture of their
+ * reference. */
 static void print_unapplied(FILE *out, const diff_result *result)
 {
     size_t count = 0;

@@ -11,21 +11,21 @@
 
 typedef struct listed_frame {
     const char *name;
-    size_t line; /* the line number in the file; 0: from the command line */
+    size_t line; /* the line of the name in its file; 0: the name is from the command line */
 } listed_frame;
 
 /* A list of frame names. A zeroed list is empty. */
 typedef struct frame_list {
-    listed_frame *frames; /* owned */
+    listed_frame *frames; /* the frames, in the order in which they were added; owned */
     size_t count, room;
-    char *text; /* the text of the file, into which the names point; owned */
+    char *text; /* the text of the list's file, into which the names point; owned */
 } frame_list;
 
 /* Append a name. The name must outlive the list. */
 bool frame_list_add(frame_list *list, const char *name, size_t line, octreel_error *error);
 
-/* Append the names of one file, or of standard input. Return false with an error if the file cannot be read. Also
- * return false if it holds no name, because an empty list would mean all frames. */
+/* Append the names in a file or in standard input. Return false with an error if the file cannot be read or holds no
+ * name: an empty list would mean all frames. */
 bool frame_list_read(frame_list *list, const char *path, octreel_error *error);
 void frame_list_release(frame_list *list);
 

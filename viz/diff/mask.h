@@ -11,17 +11,20 @@
 /* The ignored pixels of a frame. In a zeroed mask, no pixel is ignored. */
 typedef struct pixel_mask {
     int width, height;
-    uint32_t *runs; /* run lengths in reading order, alternating: compared, ignored, compared ...; owned */
+    /* run lengths in reading order, alternately of compared and of ignored pixels, beginning with compared pixels;
+     * owned */
+    uint32_t *runs;
     size_t count;
 } pixel_mask;
 
-/* Also ignore each pixel whose byte in `bytes` is not 0. If `bytes` has another size than the mask, do nothing:
- * frames of different sizes differ in any case. Return false if memory runs out. */
+/* Add pixels to the mask: each pixel whose byte in `bytes` is not 0 becomes ignored. If `bytes` has another size
+ * than the mask, nothing is added, because frames of different sizes differ in any case. Return false if memory runs
+ * out. */
 bool mask_add(pixel_mask *mask, const uint8_t *bytes, int width, int height);
 void mask_release(pixel_mask *mask);
 
-/* Return one byte for each pixel: not 0 if the pixel is ignored. The caller frees the bytes. Return null if no pixel
- * is ignored or memory runs out. */
+/* Return an array with one byte for each pixel; the byte is not 0 if the pixel is ignored. The caller frees the
+ * array. Return null if no pixel is ignored or memory runs out. */
 uint8_t *mask_unpack(const pixel_mask *mask);
 
 #endif

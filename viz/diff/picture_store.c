@@ -69,10 +69,10 @@ typedef struct fetching {
     diff_result *result;
 } fetching;
 
-/* Compare the frame of a pair, if it has one, with the picture of an accepted variant. Keep the picture, as
- * frame->path, if it is the first or the frame is within the tolerance of it. Otherwise the pair stays unchanged: it
- * differs by digest, even if another process replaces the picture meanwhile. If the system lacks resources, whether a
- * tolerance is kept stays unknown, and the pair is unreadable. */
+/* Compare the frame of a pair with the picture of an accepted variant. The picture is kept as frame->path if it is the
+ * first picture or if the frame is within the tolerance of the picture. Else the pair stays unchanged: its frames
+ * differ by digest, even if another process replaces the picture meanwhile. If the system lacks resources, the
+ * pictures cannot be compared, and the pair becomes unreadable. */
 static void compare_variant(diff_pair *pair, diff_frame *frame, char *picture, const diff_options *options)
 {
     const diff_pair before = *pair;
@@ -99,7 +99,8 @@ static bool is_same_picture(const frame_digest *a, const frame_digest *b)
     return a->kind == b->kind && a->pixels == b->pixels;
 }
 
-/* Fetch the picture of a digest and compare it. If the store lacks it, the error says why. */
+/* Fetch the picture of a digest and compare the frame with it. If the store does not have the picture, the error
+ * says why. */
 static void try_digest(const fetching *f, diff_pair *pair, diff_frame *frame, const frame_digest *digest,
                        octreel_error *error)
 {
@@ -113,8 +114,9 @@ static void try_digest(const fetching *f, diff_pair *pair, diff_frame *frame, co
         set_unreadable(pair, error);
 }
 
-/* Compare with the picture of the newest variant. If the store lacks it, or the frame is not within the tolerance of
- * it, try the other variants. If the store has none of the pictures, pair->no_picture is about the newest. */
+/* Compare a frame with the picture of its newest variant. If the store does not have this picture, or the frame
+ * differs from it beyond the tolerance, try the pictures of the other variants. If the store has none of these
+ * pictures, pair->no_picture says why the newest is missing. */
 static void fetch_picture(size_t i, void *context)
 {
     const fetching *f = context;

@@ -10,8 +10,8 @@
 
 #include "diff.h"
 
-/* Copy a picture into the store. The copy has a unique name first and is then renamed, so concurrent writers leave a
- * complete file. An existing picture is replaced only if it is damaged. */
+/* Copy a picture into the store. The copy is written under a temporary unique name and then renamed, so the file is
+ * complete even with concurrent writers. An existing picture is replaced only if it is damaged. */
 bool picture_store_add(const char *store, const char *picture, const frame_digest *digest, image_color background,
                        octreel_error *error);
 
@@ -19,9 +19,10 @@ bool picture_store_add(const char *store, const char *picture, const frame_diges
  * lacks the picture, the picture is damaged, or memory runs out. */
 char *picture_store_find(const char *store, const frame_digest *digest, image_color background, octreel_error *error);
 
-/* If the options of the result name a store: for each differing pair of a baseline, fetch the picture of the reference
- * and compare the pixels. If the store has no such picture, write the reason to pair->no_picture. Only a pair within
- * the tolerance of an accepted picture gets a better verdict. */
+/* If the options of the result name a store, do the following for each differing pair of a baseline: fetch the
+ * picture of the reference and compare the pixels. A pair within the tolerance of an accepted picture is no longer
+ * different. The verdict of other pairs does not improve. If the store has no picture for a pair, the reason is
+ * written to pair->no_picture. */
 void picture_store_fetch(diff_side *reference, diff_result *result);
 
 #endif

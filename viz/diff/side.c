@@ -70,8 +70,8 @@ static bool is_frame_name(const diff_side *side, const char *name)
     return name[diff_stem_length(name)];
 }
 
-/* Return whether recording.json says that the recording was made without frames. If recording.json is unreadable,
- * return false: the error is reported later, when the recording is explained. */
+/* Return whether recording.json says that the recording was made without frames. If recording.json cannot be read,
+ * return false. The error is reported later, when the recording is explained. */
 static bool is_without_frames(const diff_side *side)
 {
     octreel_error ignored;
@@ -103,8 +103,8 @@ static bool is_left_out(const diff_search *search, const char *folder, const str
 
 static bool add_folder(diff_side *side, const diff_search *search, const char *below, octreel_error *error);
 
-/* Add a frame, or the frames of a subfolder. A frame that was removed since its name was read is added, too, and
- * later reported as unreadable. */
+/* Add a frame, or the frames of a subfolder. A frame whose file was removed after its name was read is added, too,
+ * and is later reported as unreadable. */
 static bool add_entry(diff_side *side, const diff_search *search, const char *name, octreel_error *error)
 {
     const bool flat = search->flat || side->kind == DIFF_RECORDING;
@@ -121,7 +121,7 @@ static bool add_entry(diff_side *side, const diff_search *search, const char *na
     return ok;
 }
 
-/* Add the frames of a folder: of the side itself if `below` is "", otherwise of this subfolder. */
+/* Add the frames of one folder: the folder of the side if `below` is "", else the subfolder `below`. */
 static bool add_folder(diff_side *side, const diff_search *search, const char *below, octreel_error *error)
 {
     char *path = *below ? path_join(side->path, below) : strdup(side->path);

@@ -17,63 +17,69 @@ typedef struct frame_digest {
     uint64_t pixels; /* the digest of the pixels, by image_digest() */
     int width, height;
     image_digest_kind kind;
-    size_t acceptance; /* in a baseline: the index in side->acceptances */
+    size_t acceptance; /* in a baseline, the index of the digest's acceptance in side->acceptances */
 } frame_digest;
 
-/* An acceptance: the date and the reason for which a set of digests was accepted. All digests of an acceptance have
- * the same size and kind. */
+/* An acceptance: the date on which digests were accepted, and the reason. All digests of an acceptance have the same
+ * size and kind. */
 typedef struct acceptance {
     char id[3], date[11]; /* id: two characters of 0-9a-z; date: YYYY-MM-DD */
     int width, height;
     image_digest_kind kind;
-    char *reason; /* owned */
+    char *reason; /* the reason for accepting the digests; owned */
 } acceptance;
 
 typedef struct diff_frame {
-    char *name;             /* the path below the side's folder, such as "menu/1.png"; of a picture, its file name */
-    char *path;             /* null in a baseline, unless the picture was found in a store */
-    frame_digest digest;    /* in a baseline: the variant that was accepted last; otherwise zero */
-    frame_digest *variants; /* in a baseline: all accepted digests; owned */
+    /* a picture's file name, or its path in the folder of the side, such as "menu/1.png"; owned */
+    char *name;
+    char *path;             /* the path of the picture; in a baseline null, unless a store has the picture; owned */
+    frame_digest digest;    /* in a baseline, the variant that was accepted last; else zero */
+    frame_digest *variants; /* in a baseline, all accepted digests of the frame; else null; owned */
     size_t variant_count;
 } diff_frame;
 
 typedef struct diff_side {
-    const char *path;   /* the path as given, or "standard input", for messages and for opening a folder; not owned */
-    const char *source; /* the path as given, for opening a file; not owned */
+    /* for messages and for opening a folder: the path that the user gave, or "standard input"; not owned */
+    const char *path;
+    const char *source; /* for opening a file: the path that the user gave; not owned */
     diff_kind kind;
-    diff_frame *frames; /* sorted by name, in byte order; names are unique; owned */
+    diff_frame *frames; /* the frames, sorted by name in byte order; names are unique; owned */
     size_t count, room;
-    bool no_frames;          /* a recording made without frames: its ticks are compared instead */
-    uint64_t max_ticks;      /* set by the caller: a recording with more ticks is not replayed; 0: the default */
-    image_color background;  /* in a baseline: the color behind transparent pixels */
+    bool no_frames; /* true: the recording was made without frames, so its ticks are compared instead */
+    /* set by the caller: a recording with more ticks than this is not replayed; 0: the default limit */
+    uint64_t max_ticks;
+    image_color background;  /* in a baseline, the color that was drawn behind transparent pixels */
     acceptance *acceptances; /* the acceptances of a baseline; owned */
     size_t acceptance_count, acceptance_room;
 } diff_side;
 
-/* Which subfolders of a folder are searched for frames. */
+/* Which folders are not searched for frames. */
 typedef struct diff_search {
-    bool flat;               /* none */
-    const char *left_out[2]; /* paths that the search skips, with all folders in them, such as the other side; null:
-                                none; not owned */
+    bool flat; /* true: no subfolder is searched */
+    /* paths of folders that are not searched, nor are their subfolders; for example the folder of the other side;
+     * null: no path; not owned */
+    const char *left_out[2];
 } diff_search;
 
 /* Open the side at a path. The path "-" reads a PNG or a baseline from standard input. Return false with an error if
  * the path is not a picture, folder, recording or baseline, or if a subfolder cannot be read. The side is then empty.
  *
- * The frames of a folder are the PNG files in it and in its subfolders. Links to folders are not followed. Files and
- * folders whose names begin with a dot are left out, and so are folders of evidence and those that `search` names. A
- * null `search` leaves out nothing else. A recording has no subfolders; one that lies in a folder is a plain folder. */
+ * The frames of a folder are the PNG files in it and in its subfolders. Links to folders are not followed. Three kinds
+ * of entries are skipped: names that begin with a dot, folders of evidence, and the folders that `search` excludes.
+ * `search` may be null. The subfolders of a recording are not searched. A recording in a subfolder of a folder is
+ * searched like any other subfolder. */
 bool diff_side_open(diff_side *side, const char *path, const diff_search *search, octreel_error *error);
 void diff_side_release(diff_side *side);
 
 /* Sort the frames by name, in byte order. */
 void diff_side_sort_frames(diff_side *side);
 
-/* The file that marks a folder of evidence, which diff --output writes, and how its text begins. */
+/* The name of the file that marks a folder as evidence, and the beginning of the file's text. diff --output writes
+ * the file. */
 #define EVIDENCE_MARKER "evidence.txt"
 #define EVIDENCE_MARKER_BEGINNING "octreel evidence 1\n"
 
-/* Return whether a folder has the marker. */
+/* Return whether a folder contains EVIDENCE_MARKER, so that it is a folder of evidence. */
 bool diff_is_evidence_folder(const char *folder);
 
 /* Return "picture", "folder", "recording" or "baseline". */
@@ -83,12 +89,12 @@ const char *diff_kind_name(diff_kind kind);
  * length. */
 size_t diff_stem_length(const char *name);
 
-/* Append a frame. The side copies the name and the digest. Unless the side is a baseline, the frame also gets its
- * path. */
+/* Append a frame. The side copies the name and the digest. If the side is not a baseline, the frame also gets the
+ * path of its file. */
 bool diff_side_add_frame(diff_side *side, const char *name, frame_digest digest, octreel_error *error);
 
-/* Set *digest to the size and the digest of a picture. The caller sets digest->kind to the wanted kind. Return false
- * with an error when the picture cannot be read. */
+/* Read a picture and set *digest to its size and digest. The caller must first set digest->kind to the kind of
+ * digest to compute. Return false with an error if the picture cannot be read. */
 bool digest_picture(const char *path, image_color background, frame_digest *digest, octreel_error *error);
 
 #endif

@@ -24,9 +24,8 @@ typedef struct entry {
 } entry;
 
 typedef struct entries {
-    entry *all; /* one entry for each element, in the order of the list */
-    entry *
-        *left; /* all entries, sorted by text; after equal elements were paired, only the entries without a partner */
+    entry *all;   /* one entry for each element, in the order of the list */
+    entry **left; /* all entries, sorted by text; later only the entries without a partner */
     size_t count, left_count;
 } entries;
 

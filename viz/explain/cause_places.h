@@ -15,8 +15,7 @@ typedef enum cause_rule {
     CAUSE_WHOLE,   /* compare an object as one value */
     CAUSE_BY_KEY,  /* pair the elements of two lists by key: an id, or an action with an id */
     CAUSE_QUERIES, /* pair the queries of two sessions by their parameters */
-    CAUSE_ANSWERS  /* pair the answers of two ticks by their queries, then compare by member
-                    */
+    CAUSE_ANSWERS  /* pair the answers of two ticks by query, then compare by member */
 } cause_rule;
 
 /* A row of the table. With a verb, facts are printed as "NOUN 12 VERB". Without a verb, they are printed as "another

@@ -321,8 +321,7 @@ void cause_print_facts(FILE *out, const cause_facts *facts, bool brief)
 /* Print how many ticks differ because of a different option. */
 static void print_extent(FILE *out, const cause *c)
 {
-    if (c->differing.count ==
-        0) /* "no tick differs" does not mean equal frames: shapes and arrows are drawn but not compared */
+    if (c->differing.count == 0) /* frames may still differ: shapes and arrows are not compared */
         fputs("the ticks that both sides have are equal", out);
     else if (c->differing.count == c->compared - c->differing.first)
         fprintf(out, "every tick from %" PRIu64 " differs", c->differing.first);
