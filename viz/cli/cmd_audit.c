@@ -13,7 +13,7 @@
 #include <string.h>
 #include <strings.h>
 
-/* The files that the command can write. */
+/* The files that the command can write: an HTML page and a JUnit file. */
 enum { HTML, JUNIT, OUTPUTS };
 
 typedef struct arguments {
@@ -29,15 +29,16 @@ static bool read_limits(const command_option *option, const char *text, void *in
     return audit_limits_parse(text, into, &error) || print_refusal("--%s: %s", option->name, error.text);
 }
 
-/* Returns whether the value of --html is the name of an HTML page. Otherwise it is the folder into which the page is
- * written. */
+/* Returns true if the value of --html is the name of a page, such as "a.html". Any other value names a folder, into
+ * which the page is written. */
 static bool is_page_path(const char *path)
 {
     const char *dot = strrchr(path, '.');
     return file_is_standard_stream(path) || (!is_folder(path) && dot && strcasecmp(dot, ".html") == 0);
 }
 
-/* Reads the value of --html. As with the options of other commands, a name without a file ending is a folder. */
+/* Reads the value of --html. As in the options of other commands, a name without a file ending is the name of a
+ * folder. */
 static bool read_page(const command_option *option, const char *text, void *into)
 {
     if (is_page_path(text) || is_folder(text) || output_kind_of_name(text) == NAME_OPEN)
@@ -68,8 +69,8 @@ static const command_option options[] = {
 
 /* ---- Files -------------------------------------------------------------------------------------------------- */
 
-/* Prints a verdict to the file `out`. Relative links start at `from`, the folder of that file. Returns false if
- * memory runs out. */
+/* A function that prints a verdict to the file `out`. Relative links start at `from`, the folder of that file. Returns
+ * false if memory runs out. */
 typedef bool printer(FILE *out, const audit_verdict *verdict, const char *from);
 
 static bool print_junit(FILE *out, const audit_verdict *verdict, const char *from)

@@ -16,18 +16,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The outputs. PAGE is report.html in the folder of --output. */
+/* The outputs of the command. PAGE is report.html in the folder of --output. */
 enum { PAGE, JUNIT, MARKDOWN, OUTPUTS };
 
 typedef struct arguments {
     diff_options options;
-    unsigned layers;          /* bits 1 << view_layer of the ignored layers */
-    image_rectangle *ignored; /* owned */
+    unsigned layers;          /* the ignored layers, as bits 1 << view_layer */
+    image_rectangle *ignored; /* the ignored parts of the pictures; this structure owns the array */
     output_file outputs[OUTPUTS];
     uint64_t max_ticks;
-    uint64_t causes; /* the number of differing frames and ticks to explain */
+    uint64_t causes; /* the value of --causes: how many differing frames and ticks are explained */
     bool has_causes; /* --causes was given */
-    size_t lines;    /* the number of groups that are listed; at least the value of --causes */
+    size_t lines;    /* the number of groups of differences that are listed; at least the value of --causes */
     bool flat, json, force, each, annotate;
 } arguments;
 
@@ -151,7 +151,7 @@ static const command_option options[] = {
     {0},
 };
 
-/* Prints the error of the first unreadable frame and the number of other unreadable frames. If all frames are
+/* Prints the error of the first unreadable frame and the number of further unreadable frames. If all frames are
  * readable, prints the error that prevented an explanation. */
 static int print_first_error(const diff_result *result, const explanation *why)
 {
@@ -186,7 +186,8 @@ static void print_report(const arguments *a, const diff_report *report)
         diff_report_json(stdout, report);
     else if (!is_standard_output_taken(a->outputs, OUTPUTS) &&
              (report->result->count != 1 ||
-              report->result->found[FOUND_UNREADABLE] == 0)) /* standard error has a single frame's error */
+              /* The error of a single unreadable frame is printed on standard error instead. */
+              report->result->found[FOUND_UNREADABLE] == 0))
         diff_report_text(stdout, report);
 }
 
@@ -271,7 +272,7 @@ static int run(int argc, char **argv)
     a.lines = a.has_causes && a.causes > LIST_LINES ? (size_t)a.causes : LIST_LINES;
     output_file *page = &a.outputs[PAGE];
     if (page->folder && !a.has_causes)
-        a.causes = DIFF_REPORT_PAGE_FRAMES; /* the page shows this many frames, each with its cause */
+        a.causes = DIFF_REPORT_PAGE_FRAMES; /* a page shows this many frames, and explains each of them */
     char *path = page->folder ? path_join(page->folder, EVIDENCE_PAGE) : NULL;
     page->path = path;
     if (status == COMMAND_GO_ON && page->folder && !path)

@@ -25,7 +25,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The files that the command can write. */
+/* The files that the command can write: a picture and a CSV file of the nodes. */
 enum { PICTURE, NODES, OUTPUTS };
 
 typedef struct arguments {
@@ -116,7 +116,7 @@ static const command_option options[] = {
 
 /* ---- The report --------------------------------------------------------------------------------------------- */
 
-/* Everything that the command prints and draws. */
+/* The data of everything that the command prints and draws. */
 typedef struct report {
     const arguments *a;
     const char *name; /* the cloud's file name: the last part of its path */
@@ -124,7 +124,7 @@ typedef struct report {
     octree_node node;
     inspect_answers answers;
     view view;                   /* the view of the picture */
-    char chosen[INSPECT_CHOICE]; /* a sentence about the view options that the program chose, or "" */
+    char chosen[INSPECT_CHOICE]; /* a sentence about the view options that the program chose by itself, or "" */
 } report;
 
 static bool draw_picture(const report *r, octreel_error *error)
@@ -151,7 +151,8 @@ static bool draw_picture(const report *r, octreel_error *error)
                    point_scale_missing_value(&r->view, &r->made->values), view_point_color_name(r->view.point_color));
     if (drawn.over_budget)
         print_note("%s leaves out %s beyond --budget", picture, film_left_out_text(drawn.beyond, left_out));
-    if (drawn.below_lod && !view_shows_layer(&a->view, LAYER_TEXT)) /* the text layer would contain this note */
+    /* In the picture, only the text layer would say this. */
+    if (drawn.below_lod && !view_shows_layer(&a->view, LAYER_TEXT))
         print_note("%s leaves out %s smaller than --lod", picture, film_left_out_text(drawn.small, left_out));
     if (drawn.left_out)
         print_note("%" PRIu64 " element%s too far away to be drawn in %s", drawn.left_out,
@@ -168,8 +169,8 @@ static FILE *print_wrote(const char *path, FILE *out)
     return out;
 }
 
-/* Prints the node of --node and the answers to queries or, if neither was asked for, the statistics. With --json,
- * the written files are not mentioned, so that the output is JSON only. */
+/* Prints the node of --node and the answers to queries. If neither was asked for, prints the statistics. With --json,
+ * does not mention the written files, because the output must be JSON only. */
 static void print_report(const report *r)
 {
     const arguments *a = r->a;
@@ -188,7 +189,7 @@ static void print_report(const report *r)
         fputs("all nodes\n", print_wrote(nodes, out));
 }
 
-/* Makes the report. Everything else that can fail is checked before the first file is written. */
+/* Makes the report. Before the first file is written, checks everything else that can fail. */
 static bool make_report(report *r, octreel_error *error)
 {
     const arguments *a = r->a;
@@ -212,7 +213,7 @@ static bool make_report(report *r, octreel_error *error)
 
 typedef struct reading {
     progress bar;
-    double size; /* the number of bytes that were read */
+    double size; /* the number of bytes that have been read from the cloud's file */
 } reading;
 
 static void show_read_bytes(uint64_t done, uint64_t total, void *context)
@@ -228,7 +229,7 @@ static void show_parsed_part(double fraction, void *context)
     progress_show((uint64_t)(r->size * fraction / 1000), (uint64_t)(r->size / 1000), &r->bar);
 }
 
-/* Reads the cloud and builds its tree. Meanwhile shows a progress bar. */
+/* Reads the cloud and builds its tree, and shows a progress bar during this time. */
 static bool build_tree(const arguments *a, inspection *made, octreel_error *error)
 {
     reading r = {.bar = progress_start("kB read")};
@@ -267,7 +268,7 @@ static int inspect_and_report(const arguments *a)
 
 /* ---- The command line --------------------------------------------------------------------------------------- */
 
-/* Refuses options of the picture if -o is missing, because they would have no effect. */
+/* If -o is missing, refuses the options of the picture, because they would have no effect. */
 static bool check_picture(const arguments *a)
 {
     const char *first = find_first_view_option(&a->view_options);
@@ -286,7 +287,7 @@ static int run(int argc, char **argv)
                    .def = octree_def_default(),
                    .view = view_make_default(),
                    .renderer.fill = DRAW_FILL_CHECKED};
-    a.view.fit = FIT_POINTS; /* fit the points: few clouds fill the world, which is a cube */
+    a.view.fit = FIT_POINTS; /* fit the view to the points, because few clouds fill their world, which is a cube */
     const int status = command_read_arguments(&command_inspect, &a, argc, argv);
     if (status != COMMAND_GO_ON)
         return status;

@@ -5,8 +5,8 @@
 
 #include <stdio.h>
 
-/* The limit is larger than any picture. Coordinates outside of the picture are refused later, by an error that can
- * name the size of the picture. */
+/* The largest coordinate that the command line accepts. It is larger than any picture: a coordinate outside the picture
+ * is refused later, when the error can name the size of the picture. */
 enum { MOST_COORDINATE = 1000000000 };
 
 static bool read_coordinate(const char *name, const char *text, int *value)

@@ -17,8 +17,8 @@
 #include <unistd.h>
 
 typedef struct arguments {
-    char *session;           /* SESSION; null: not given */
-    const char *keys, *page; /* --keys and the page to write; null: not given */
+    char *session;           /* the argument SESSION; null: not given */
+    const char *keys, *page; /* the value of --keys, and the path of the page; null: not given */
     bool force;
     film_options film;
     view_options view;
@@ -49,7 +49,7 @@ static void make_page_name(const char *session, char name[NAME_MAX + 1])
     snprintf(name, NAME_MAX + 1, "%.*s.html", (int)length, base);
 }
 
-/* Checks that the page overwrites no other file. Only a page that this command wrote earlier may be overwritten. */
+/* Checks that the page overwrites no file, except a page that this command wrote earlier. */
 static bool check_page(const arguments *a)
 {
     const output_file output = {.option = "-o", .path = a->page};
@@ -63,7 +63,7 @@ static bool check_page(const arguments *a)
                          a->page);
 }
 
-/* Prints a path as a part of a URL (RFC 3986): characters that a URL cannot contain become %XX. */
+/* Prints a path as a part of a URL (RFC 3986). A byte that a URL cannot contain becomes %XX. */
 static void print_url_path(FILE *out, const char *path)
 {
     for (const unsigned char *at = (const unsigned char *)path; *at; at++)
@@ -86,7 +86,7 @@ static void print_page_address(const char *page, uint64_t ticks)
 
 /* ---- The page ------------------------------------------------------------------------------------------------ */
 
-/* Writes the page. Returns false with an error if writing fails or a signal stops it. */
+/* Writes the page. Returns false with an error if writing fails, or if a signal stops it. */
 static bool write_page(const arguments *a, const octree_session *session, FILE *page, film_summary *summary,
                        octreel_error *error)
 {

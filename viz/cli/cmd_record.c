@@ -21,7 +21,7 @@ typedef struct arguments {
     const char *session, *keys;
     film_options film;
     view_options view;
-    uint64_t every; /* the value of --every; 0: not given */
+    uint64_t every; /* the value of --every; 0 if the option was not given */
     bool no_frames, json, force;
 } arguments;
 
@@ -172,8 +172,8 @@ static const char *find_stored_session(const char *folder)
                                                           : NULL;
 }
 
-/* With --resume, takes session and view options from the recording if the command line leaves them out. If the
- * command line gives none of these options, the recording must contain its session and its view. */
+/* With --resume, takes session and view options from the recording if the command line leaves them out. If the command
+ * line gives neither a session nor a view option, the folder must contain session.json and recording.json. */
 static bool complete_film_options(arguments *a)
 {
     octreel_error error;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* command_line.c - reads the options and arguments of every command from its table, and reports mistakes. */
+/* command_line.c - reads the options and arguments of every command by the command's table, and reports mistakes of the
+ * user. */
 #include "command.h"
 #include "help.h"
 #include "hint.h"
@@ -9,13 +10,13 @@
 #include <string.h>
 
 #define MOST_OPTIONS 64
-/* The number by which getopt identifies the option in row 0. The option in row n has the number OPTION + n. These
- * numbers are larger than any character. */
+/* The first of the numbers by which getopt_long() identifies options: the option in row n has the number OPTION + n.
+ * These numbers are larger than any character. */
 #define OPTION 1024
 
 /* ---- The options of a command -------------------------------------------------------------------------------- */
 
-/* The options that every command has. */
+/* Fills in the n-th of the options that every command has. Returns false if n is beyond the last. */
 static bool common_option_row(size_t n, command_option *option)
 {
     static const command_option rows[] = {
@@ -51,7 +52,7 @@ bool command_option_at(const command *c, size_t n, command_option *option)
     return common_option_row(n, option);
 }
 
-/* Finds the option with this letter. Returns false if the command has none. */
+/* Finds the option with this letter. Returns false if the command has no such option. */
 static bool find_option_by_letter(const command *c, char letter, command_option *option)
 {
     for (size_t n = 0; command_option_at(c, n, option); n++)
@@ -85,8 +86,8 @@ static void fill_getopt_tables(const command *c, struct option all[MOST_OPTIONS]
 
 /* ---- Mistakes ------------------------------------------------------------------------------------------------ */
 
-/* Reports an abbreviation that fits several options: "--s is ambiguous: --size, --slice". Returns false if fewer
- * than two options begin with `name`. */
+/* Reports an abbreviation that fits several options: "--s is ambiguous: --size, --slice". Returns false if fewer than
+ * two options begin with `name`. */
 static bool report_ambiguous(const command *c, const struct option *all, const char *name, size_t length)
 {
     char matches[256] = "";
@@ -137,7 +138,7 @@ static bool looks_like_option(const char *value)
            (value[0] == '-' && value[1] && !value[2] && strchr("ohq", value[1]));
 }
 
-/* Finds the option for the result of getopt_long(). Returns false if the result is a digit: the argument is a
+/* Finds the option that getopt_long() returned. Returns false if it returned a digit, because the argument is then a
  * negative number. */
 static bool find_option(const command *c, int number, command_option *option)
 {
@@ -177,8 +178,8 @@ static int read_options(const command *c, int argc, char **argv, void *arguments
     return status;
 }
 
-/* Reports that there are more arguments than the command takes. If the surplus argument could be an output file,
- * suggests -o. */
+/* Reports that there are more arguments than the command takes. If the first surplus argument could be an output file,
+ * suggests the option -o. */
 static int refuse_surplus(const command *c, const char *word, bool has_output)
 {
     command_option output;
@@ -194,8 +195,8 @@ static int refuse_surplus(const command *c, const char *word, bool has_output)
                        hint_program_name(), c->name);
 }
 
-/* Reports that a file of a recording was given where the recording's folder is expected, and names the folder.
- * Returns false if the path is not such a file. */
+/* Reports that the user gave a file of a recording instead of the recording's folder, and names the folder. Returns
+ * false if the path is not a file of a recording. */
 static bool refuse_recording_part(const command *c, const char *path, file_kind kind)
 {
     char *folder = path_parent_folder(path);
@@ -206,8 +207,8 @@ static bool refuse_recording_part(const command *c, const char *path, file_kind 
     return found;
 }
 
-/* Checks whether the input may be standard input: the command must expect a file, not a folder or a file that it may
- * create. */
+/* Checks whether the input may be standard input. This requires that the command expects a file, and neither a folder
+ * nor a file that the command may create. */
 static bool check_standard_input(const command *c, file_kinds taken)
 {
     const file_kinds files = FILE_KIND(SESSION) | FILE_KIND(CLOUD) | FILE_KIND(PNG) | FILE_KIND(BASELINE);

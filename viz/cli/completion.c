@@ -18,22 +18,24 @@
 
 /* ---- Shells -------------------------------------------------------------------------------------------------- */
 
-/* How the value of an option is completed. */
+/* The ways to complete the value of an option. */
 typedef enum value_kind { VALUE_NONE, VALUE_ANY, VALUE_ONE, VALUE_LIST, VALUE_FILE, VALUE_FOLDER, VALUES } value_kind;
 
 /* The templates of a shell's script. They are shell code with markers such as %c; put_marker() lists the markers. */
 typedef struct shell {
     const char *name;
-    const char *head, *summary, *middle; /* `summary` is repeated for each command, between `head` and `middle` */
-    const char *command;                 /* begins a command's part of the script; the command's options follow */
-    const char *option, *short_option;   /* an option without a letter, and an option with a letter */
-    const char *files, *folders;         /* end a command's part: for a command that takes files, or only folders */
+    /* The text at the start of the script; `summary` is repeated for each command, between `head` and `middle`. */
+    const char *head, *summary, *middle;
+    const char *command;               /* the start of the part for a command; the options of the command follow */
+    const char *option, *short_option; /* the texts for an option without a letter and for an option with a letter */
+    /* The end of the part for a command that takes files, and for a command that takes only folders. */
+    const char *files, *folders;
     const char *tail;
-    const char *ending, *separator; /* a file ending, and the text between two file endings */
+    const char *ending, *separator; /* the text for a file ending, and the text between two file endings */
     struct {
         const char *before, *after;
-    } values[VALUES];    /* the text before and after an option's possible values */
-    const char *escaped; /* characters that need a backslash inside quotation marks */
+    } values[VALUES];    /* the texts before and after the possible values of an option */
+    const char *escaped; /* characters that need a backslash inside the shell's quotation marks */
 } shell;
 
 static const shell shells[] = {
@@ -181,7 +183,7 @@ static value_kind find_value_kind(const command_option *o)
     return strncmp(o->value, "FILE", 4) == 0 ? VALUE_FILE : strcmp(o->value, "DIR") == 0 ? VALUE_FOLDER : VALUE_ANY;
 }
 
-/* The endings of files, by the kind of input. Folders are always offered as well, because the file may lie in one. */
+/* The file endings of each kind of input. Folders are always offered as well, because a file may lie in a folder. */
 static const struct {
     file_kinds kind;
     const char *endings;
@@ -197,7 +199,7 @@ static bool takes_files(const command *c)
     return (c->inputs[0] | c->inputs[1]) & ~(FILE_KIND(RECORDING) | FILE_KIND(FOLDER) | FILE_KIND(MISSING));
 }
 
-/* Returns the length of the first clause of an option's description. */
+/* Returns the length of the first clause of an option's description in bytes. */
 static size_t brief_length(const char *help)
 {
     size_t length = strcspn(help, ";:(");
@@ -211,13 +213,13 @@ static size_t brief_length(const char *help)
 
 /* ---- Templates ----------------------------------------------------------------------------------------------- */
 
-/* The current position in a script. Markers are replaced by data of this command, option and file ending. */
+/* The state of writing a script: the command, option and file ending whose data replace the markers of a template. */
 typedef struct script {
     FILE *out;
     const shell *shell;
     const command *command;
     command_option option;
-    const char *ending; /* not zero-terminated: the next file ending follows */
+    const char *ending; /* the file ending for %e; it is not zero-terminated, because the next file ending follows it */
 } script;
 
 static void put_template(const script *s, const char *template);
@@ -233,7 +235,7 @@ static void put_quoted(const script *s, const char *text, size_t length)
             fprintf(s->out, "%s%c", strchr(s->shell->escaped, text[i]) ? "\\" : "", text[i]);
 }
 
-/* Writes the shell code that completes the option's value by words or files. */
+/* Writes the shell code that completes the option's value, from a list of words or from files. */
 static void put_value(const script *s)
 {
     const value_kind kind = find_value_kind(&s->option);
@@ -289,7 +291,7 @@ static void put_marker(const script *s, char marker)
     case 'T': /* the names of all help topics */
         put_topic_names(s->out);
         break;
-    case 'c': /* the command: %c its name, %d its description, %t its arguments */
+    case 'c': /* data of the command: %c its name, %d its description, %t its arguments */
         fputs(c->name, s->out);
         break;
     case 'd':
@@ -298,16 +300,17 @@ static void put_marker(const script *s, char marker)
     case 't':
         put_quoted(s, c->takes, strcspn(c->takes, ","));
         break;
-    case 'O': /* the command: %O the names of all its options, %E all its file endings */
+    case 'O': /* lists for the command: %O the names of all its options, %E all its file endings */
         put_option_names(s);
         break;
     case 'E':
         put_endings(*s);
         break;
-    case 'e': /* one file ending of the command */
+    case 'e': /* %e is one file ending of the command */
         fprintf(s->out, "%.*s", (int)strcspn(s->ending, "."), s->ending);
         break;
-    case 'n': /* the option: %n name, %l letter, %p placeholder, %h description, %v value */
+    /* Data of the option: %n name, %l letter, %p placeholder, %h description, %v code that completes its value. */
+    case 'n':
         fputs(o->name, s->out);
         break;
     case 'l':
@@ -322,11 +325,11 @@ static void put_marker(const script *s, char marker)
     case 'v':
         put_value(s);
         break;
-    case '+': /* %+ and %= become "+" and "=" if the option takes a value, else nothing */
+    case '+': /* %+ is "+" and %= is "=" if the option takes a value; otherwise both are empty */
     case '=':
         fputs(o->value ? (char[]){marker, 0} : "", s->out);
         break;
-    default: /* %% becomes "%" */
+    default: /* any other character, such as the second % of %%, is printed unchanged */
         putc(marker, s->out);
     }
 }

@@ -25,7 +25,7 @@ static void print_choices(FILE *out, const command_option *option)
     }
 }
 
-/* Prints an option: "  -o, --output DIR      where the recording goes". */
+/* Prints an option with its description: " -o, --output DIR where the recording goes". */
 static void print_option(FILE *out, const command_option *option)
 {
     const char letter = option_letter(option->name), short_form[] = {'-', letter, ',', 0};
@@ -85,7 +85,8 @@ static void print_statuses(FILE *out, const command *c)
         }
 }
 
-/* Prints examples. "octreel" is replaced by the name by which the user called the program. */
+/* Prints the examples of a command. The word "octreel" in them is replaced by the name by which the user called the
+ * program. */
 static void print_examples(FILE *out, const char *examples)
 {
     fputs("Examples:\n", out);
@@ -119,7 +120,8 @@ int help_print(FILE *out, const command *c)
 
 /* ---- The version -------------------------------------------------------------------------------------------- */
 
-/* Prints the renderer of a kind of context. If the context cannot be opened, prints why and returns false. */
+/* Prints the name of the renderer of a kind of GL context. If the context cannot be opened, prints the reason and
+ * returns false. */
 static bool print_renderer(draw_context kind)
 {
     const renderer_choice choice = {.context = kind, .fill = DRAW_FILL_GL};

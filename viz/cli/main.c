@@ -70,8 +70,8 @@ static const help_topic *find_help_topic(const char *name)
     return NULL;
 }
 
-/* Reports an unknown command and suggests the nearest one. With `help`, reports an unknown help topic; commands are
- * help topics, too. */
+/* Reports an unknown command and suggests the most similar one. With `help`, reports an unknown help topic and suggests
+ * the most similar topic or command. */
 static int report_unknown_word(const char *word, bool help)
 {
     static const char *const other_words[] = {"help", "--help", "--version"};
@@ -157,11 +157,12 @@ static void report_context_fallback(const char *name, const char *instead_of, co
     print_note("drawing with %s, because %s does not work: %s", name, instead_of, why);
 }
 
-/* If standard output cannot be written completely, the program fails, even if the command succeeded. */
+/* The program fails if standard output cannot be written completely, even if the command succeeded. */
 int main(int argc, char **argv)
 {
     static char line[1 << 16];
-    setvbuf(stderr, line, _IOLBF, sizeof line); /* whole lines, so that those of parallel processes do not mix */
+    /* Buffer whole lines, so that the lines of parallel processes do not mix. */
+    setvbuf(stderr, line, _IOLBF, sizeof line);
     hint_set_program(argc > 0 ? argv[0] : NULL);
     draw_context_set_report(report_context_fallback);
     json_detect_failed_allocations();

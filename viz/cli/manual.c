@@ -6,11 +6,11 @@
 #include <ctype.h>
 #include <string.h>
 
-enum { LINE = 78 }; /* the most characters in a line of roff source */
+enum { LINE = 78 }; /* the maximum number of characters in a line of roff source */
 
 /* ---- Text --------------------------------------------------------------------------------------------------- */
 
-/* A character in roff notation. */
+/* A character, in the notation that prints it with roff. */
 typedef struct literal {
     char text[5];
 } literal;
@@ -25,7 +25,8 @@ static literal escape_literal(char c)
     return found ? to[found - from] : (literal){{c}};
 }
 
-/* Protects a line of text whose first character would make it a roff macro. */
+/* Begins a line of text whose first character is `first`. A character that would make the line a roff macro is
+ * protected. */
 static void begin_line(FILE *out, char first)
 {
     if (first == '.' || first == '\'')
@@ -56,15 +57,15 @@ static size_t option_length(const char *word, size_t length)
     return named || (end == 2 && word[0] == '-' && isalpha((unsigned char)word[1])) ? end : 0;
 }
 
-enum { WORD = 512 }; /* room for a word in roff notation, in bytes */
+enum { WORD = 512 }; /* the room for a word in roff notation, in bytes */
 
 static void append_to_word(char set[WORD], const char *text)
 {
     strncat(set, text, WORD - 1 - strlen(set));
 }
 
-/* Formats a word of a sentence in roff notation. Options and text between backquotes become bold. Hyphens inside
- * words stay hyphens. *code is true between two backquotes. */
+/* Formats a word of a sentence in roff notation. Options, and text between backquotes, become bold. Hyphens inside
+ * words stay hyphens. *code is true while the text is between two backquotes. */
 static void format_word(char set[WORD], const char *word, size_t length, bool *code)
 {
     const size_t before = strspn(word, "(\""), quoted = before < length ? before : 0;
@@ -82,7 +83,7 @@ static void format_word(char set[WORD], const char *word, size_t length, bool *c
     }
 }
 
-/* Writes words as source lines of at most LINE characters. */
+/* Writes words as lines of roff source with at most LINE characters each. */
 static void put_words(FILE *out, const char *text, size_t length)
 {
     const char *at = text, *word;
@@ -122,7 +123,7 @@ static void put_lines(FILE *out, const char *text, size_t length, int indent)
     fputs(".EE\n", out);
 }
 
-/* Begins a section. `name` ends at the first line end in the text. */
+/* Begins a section. The section's name ends at the first line end in `name`. */
 static void put_section(FILE *out, const char *name)
 {
     fputs(".SH ", out);
@@ -140,7 +141,7 @@ static void put_term(FILE *out, const char *term, size_t length)
 static void put_text(FILE *out, const char *text)
 {
     prose_block block;
-    bool begins = true; /* true after .SH, because .SH begins a paragraph itself */
+    bool begins = true; /* true after .SH, because the macro .SH begins a paragraph itself */
     for (const char *at = text; prose_next_block(&at, &block);) {
         switch (block.kind) {
         case PROSE_HEADING:
@@ -229,7 +230,7 @@ static void put_option(FILE *out, const command_option *o)
     put_sentence(out, o->help);
     if (!o->words)
         return;
-    fputs(".RS\n.PD 0\n", out); /* print no empty lines between the values */
+    fputs(".RS\n.PD 0\n", out); /* print no empty lines between the possible values */
     for (int i = 0; o->names(i); i++) {
         put_term(out, o->names(i), strlen(o->names(i)));
         put_sentence(out, o->words(i));
@@ -259,7 +260,7 @@ static void put_statuses(FILE *out, const command *c)
         }
 }
 
-/* Returns whether the help texts of a command contain some words, such as "octreel join". */
+/* Returns whether the help texts of a command contain the given words, such as "octreel join". */
 static bool mentions_words(const command *c, const char *words)
 {
     const char *const texts[] = {c->about, c->more, c->examples, c->files};
@@ -273,7 +274,7 @@ static bool mentions_words(const command *c, const char *words)
     return false;
 }
 
-/* Writes a reference to a manual, unless it is the manual `own` that is being written. */
+/* Writes a reference to another manual. Writes nothing if it is the manual `own`, which is being written. */
 static void put_reference(FILE *out, const char *name, int section, const char *own, bool *begun)
 {
     if (strcmp(name, own) == 0)
@@ -284,8 +285,8 @@ static void put_reference(FILE *out, const char *name, int section, const char *
     *begun = true;
 }
 
-/* Writes the section SEE ALSO of a command or a topic. It refers to octreel(1), to the mentioned commands, and to
- * all topics. */
+/* Writes the section SEE ALSO in the manual of a command or a topic. The section refers to octreel(1), to the commands
+ * that the texts mention, and to all topics. */
 static void put_see_also(FILE *out, const command *c, const help_topic *topic)
 {
     const char *own = c ? c->name : topic->name;

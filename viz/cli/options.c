@@ -14,8 +14,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Prints one line on standard error. Control characters, which file names may contain, are printed as question
- * marks. */
+/* Prints one line on standard error. Control characters, such as those in file names, are printed as question marks. */
 static void print_sentence(const char *format, va_list arguments)
 {
     char sentence[1 << 14];
@@ -247,7 +246,8 @@ static bool read_view_text(const command_option *option, const char *text, void 
     return true;
 }
 
-/* Fills in the row of the n-th view option. Options that only recording.json has, which have no name, are skipped. */
+/* Fills in the row of the n-th view option. View options without a name exist only in recording.json and are
+ * skipped. */
 bool view_option_row(size_t n, command_option *option)
 {
     const view_option *row;

@@ -19,7 +19,7 @@ typedef struct command_option command_option;
 /* Fills in the n-th option of a table. Returns false if n is beyond the last. */
 typedef bool option_table_row(size_t n, command_option *option);
 
-/* Exit statuses. */
+/* The exit statuses of the program. */
 enum { EXIT_DONE = 0, EXIT_FINDING = 1, EXIT_TROUBLE = 2 };
 
 /* Prints "octreel: " and a sentence on standard error. Returns EXIT_TROUBLE. */
@@ -28,11 +28,11 @@ int print_error(const char *format, ...);
 /* Prints "octreel: " and a sentence on standard error. Returns false, for functions that return bool. */
 bool print_refusal(const char *format, ...);
 
-/* Prints that the option does not take the value `text`. `takes` describes the values that it takes: "a colour such
- * as ff8000". Returns false. */
+/* Prints an error: the option does not take the value `text`. `takes` describes valid values: "a colour such as
+ * ff8000". Returns false. */
 bool refuse_value(const command_option *option, const char *takes, const char *text);
 
-/* Returns whether --quiet was given. Only results and errors are then printed. */
+/* Returns whether --quiet was given. With --quiet, only results and errors are printed. */
 bool is_quiet(void);
 
 /* Prints "octreel: " and a note on standard error. A note is not an error: with --quiet it is not printed. */
@@ -43,19 +43,20 @@ typedef bool command_option_reader(const command_option *option, const char *tex
 
 /* A row of an option table: the name and help of an option, how its value is read, and where the value is stored. */
 struct command_option {
-    /* The name without dashes. Null: either `more` is set, or `help` is a heading for the options below it. A zeroed
-     * row ends the table. */
+    /* The name of the option without dashes. If the name is null, `more` is set, or `help` is a heading for the options
+     * below it. A zeroed row ends the table. */
     const char *name;
-    /* The placeholder of the value in --help. Null: the option takes no value. By the placeholder, shells complete a
-     * file (FILE), a folder (DIR) or names separated by commas (LIST). */
+    /* The placeholder of the option's value in --help. Null: the option takes no value. The placeholder also says how
+     * shells complete the value: FILE by a file, DIR by a folder, LIST by names separated by commas. */
     const char *value;
     const char *help;
     command_option_reader *read;
-    size_t offset, size;    /* the value's offset and size in the structure of the command's arguments */
-    uint64_t min, max;      /* limits of a value that is a whole number */
-    json_name *names;       /* the possible values; null: any value that `read` accepts */
-    json_name *words;       /* the meaning of each possible value; null: `help` explains them */
-    option_table_row *more; /* a shared table that is inserted here; `offset` is added to its offsets */
+    /* Where the value is stored: offset and size of a member in the structure of the command's arguments. */
+    size_t offset, size;
+    uint64_t min, max;      /* the smallest and the largest value, if the value is a whole number */
+    json_name *names;       /* the possible values of the option; null: any value that `read` accepts */
+    json_name *words;       /* the meaning of each value in `names`; null: `help` explains the values */
+    option_table_row *more; /* a shared table that is inserted here; `offset` is added to the offsets in that table */
 };
 
 #define OPTION_VALUE(type, member) .offset = offsetof(type, member), .size = sizeof(((type *)NULL)->member)
@@ -65,21 +66,22 @@ char option_letter(const char *name);
 
 bool is_folder(const char *path);
 
-command_option_reader read_flag;   /* bool: set to true; the option takes no value */
-command_option_reader read_text;   /* const char *: takes any text */
-command_option_reader read_name;   /* const char *: the path of a file or folder; refuses "" */
-command_option_reader read_folder; /* const char *: the path of a folder to write; refuses names of files */
-/* const char *: the path of a PNG to write. Refuses folders and names of other files. "-" is standard output and is
- * refused if standard output is a terminal. */
+command_option_reader read_flag;   /* for a bool: sets it to true; the option takes no value */
+command_option_reader read_text;   /* for a const char *: takes any text */
+command_option_reader read_name;   /* for a const char *: takes the path of a file or folder; refuses "" */
+command_option_reader read_folder; /* for a const char *: takes the path of a folder to write; refuses names of files */
+/* For a const char *: takes the path of a PNG file to write. Refuses folders and names of other files. "-" is standard
+ * output and is refused if standard output is a terminal. */
 command_option_reader read_picture;
-/* const char *: the path of a text file to write. Refuses folders and names of pictures. "-" is standard output. */
+/* For a const char *: takes the path of a text file to write. Refuses folders and names of pictures. "-" is standard
+ * output. */
 command_option_reader read_file;
-command_option_reader read_whole;  /* an unsigned integer of option->size bytes */
-command_option_reader read_color;  /* image_color: takes RRGGBB or #RRGGBB */
-command_option_reader read_choice; /* an enumeration, by its name in `names` */
-command_option_reader read_quiet;  /* makes is_quiet() return true */
+command_option_reader read_whole;  /* for an unsigned integer of option->size bytes */
+command_option_reader read_color;  /* for an image_color: takes RRGGBB or #RRGGBB */
+command_option_reader read_choice; /* for an enumeration: takes one of the names in `names` */
+command_option_reader read_quiet;  /* for --quiet: is_quiet() then returns true */
 
-/* A table row that inserts a shared table. The options of that table set parts of `member`. */
+/* A table row that inserts the shared table `table`. The options of that table are stored in the structure `member`. */
 #define SHARED_OPTIONS(table, type, member)                                                                            \
     {                                                                                                                  \
         .more = table, OPTION_VALUE(type, member)                                                                      \
@@ -102,7 +104,7 @@ command_option_reader read_quiet;  /* makes is_quiet() return true */
             .read = read_choice, OPTION_VALUE(type, member), .names = draw_fill_name, .words = draw_fill_words_at      \
     }
 
-/* A macro's number as text. */
+/* Turns the number that a macro defines into text. */
 #define NUMBER_AS_TEXT(number) LITERAL_AS_TEXT(number)
 #define LITERAL_AS_TEXT(number) #number
 
@@ -112,23 +114,23 @@ command_option_reader read_quiet;  /* makes is_quiet() return true */
             .read = read_whole, OPTION_VALUE(type, member), .min = 1, .max = SESSION_LAST_TICK                         \
     }
 
-/* Returns whether -o would accept this path. `reader` is the function that reads its value. If a surplus argument is
- * such a path, the user may have forgotten to type -o. */
+/* Returns whether -o would accept this path; `reader` is the function that reads the value of -o. If a surplus argument
+ * is such a path, the user may have forgotten to type -o. */
 bool fits_output_option(command_option_reader *reader, const char *path);
 
-/* The keys that a player can press and their effects, for the help of --keys. */
+/* The player's keys and their effects, for the help text of --keys. */
 #define KEYS_HELP "w s +-y, d a +-x, e f +-z, n nearest, . wait, q end"
 
-/* Checks that no file name is empty. Otherwise prints an error and returns false. */
+/* Checks that no file name is empty. If a name is empty, prints an error and returns false. */
 bool check_names_not_empty(const char *command, char *const *names, int count);
 
-/* Reads a whole number that is an argument, not the value of an option. If it is invalid, prints an error and
- * returns false. */
+/* Reads a whole number from an argument that is not the value of an option. If the number is invalid, prints an error
+ * and returns false. */
 bool read_count(const char *name, const char *text, uint64_t min, uint64_t max, uint64_t *value);
 
-/* The view options on the command line. Every command that draws has the same view options. While the command line
- * is read, only their texts are collected. read_view() parses them afterwards, because it needs the command's
- * default view. */
+/* The view options on the command line. Every command that draws has the same view options. While the command line is
+ * read, only the texts of their values are collected. read_view() parses these texts later, because it needs the
+ * command's default view. */
 #define MOST_VIEW_OPTIONS 32
 typedef struct view_options {
     const char *values[MOST_VIEW_OPTIONS]; /* the text of the option view_option_at(i); null: not given */
@@ -142,8 +144,8 @@ bool has_view_option(const view_options *given, const char *name);
 /* Returns the name of the first view option that was given, or null. */
 const char *find_first_view_option(const view_options *given);
 
-/* Sets the given options in *v, which holds the command's default view. If a value is invalid, prints an error and
- * returns false. */
+/* Changes *v, the command's default view, by the given options. If a value is invalid, prints an error and returns
+ * false. */
 bool read_view(const view_options *given, view *v);
 
 /* The table of the options --context and --any-renderer. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* outputs.c - checks that the outputs of a command replace nothing the user may need. */
-#define _XOPEN_SOURCE 700 /* realpath() */
+/* outputs.c - checks that the outputs of a command replace no file that the user may need. */
+#define _XOPEN_SOURCE 700 /* declares realpath() */
 #include "outputs.h"
 #include "file_kind.h"
 #include "folder.h"
@@ -26,8 +26,8 @@ bool is_standard_output_taken(const output_file *outputs, size_t count)
     return count_standard_outputs(outputs, count) > 0;
 }
 
-/* Returns whether two paths that do not exist yet would be the same file: their names and their folders are the same.
- * If a folder does not exist either, the paths are compared as text. */
+/* Returns whether two paths, which do not exist yet, would be the same file: their names and their folders are the
+ * same. If the folders do not exist either, the paths are compared as text. */
 static bool is_same_new_path(const char *a, const char *b)
 {
     struct stat folders[2];
@@ -59,14 +59,15 @@ static bool check_outputs_differ(const output_file *outputs, size_t count)
 
 /* ---- What an output would replace --------------------------------------------------------------------------- */
 
-/* Reports that an output would replace a file: "-o p.png" and then what the file is. Returns false. */
+/* Prints an error: the output would replace a file. The sentence has the option and the path, such as "-o p.png", and
+ * then the description of the file. Returns false. */
 static bool refuse_file(const output_file *output, const char *is, const char *of, const char *end)
 {
     return print_refusal("%s %s is %s%s%s: name another file, or add --force to overwrite it", output->option,
                          output->path, is, of, end);
 }
 
-/* Checks that an output, whose status is given, is not an input file. */
+/* Checks that an output is not the input file. `status` is the status of the output. */
 static bool check_input_file(const output_file *output, const struct stat *status, const char *input)
 {
     struct stat other;
@@ -74,9 +75,9 @@ static bool check_input_file(const output_file *output, const struct stat *statu
            refuse_file(output, "the same file as ", input, ", which is read");
 }
 
-/* Checks that an output is neither a picture nor a file of a recording in an input folder with these names, or in a
- * subfolder. Links to folders are not followed, because they could lead back to the folder. Subfolders that cannot be
- * listed are left out, because --no-recursive may leave them out, too. Frees the names. */
+/* Checks that an output is none of the pictures and recording files in an input folder or its subfolders. `names` are
+ * the names in the folder; this function frees them. Links to folders are not followed, because they could lead back to
+ * the folder. Subfolders that cannot be listed are skipped, because --no-recursive may exclude them anyway. */
 static bool check_input_names(const output_file *output, const struct stat *status, const char *folder, char **names)
 {
     bool ok = true;
@@ -109,7 +110,7 @@ static bool check_input(const output_file *output, const struct stat *status, co
            (is_folder(input) ? check_input_folder : check_input_file)(output, status, input);
 }
 
-/* Checks that a path is not the name of a file in a recording. */
+/* Checks that a path is not the path of a file in a recording. */
 static bool check_not_in_recording(const output_file *output, const char *path)
 {
     const char *name = path_base_name(path);
@@ -122,7 +123,8 @@ static bool check_not_in_recording(const output_file *output, const char *path)
     return ok;
 }
 
-/* Checks the content of an existing file. It finds a file of a recording also by a link to it in another folder. */
+/* Checks that an existing file is not, by its content, a file that the user may need. This check also finds a frame
+ * that is reached by a link in another folder. */
 static bool check_content(const output_file *output)
 {
     uint64_t tick;
@@ -145,7 +147,7 @@ static bool check_file(const output_file *output, char *const *inputs, int input
         return true;
     for (int i = 0; ok && exists && i < input_count; i++)
         ok = check_input(output, &status, inputs[i]);
-    char *real = exists ? realpath(output->path, NULL) : NULL; /* follows links */
+    char *real = exists ? realpath(output->path, NULL) : NULL; /* realpath() resolves links */
     ok = ok && check_not_in_recording(output, output->path) && (!real || check_not_in_recording(output, real)) &&
          (!exists || check_content(output));
     free(real);
@@ -154,7 +156,7 @@ static bool check_file(const output_file *output, char *const *inputs, int input
 
 /* ---- Folders ------------------------------------------------------------------------------------------------ */
 
-/* Returns whether a folder is the current folder or contains it. The files of the output would mix with unrelated
+/* Returns whether a folder is the current folder or contains it. Files that are written there would mix with unrelated
  * files. */
 static bool contains_current_folder(const char *folder)
 {
@@ -163,7 +165,7 @@ static bool contains_current_folder(const char *folder)
     bool is = false, more = stat(folder, &named) == 0;
     for (size_t length = 1; more && !is && length + sizeof "/.." < sizeof up; before = here) {
         more = stat(up, &here) == 0 &&
-               (length == 1 || !is_same_file(&here, &before)); /* stop at the root, which is its own parent */
+               (length == 1 || !is_same_file(&here, &before)); /* stop at the root, which is its own parent directory */
         is = more && is_same_file(&named, &here);
         length += (size_t)snprintf(up + length, sizeof up - length, "/..");
     }

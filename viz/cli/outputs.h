@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: MIT */
-/* outputs.h - the outputs that a command was given, and the check that they replace nothing the user may need. */
+/* outputs.h - the outputs given on a command line, and the check that they replace no file that the user may need. */
 #ifndef CLI_OUTPUTS_H
 #define CLI_OUTPUTS_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
-/* An output of a command line: a file, a folder, or a folder and the main file in it. */
+/* An output given on a command line: a file, a folder, or a folder and the main file in it. */
 typedef struct output_file {
     const char *option; /* the option as it was typed, such as "-o" */
-    const char *path;   /* the file, or "-" for standard output; null: none */
-    const char *folder; /* the folder that the option names; null: the option names the file, or was not given */
+    const char *path;   /* the path of the file, or "-" for standard output; null: no file */
+    const char *folder; /* the folder that the option names; null: the option names a file, or was not given */
 } output_file;
 
 /* Checks the outputs before anything is written. Always refused are two outputs that are the same file, and two that
@@ -24,10 +24,11 @@ typedef struct output_file {
 bool check_outputs(const output_file *outputs, size_t count, char *const *inputs, int input_count, bool json,
                    bool force);
 
-/* Returns whether an output file is standard output. Reports are then printed on standard error or not at all. */
+/* Returns whether one of the output files is standard output. Reports are then printed on standard error or not at
+ * all. */
 bool is_standard_output_taken(const output_file *outputs, size_t count);
 
-/* The row of --force in a command's table. */
+/* The table row of the option --force. */
 #define FORCE_OPTION(type, member, text)                                                                               \
     {                                                                                                                  \
         "force", NULL, text, .read = read_flag, OPTION_VALUE(type, member)                                             \

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* progress.c - draws the progress bar, and notes signals that ask the program to stop. */
+/* progress.c - draws the progress bar, and records signals that ask the program to stop. */
 #include "progress.h"
 #include "options.h"
 
@@ -16,7 +16,7 @@
 /* ---- The bar ------------------------------------------------------------------------------------------------ */
 
 #define MOST_BAR 32 /* the bar's largest length in characters */
-#define LEAST_BAR 8 /* the bar's smallest length in characters; if less fits, no bar is drawn */
+#define LEAST_BAR 8 /* the bar's smallest length in characters; if less room is left, no bar is drawn */
 #define LINE 512
 #define SECONDS_BETWEEN_UPDATES 0.1
 
@@ -51,7 +51,7 @@ double progress_seconds(const progress *p)
     return read_clock() - p->started;
 }
 
-/* If the new line is shorter than the line on the terminal, overwrites the rest of the old line with spaces. */
+/* Overwrites the rest of the old line on the terminal with spaces, if the new line is shorter. */
 static void erase_longer_line(progress *p, int length, int columns)
 {
     const int end = p->length < columns ? p->length : columns;
@@ -122,14 +122,14 @@ void progress_end(progress *p)
 
 /* ---- Signals ------------------------------------------------------------------------------------------------ */
 
-enum { GRACE = 5 /* seconds */ };
+enum { GRACE = 5 /* seconds between a stop signal and the end of a program that does not stop by itself */ };
 
 static const int stop_signals[] = {SIGHUP, SIGINT, SIGTERM};
 
 #define STOP_SIGNALS (sizeof stop_signals / sizeof stop_signals[0])
 
 static struct sigaction actions_before[STOP_SIGNALS];
-static volatile sig_atomic_t stop_signal; /* the first signal that arrived; 0: none */
+static volatile sig_atomic_t stop_signal; /* the first stop signal that arrived; 0: no signal */
 
 static void end_at_once(int alarm_signal)
 {
@@ -153,13 +153,14 @@ void defer_stop_signals(void)
     sigset_t stops;
     sigemptyset(&noting.sa_mask);
     sigemptyset(&stops);
-    sigaddset(&stops, SIGALRM); /* ends the program after GRACE seconds */
+    sigaddset(&stops, SIGALRM); /* SIGALRM ends the program after GRACE seconds */
     for (size_t i = 0; i < STOP_SIGNALS; i++) {
         sigaddset(&stops, stop_signals[i]);
         if (sigaction(stop_signals[i], NULL, &actions_before[i]) == 0 && actions_before[i].sa_handler != SIG_IGN)
-            sigaction(stop_signals[i], &noting, NULL); /* nohup ignores SIGHUP */
+            /* Signals that were ignored stay ignored: nohup ignores SIGHUP. */
+            sigaction(stop_signals[i], &noting, NULL);
     }
-    sigprocmask(SIG_UNBLOCK, &stops, NULL); /* the parent process may have blocked them */
+    sigprocmask(SIG_UNBLOCK, &stops, NULL); /* unblock the signals, because the parent process may have blocked them */
 }
 
 bool has_no_stop_signal(void *context)

@@ -12,28 +12,29 @@
  * printed. */
 typedef struct progress {
     const char *unit;
-    /* When the task was started and when the bar was last updated, in seconds. `shown` is 0 before the first update. */
+    /* The time when the task was started, and the time when the bar was last updated, in seconds. `shown` is 0 before
+     * the first update. */
     double started, shown;
-    /* The share of the task that is done, 0 to 1. Negative: unknown, so no bar is drawn. */
+    /* The fraction of the task that is done, 0 to 1. Negative: the fraction is unknown, so no bar is drawn. */
     double fraction;
-    int length; /* the length of the line on the terminal, in characters */
+    int length; /* the number of characters in the line on the terminal */
     bool visible;
 } progress;
 
 /* Starts a progress bar. `unit` names the steps that are counted, such as "ticks". */
 progress progress_start(const char *unit);
 
-/* Updates the bar, at most 10 times a second. A `total` of 0 means unknown. `context` points to a `progress`, so
- * that this function can be the callback of a task. */
+/* Updates the bar, at most 10 times a second. A `total` of 0 means that the total is unknown. `context` points to a
+ * `progress`, so that this function can be the callback of a task. */
 void progress_show(uint64_t done, uint64_t total, void *context);
 
 /* Shows a sentence beside the bar, for a step whose progress cannot be counted. */
 void progress_say(progress *p, const char *format, ...);
 
-/* Erases the bar. */
+/* Erases the bar from the terminal. */
 void progress_end(progress *p);
 
-/* Returns the seconds since progress_start(). */
+/* Returns the number of seconds since progress_start(). */
 double progress_seconds(const progress *p);
 
 /* Signals that stop a task between two of its steps. After defer_stop_signals(), SIGHUP, SIGINT and SIGTERM are only

@@ -45,7 +45,8 @@ static bool is_heading(const char *line)
     return true;
 }
 
-/* Returns the start of an item's description, or null if the line does not begin an item. */
+/* Returns the start of the description in a line that begins an item. Returns null if the line does not begin an
+ * item. */
 static const char *find_item_text(const char *line)
 {
     const char *term = line + count_indent(line), *gap = strstr(term, "  ");
@@ -149,8 +150,8 @@ void prose_fill_column(FILE *out, int width, const char *text, size_t length, in
     prose_fill(out, text, length, column, column);
 }
 
-/* The column of an item's description, counted from the item's indentation. If the term before it is too long, the
- * description begins on the next line. */
+/* The column of an item's description, counted from the item's indentation. If the item's term is too long for this
+ * column, the description begins on the next line. */
 enum { SHORT_TERM = 14 };
 
 static void print_item(FILE *out, const prose_block *block)
@@ -167,7 +168,7 @@ static void print_lines(FILE *out, const prose_block *block)
         fprintf(out, "%.*s\n", (int)length, line);
 }
 
-/* Returns whether an empty line separates two blocks. It does, except after a heading and between two items. */
+/* Returns whether an empty line is printed between two blocks: always, except after a heading and between two items. */
 static bool needs_empty_line(prose_kind before, prose_kind kind)
 {
     return before != PROSE_HEADING && !(before == PROSE_ITEM && kind == PROSE_ITEM);

@@ -15,7 +15,7 @@
 #include <stddef.h>
 #include <stdio.h>
 
-/* The most columns of a wrapped line. */
+/* The maximum number of columns in a wrapped line. */
 #define PROSE_WIDTH 80
 
 typedef enum prose_kind { PROSE_HEADING, PROSE_PARAGRAPH, PROSE_ITEM, PROSE_VERBATIM } prose_kind;

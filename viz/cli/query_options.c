@@ -14,10 +14,11 @@
 
 static const struct {
     octree_query_kind kind;
-    const char *value;           /* the placeholder in --help; null: the kind has no option */
-    octree_query_kind with_more; /* the kind of query if the option's value has one more number */
+    /* The placeholder of the option's value in --help; null: no option asks this kind of query. */
+    const char *value;
+    octree_query_kind with_more; /* the kind of query that is asked if the value has one more number */
     const char *help;            /* the option's description in --help */
-    const char *takes;           /* the expected value, for errors */
+    const char *takes;           /* words for a valid value, used in errors */
 } rows[] = {
 #define QUERY_OPTION(X, kind, name, words, layer_help, role, value, with_more, help, takes)                            \
     {OCTREE_QUERY_##kind, value, OCTREE_QUERY_##with_more, help, takes},
@@ -31,7 +32,7 @@ static size_t count_numbers_of_type(octree_member_type type)
                                      [OCTREE_MEMBER_POSITION] = 3,
                                      [OCTREE_MEMBER_COUNT] = 1,
                                      [OCTREE_MEMBER_LENGTH] = 1,
-                                     [OCTREE_MEMBER_BOUNDS] = 0}; /* always closed */
+                                     [OCTREE_MEMBER_BOUNDS] = 0}; /* no number: bounds are always closed */
     return numbers[type];
 }
 
@@ -66,7 +67,7 @@ static bool set_members(octree_query *query, const double *numbers)
 static bool read_query(const command_option *option, const char *text, void *into)
 {
     query_options *queries = into;
-    const size_t row = option->min; /* index in `rows`, which query_option_row() stored */
+    const size_t row = option->min; /* the index of the option's row in `rows`; query_option_row() stored it in `min` */
     const char *name = option->name;
     octree_query query = {.kind = rows[row].kind};
     double values[MOST_NUMBERS];
