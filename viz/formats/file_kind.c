@@ -33,8 +33,8 @@ static const struct {
      KIND_PACKED},
 };
 
-/* Skips white space and then a word. Returns the position after the word, or null if the text does not contain the
- * word there. */
+/* Skips white space and then `word`. Returns the position after the word. Returns null if the text continues with
+ * something else. */
 static const char *skip_word(const char *at, const char *word)
 {
     at += strspn(at, " \t\r\n");
@@ -81,8 +81,8 @@ file_kind file_kind_of_input(const char *path)
     return find_content_kind(first, size);
 }
 
-/* A folder with at least one file of a recording is a recording. If other files are missing, the command that reads
- * the recording reports them. */
+/* A folder that contains at least one file of a recording counts as a recording. If other files of the recording are
+ * missing, the command that reads it reports them. */
 static file_kind find_folder_kind(const char *path)
 {
     for (size_t i = 0; recording_files[i]; i++)

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* file_kind.h - detects the kind of a file or folder from its content, never from its name. Also finds the format
- * that the name of an output file requests. */
+/* file_kind.h - detects the kind of a file or folder from its content, never from its name. For output files, it
+ * also finds the format that the file's name requests. */
 #ifndef FORMATS_FILE_KIND_H
 #define FORMATS_FILE_KIND_H
 
 #include <stdbool.h>
 
-/* Columns: the kind; its name in messages; a command of octreel that reads such a file, or null; what the command
- * does or, without a command, what the user can do. */
+/* Each row: the kind; its name in messages; a command of octreel that reads files of this kind, or null; what this
+ * command does. If the command is null, the last column is a hint for the user. */
 #define FILE_KIND_MAP(X)                                                                                               \
     X(UNKNOWN, NULL, NULL, NULL)                                                                                       \
     X(MISSING, NULL, NULL, NULL)                                                                                       \
@@ -28,7 +28,8 @@ typedef enum file_kind {
 #undef FILE_KIND_ENUM
 } file_kind;
 
-/* A set of kinds of files. Every set contains UNKNOWN: the reader of a file of unknown kind reports the error. */
+/* A set of kinds of files, one bit for each kind. Every set contains UNKNOWN, because the reader of a file of
+ * unknown kind reports the error. */
 typedef unsigned file_kinds;
 #define FILE_KIND(kind) (1u << KIND_##kind)
 
@@ -41,12 +42,13 @@ file_kind file_kind_of(const char *path);
 file_kind file_kind_of_input(const char *path);
 
 typedef struct file_kind_row {
-    const char *name, *command, *use; /* the columns of FILE_KIND_MAP */
+    const char *name, *command, *use; /* the last three columns of the kind's row in FILE_KIND_MAP */
 } file_kind_row;
 
 extern const file_kind_row file_kind_rows[];
 
-/* The format that the ending of an output file's name requests. NAME_OPEN: the ending is missing or unknown. */
+/* The format that an output file's name requests by its ending. NAME_OPEN: the name has no ending, or an unknown
+ * one. */
 typedef enum output_kind { NAME_OPEN, NAME_PNG, NAME_PICTURE, NAME_FILM, NAME_FILE } output_kind;
 output_kind output_kind_of_name(const char *path);
 

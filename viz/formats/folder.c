@@ -25,7 +25,7 @@ static bool create_folder(const char *path, status_reader *read_status, octreel_
                                                 S_ISLNK(status.st_mode) ? "link" : "file");
 }
 
-/* Creates the folders of a path that end before a slash at or after `from`. */
+/* Creates all folders on a path: one for each slash at or after `from`. */
 static bool create_parents(char *path, char *from, status_reader *read_status, octreel_error *error)
 {
     bool ok = true;
@@ -37,8 +37,8 @@ static bool create_parents(char *path, char *from, status_reader *read_status, o
     return ok;
 }
 
-/* Checks that the system accepts the path of a folder and of any file in it. mkdir() would find out too late: after
- * the parent folders were created. */
+/* Checks that the system accepts the length of a folder's path and of the paths of files in it. mkdir() would find a
+ * path that is too long only after the parent folders were created. */
 static bool check_path_length(const char *folder, octreel_error *error)
 {
     const size_t longest = PATH_MAX - sizeof "/" - NAME_MAX;
@@ -83,7 +83,7 @@ void folder_remove_empty_inside(const char *folder, const char *name)
     char *const start = path ? path + strlen(path) - strlen(name) : NULL;
     for (char *slash; path && (slash = strrchr(start, '/'));) {
         *slash = 0;
-        if (rmdir(path) != 0) /* not empty */
+        if (rmdir(path) != 0) /* rmdir() fails if the folder is not empty */
             break;
     }
     free(path);
@@ -151,7 +151,8 @@ bool folder_write_file(const char *folder, const char *name, const char *bytes, 
     file_writer file;
     bool ok = path ? file_writer_open_replacing(&file, path, error) : error_no_memory(error);
     if (ok) {
-        fwrite(bytes, 1, size, file.stream); /* ignoring the result: file_writer_close() reports errors */
+        /* the result is ignored, because file_writer_close() reports write errors */
+        fwrite(bytes, 1, size, file.stream);
         ok = file_writer_close(&file, error);
     }
     free(path);
@@ -168,9 +169,9 @@ void folder_remove_recording_files(const char *folder)
     }
 }
 
-/* Returns whether a suffix marks an incomplete file. Such a suffix is "part" while the file is written, "live" for
- * the session of a running program, or the name of a chunk, with or without ".part", while several processes record
- * chunks. */
+/* Returns whether a suffix marks an incomplete file. The suffix "part" marks a file that is being written. The
+ * suffix "live" marks the session of a running program. The name of a chunk, with or without ".part", marks a file
+ * of one of several processes that record chunks. */
 static bool is_unfinished_suffix(const char *ending)
 {
     char word[CHUNK_NAME];

@@ -68,8 +68,8 @@ bool frame_write(const char *folder, const image *picture, const frame_origin *o
     return print_frame_path(folder, origin->tick, path, error) && image_write_png(picture, path, texts, count, error);
 }
 
-/* Parses a frame's PNG text with the number of its tick. Returns false with an error unless frame_write() would
- * write the same text for the number. */
+/* Parses the PNG text that holds the number of a frame's tick. Returns false with an error if the text differs from
+ * the text that frame_write() writes for this number. */
 static bool parse_tick(const char *path, const char *text, uint64_t *tick, octreel_error *error)
 {
     char again[NUMBER_SIZE];
@@ -79,14 +79,15 @@ static bool parse_tick(const char *path, const char *text, uint64_t *tick, octre
            error_set(error, "%s: its PNG text %s is not the number of a tick", path, tick_keyword);
 }
 
-/* Reads the PNG text with a keyword from a frame. Returns false with an error if the text is missing. */
+/* Reads the PNG text with a given keyword from a frame. Returns false with an error if the frame has no such text. */
 static bool read_text(const char *path, const char *keyword, char text[NUMBER_SIZE], octreel_error *error)
 {
     return image_read_text(path, keyword, text, NUMBER_SIZE) ||
            error_set(error, "%s: has no PNG text %s; another program may have saved the file", path, keyword);
 }
 
-/* Checks that a frame's PNG text with a keyword is the expected digest. If it is not, sets the error to `message`. */
+/* Checks that the PNG text with a given keyword is the expected digest. If the text is missing or differs, returns
+ * false and sets the error to `message`. */
 static bool check_digest(const char *path, const char *keyword, uint64_t expected, const char *message,
                          octreel_error *error)
 {
@@ -98,7 +99,8 @@ static bool check_digest(const char *path, const char *keyword, uint64_t expecte
 static const char pixels_changed[] =
     "its pixels do not match its PNG text octreel-pixels: the file was changed after drawing";
 
-/* Reads the stated digest of the pixels from a frame's PNG text. If the text is not a digest, *kind is unchanged. */
+/* Reads the digest of the pixels from a frame's PNG text. The digest is stored in *stated, its kind in *kind. If the
+ * text is not a digest, *kind is unchanged. */
 static bool read_pixels(const char *path, image_digest_kind *kind, uint64_t *stated, octreel_error *error)
 {
     char text[NUMBER_SIZE];

@@ -11,14 +11,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The contents of recording.json. The view is the first member, so that offsets in the view are also offsets in this
- * structure. */
+/* The contents of recording.json. The view must be the first member, because offsets of options in the view are used
+ * as offsets in this structure. */
 typedef struct recorded {
     view view;
     uint64_t every;
 } recorded;
 
-/* Members of recording.json that are not view options. The first two come before the view options, the others after. */
+/* The members of recording.json that are not view options. The first two are written before the view options, the
+ * others after them. */
 static const json_member fixed_members[] = {
     {"octreel", &json_constant, .required = true, .about = "recording"},
     {"version", &json_version, .required = true, .max = RECORDING_VERSION, .about = "recording"},
@@ -31,7 +32,7 @@ static const json_member fixed_members[] = {
 #define FIXED_MEMBERS (sizeof fixed_members / sizeof fixed_members[0])
 #define MOST_MEMBERS 32
 
-/* Lists all members of recording.json in their order. Each member is written on a line of its own. */
+/* Lists all members of recording.json in the order in which they are written. Each member gets a line of its own. */
 static void list_members(json_member members[MOST_MEMBERS])
 {
     size_t count = 0;
@@ -92,7 +93,8 @@ bool recording_read(const char *folder, view *v, uint64_t *every, octreel_error 
 
 /* ---- session.json --------------------------------------------------------------------------------------------- */
 
-/* Reads a session. With `live`, a last line without a newline is ignored, because its writer ended while writing it. */
+/* Reads a session file of a recording. With `live`, a last line without a newline is ignored, because the writing
+ * program ended in the middle of this line. */
 static bool read_session(const char *folder, const char *name, bool live, session_file *file, uint64_t *digest,
                          octreel_error *error)
 {

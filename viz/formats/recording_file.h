@@ -19,7 +19,7 @@
  * values are in "derived". */
 #define RECORDING_VERSION 4
 
-/* Returns a view in which every option has its default from the rows of view_options.c. */
+/* Returns a view in which every option has its default. The defaults are in the rows of view_options.c. */
 view view_make_default(void);
 
 /* Writes recording.json. The caller checks the stream for errors. */

@@ -14,8 +14,9 @@
 
 #define BODIES SESSION_LISTS
 
-/* For each list of octree_session: the offset `at` of the pointer to its items, which the count of items follows,
- * and the size of an item. An item begins with its tick. The last row is about the bodies, which have no tick. */
+/* For each list of octree_session: the offset `at` of its pointer to the items, and the size of an item, both in
+ * bytes. The number of items is stored directly after the pointer. Each item begins with its tick, except bodies,
+ * which have no tick. The bodies are the last row. */
 static const struct {
     size_t at, size;
 } rows[SESSION_LISTS + 1] = {
@@ -68,8 +69,8 @@ static bool report_no_memory(octreel_error *error)
     return error_set(error, "out of memory for the session");
 }
 
-/* Replaces *items by a copy, or by null if there are no items. If memory runs out, sets *items to null and returns
- * false. */
+/* Replaces *items by a copy, or by null if there are no items. Returns false if memory runs out; then *items is
+ * null. */
 static bool duplicate_items(const void **items, size_t count, size_t item_size)
 {
     const void *from = *items;
@@ -104,7 +105,7 @@ void query_release_ids(octree_query *query)
         free((uint64_t *)query->visits[met].ids);
 }
 
-/* Frees the memory that queries and foreign trees own, but not the arrays that hold the queries and trees. */
+/* Frees the memory that the queries and foreign trees of a session own, but not the arrays in which they are stored. */
 static void release_owned_memory(const octree_session *session)
 {
     for (size_t i = 0; i < session->query_count; i++)
@@ -113,7 +114,8 @@ static void release_owned_memory(const octree_session *session)
         foreign_tree_release((octree_foreign_tree *)&session->foreign[i]);
 }
 
-/* Gives queries and foreign trees that were copied bytewise their own copies of the memory that the originals own. */
+/* The queries and foreign trees of a session were copied bytewise, so they share memory with the originals. Gives
+ * each copy its own memory. */
 static bool duplicate_owned_memory(const octree_session *session)
 {
     bool whole = true;
@@ -222,7 +224,8 @@ static bool read_objects(json_reader *r)
     return true;
 }
 
-/* Moves the header's items of a list into the list of single ticks: before the items there or after them. */
+/* A list in the header has items that apply to all ticks. Moves these items to the list of single ticks: with
+ * `before` in front of its items, else behind them. */
 static bool append_header_list(json_reader *r, int list, bool before)
 {
     session_loader *s = r->context;
@@ -241,7 +244,7 @@ static bool append_header_list(json_reader *r, int list, bool before)
     return true;
 }
 
-/* The header's foreign nodes come before the others, because they apply from tick 0 on. */
+/* The foreign nodes of the header are inserted before those of single ticks, because they apply from tick 0 on. */
 bool session_append_header_lists(json_reader *r)
 {
     return append_header_list(r, SESSION_QUERIES, false) && append_header_list(r, SESSION_SHAPES, false) &&
@@ -312,8 +315,8 @@ static uint64_t get_tick(const json_counted_array *list, int kind, size_t index)
     return *(const uint64_t *)get_item(list, kind, index);
 }
 
-/* Queries and shapes that apply to every tick are written in the header. They are at the end of the session's
- * arrays. */
+/* Queries and shapes that apply to every tick are written in the header. In the session's arrays, these items are at
+ * the end. */
 void session_write_header(const octree_session *session, const point_values *values, FILE *out)
 {
     octree_session every_tick = {.keys = NULL};
@@ -340,7 +343,7 @@ void session_write_tick(uint64_t tick, const octree_input *input, const point_va
     json_write_end_line(&writer);
 }
 
-/* Returns the first tick that has unwritten items, or OCTREE_EVERY_TICK if all items are written. */
+/* Returns the smallest tick of all unwritten items, or OCTREE_EVERY_TICK if no item is unwritten. */
 static uint64_t find_next_tick(const json_counted_array unwritten[SESSION_LISTS])
 {
     uint64_t next = OCTREE_EVERY_TICK;
@@ -367,8 +370,8 @@ bool session_write(const octree_session *session, const point_values *values, FI
             if (count > 0)
                 *list = (json_counted_array){get_item(list, i, count), list->count - count};
         }
-        const octree_input input = /* a gap is written alone, because the game plays no other input of its tick */
-            now.gap_count ? (octree_input){.gap = now.gaps} : session_collect_input(&now);
+        /* if the tick is a gap, only the gap is written, because the game plays no other input in this tick */
+        const octree_input input = now.gap_count ? (octree_input){.gap = now.gaps} : session_collect_input(&now);
         session_write_tick(tick, &input, values, out);
     }
     return fflush(out) == 0 && !ferror(out);

@@ -9,15 +9,15 @@
 
 #define MOST_MEMBERS (12 + OCTREE_QUERY_MEMBERS)
 
-/* A type of list: edits, queries or shapes. An item in memory begins with its tick. */
+/* A type of list: edits, queries or shapes. In memory, each item of the list begins with its tick. */
 struct session_items {
-    int list;          /* the index in session_loader.lists */
-    const char *words; /* a noun for errors: "a list of edits" */
+    int list;          /* the index of the list in session_loader.lists */
+    const char *words; /* a noun with an article for error messages: "a list of edits" */
     json_name *kinds;
-    /* For each kind of item, the members of its object; the first member names the kind. Null: list_query_members()
-     * lists the members. */
+    /* For each kind of item, the members of its JSON object. The name of the first member is the name of the kind.
+     * Null for queries: list_query_members() lists their members. */
     const json_member (*members)[2];
-    size_t size, kind; /* the size of an item, and the offset of its kind, in bytes */
+    size_t size, kind; /* the size of an item, and the offset of the member `kind` in an item, in bytes */
 };
 
 /* ---- Edits -------------------------------------------------------------------------------------------------- */
@@ -46,7 +46,8 @@ static bool is_player_word(const json_t *value)
     return json_is_string(value) && strcmp(json_string_value(value), "player") == 0;
 }
 
-/* Reads the text "player", which a query may have in place of a position. The session must have a player. */
+/* Reads the text "player" as the target of a query, in place of a position. If the session has no player, this is an
+ * error. */
 static bool read_player_target(json_reader *r, const json_place *at, octree_query *query)
 {
     const session_loader *s = r->context;
@@ -79,7 +80,7 @@ static bool read_box_at_player(json_reader *r, json_t *value, const json_place *
     return is_player_word(value) ? read_player_target(r, at, into) : json_fail_expected(r, value, at, "\"player\"");
 }
 
-/* The value of "skip" is an id or this word. The word skips all points exactly at the target. */
+/* The value of "skip" is the id of a point or this word. The word skips all points that lie exactly at the target. */
 static const char coincident[] = "coincident";
 
 static bool read_skip(json_reader *r, json_t *value, const json_place *at, void *into)
@@ -110,8 +111,8 @@ static bool uses_precision(const octree_query *query)
     return query->answered || query->visits[OCTREE_NODE_PRUNED].count > 0;
 }
 
-/* Check the mode of a query. Its members "answer" and "pruned" have been read, because they precede the mode in the
- * table. */
+/* Check the mode of a query against its members "answer" and "pruned". The table lists these members before the
+ * mode, so both have been read. */
 static bool check_mode(json_reader *r, const json_place *at, void *structure)
 {
     return uses_precision(structure) ||
@@ -133,7 +134,8 @@ JSON_NAMES(query_name, octree_query_name, octree_query_kind)
 
 JSON_NAMES(bounds_name, octree_bounds_name, octree_bounds)
 
-/* Make the table row for a member of a query. A target may be a position or "player". */
+/* Make the table row of one member of a query. If the member is a target, its value is a position or the text
+ * "player". */
 static json_member make_query_member(const octree_query_member_traits *member)
 {
     static const json_member rows[] = {
@@ -175,8 +177,8 @@ static const json_member general_members[] = {
     {"mode", &json_choice, QUERY(precision), .names = precision_name, .is_set = has_mode, .check = check_mode},
 };
 
-/* Fill the table with the members of a kind of query, as its traits list them. If a kind has a box and no target,
- * its box can be relative to the player. */
+/* Fill the table with the members of a kind of query, in the order of its traits. If the kind has a box but no
+ * target, its box can be relative to the player. */
 static void list_query_members(int kind, json_member table[MOST_MEMBERS])
 {
     const octree_query_traits *about = octree_query_about((octree_query_kind)kind);
@@ -215,8 +217,8 @@ static void write_segment(json_writer *w, const void *from)
     json_write_end_array(w);
 }
 
-/* The members of each kind of shape. The first member names the kind. The members `at` and `to` are the corners of a
- * box. */
+/* The members of each kind of shape. The name of the first member is the name of the kind. If a shape is a box, `at`
+ * and `to` are its corners. */
 _Static_assert(offsetof(octree_shape, to) - offsetof(octree_shape, at) == offsetof(octree_box, max), "not like a box");
 static const json_member shape_members[OCTREE_SHAPE_KINDS][2] = {
     [OCTREE_SHAPE_BOX] = {{"box", &json_box, offsetof(octree_shape, at), .required = true}},

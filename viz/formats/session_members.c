@@ -78,7 +78,8 @@ static bool check_position(json_reader *r, const json_place *at, void *structure
     return true;
 }
 
-/* Sets the default size of the player's box, which follows from its step. The member "box_size" is read later. */
+/* Sets the box of the player to its default size, which follows from the player's step. If the session has the
+ * member "box_size", it is read later and replaces the default. */
 static bool set_default_box_size(json_reader *r, const json_place *at, void *structure)
 {
     octree_player *player = structure;
@@ -106,7 +107,8 @@ static void write_player_is_body(json_writer *w, const void *from)
 #define BOX_SIZE "box_size", &json_nonnegative, .offset = offsetof(octree_player, box_size)
 #define SWEEP "sweep", &json_bool, .offset = offsetof(octree_player, sweep), JSON_IF(octree_player, sweep)
 
-/* The members of a player that is a body: the point with its id. It has no position and no step of its own. */
+/* The members of a player that is one of the bodies. The player is the body with the given id, so it has neither a
+ * position nor a step of its own. */
 static const json_member body_player_members[] = {{ID}, {BODY}, {BOX_SIZE}, {SWEEP}, {0}};
 static const json_member player_members[] = {
     {ID},
@@ -175,12 +177,12 @@ static bool has_tick_count(const void *structure)
     return ((const session_header *)structure)->session.ticks != SESSION_ENDLESS;
 }
 
-/* The largest number of ticks between two successive objects. All ticks between the objects are played and filmed,
- * so a larger number is probably a mistake. */
+/* The largest allowed number of ticks between two successive objects of a session. All ticks between the objects are
+ * played and drawn, so a larger number is probably a mistake. */
 #define MOST_TICKS_BETWEEN 1000000
 
-/* Returns whether a tick is too far after the last object. A tick up to the end of "keys" is never too far. If the
- * header has "ticks", no tick is too far. */
+/* Returns whether a tick is too far after the tick of the last object. If the header has "ticks", no tick is too
+ * far. A tick that has a key in "keys" is never too far. */
 static bool is_too_far_ahead(const session_loader *s, uint64_t tick)
 {
     const char *keys = s->header.session.keys;
@@ -230,15 +232,16 @@ octree_session session_make_default_header(void)
 {
     octree_session session = {.tree = octree_def_default()};
     session.tree.leaf_capacity = 8;
-    session.tree.full_leaf = OCTREE_REFUSE; /* the meaning of a missing "full" in this version of the format */
+    /* a session without "full" was written with this meaning in this version of the format */
+    session.tree.full_leaf = OCTREE_REFUSE;
     set_default_player(&session.player, &session.tree.world);
     return session;
 }
 
 #define HEADER(where) .offset = offsetof(session_header, where), .line = true
 
-/* The members of the header, in the order of reading. The player needs the world, points need the player, and
- * velocities need the points. */
+/* The members of the header, in the order in which they are read. The player comes after the world, the points come
+ * after the player, and the velocities come after the points, because each of them needs the one before. */
 const json_member session_header_members[] = {
     {"octreel", &json_constant, .required = true, .about = "session"},
     {"version", &json_version, .required = true, .max = 2, .about = "session",

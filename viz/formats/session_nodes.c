@@ -9,8 +9,8 @@
 
 /* ---- Memory ------------------------------------------------------------------------------------------------- */
 
-/* Allocates one block for nodes and, behind them, the ids of their points. Returns null if memory runs out or there
- * are 0 nodes. */
+/* Allocates one block of memory for the nodes, followed by the ids of their points. Returns null if memory runs out
+ * or `nodes` is 0. */
 static octree_foreign_node *allocate_nodes(size_t nodes, size_t ids)
 {
     const size_t most = SIZE_MAX / 2 / sizeof(octree_foreign_node);
@@ -110,7 +110,7 @@ static bool read_foreign_tree(json_reader *r, json_t *value, const json_place *a
     return check_foreign_tree(r, tree, at);
 }
 
-/* Reads the foreign nodes of a tick or of the header. The header's nodes apply from tick 0 on. */
+/* Reads the foreign nodes of a tick or of the header. Nodes in the header apply from tick 0 on. */
 static bool read_foreign_nodes(json_reader *r, json_t *value, const json_place *at, void *into)
 {
     session_loader *s = r->context;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* session_points.c - reads and writes the points of a session, which are a list, a point file or a sample; and their
- * velocities. */
+/* session_points.c - reads and writes the points of a session and their velocities. The points are a list, a point
+ * file or a sample. */
 #include "cloud.h"
 #include "file.h"
 #include "hash_map.h"
@@ -20,7 +20,8 @@ uint32_t session_find_body(const session_loader *s, uint64_t id)
     return hash_map_find(&s->values.body_ids, &by_id, s->bodies, &id);
 }
 
-/* Returns whether the player is separate from the session's points. No point may then have the player's id. */
+/* Returns whether the player is a point of its own and not one of the session's points. No other point may then have
+ * the player's id. */
 static bool is_player_separate(const octree_player *player)
 {
     return player->kind == OCTREE_PLAYER_KEYS;
@@ -48,7 +49,7 @@ static bool allocate_bodies(json_reader *r, const json_place *at, size_t count)
 
 /* ---- A list ------------------------------------------------------------------------------------------------- */
 
-/* Reads a row [x, y, z] or [x, y, z, id], which one value for each column follows. */
+/* Reads a row of a point: [x, y, z] or [x, y, z, id], then one value for each of the columns. */
 static bool read_point_row(json_reader *r, json_t *row, const json_place *at, octree_body *body)
 {
     const session_values *values = &((const session_loader *)r->context)->values;
@@ -97,7 +98,7 @@ bool session_map_bodies(json_reader *r, const json_place *at)
         if (first != HASH_MAP_NONE)
             return json_fail(r, &place, "id %" PRIu64 " already belongs to points[%" PRIu32 "] in line %zu", id, first,
                              json_find_line(r, &(json_place){at, NULL, first}));
-        hash_map_add(map, &by_id, s->bodies); /* cannot fail, because the map has room */
+        hash_map_add(map, &by_id, s->bodies); /* this call cannot fail, because the map has room for all bodies */
     }
     const uint32_t clash = is_player_separate(player) ? session_find_body(s, player->id) : HASH_MAP_NONE;
     return clash == HASH_MAP_NONE ||
@@ -113,7 +114,8 @@ static bool read_point_list(json_reader *r, json_t *list, const json_place *at)
 
 /* ---- Files of points and samples ---------------------------------------------------------------------------- */
 
-/* Makes bodies of the points of a point file. Their default ids count all rows of the file, including skipped rows. */
+/* Makes bodies of the points of a point file. The default id of a body counts all rows of the file before it,
+ * including rows that were skipped. */
 static bool copy_cloud_points(json_reader *r, const json_place *at, const cloud *from)
 {
     session_loader *s = r->context;
@@ -126,8 +128,8 @@ static bool copy_cloud_points(json_reader *r, const json_place *at, const cloud 
     return true;
 }
 
-/* Returns the path of a file that the session names; the caller frees it. The name "-" is a file here, not standard
- * input. */
+/* Returns the path of a point file that the session names; the caller frees the path. The name "-" stands for a file
+ * of this name, not for standard input. */
 static char *join_file_path(const char *folder, const char *file)
 {
     if (!*folder && file_is_standard_stream(file))
@@ -140,7 +142,7 @@ static char *join_file_path(const char *folder, const char *file)
     return path;
 }
 
-/* Writes a note: which columns were guessed or ignored, and which values were out of range. */
+/* Writes the note about a point file: which columns were guessed or ignored, and how many values were out of range. */
 static void write_values_note(session_loader *s, const char *name)
 {
     char beyond[CLOUD_OUT_OF_RANGE_TEXT];
@@ -187,14 +189,14 @@ static bool is_point_file(const json_t *value)
     return json_is_string(value) && json_string_length(value) > 0;
 }
 
-/* Gives the points of the point file their values. The values of row 0 belong to id 1 and so on; the player's id is
- * skipped. */
+/* Sets the values of the points of the point file. The values in row 0 of the file belong to the point with id 1,
+ * and so on. The player's id is skipped. */
 static bool set_file_values(json_reader *r, const json_place *at)
 {
     session_loader *s = r->context;
     point_values *values = &s->points.values;
     const octree_player *player = &s->header.session.player;
-    const uint64_t place = player->id - 1; /* the row that would get the player's id */
+    const uint64_t place = player->id - 1; /* the index of the row whose point would have the player's id */
     if (is_player_separate(player) && player->id != 0 && place < values->count &&
         !point_values_insert_empty_row(values, (size_t)place))
         return json_fail(r, at, "out of memory for %zu points", s->points.count);
@@ -215,8 +217,9 @@ static bool read_point_file(json_reader *r, json_t *value, const json_place *at,
     return done;
 }
 
-/* The point file is read before the other members: the player needs the world, and "points" is read after the
- * player. Errors in the member "points" are reported later, when the member itself is read. */
+/* If the world is to be computed from a point file, the file is read before the other members: the player needs the
+ * world, and "points" is read after the player. Errors in the member "points" are not reported here, but when this
+ * member itself is read. */
 bool session_find_file_world(json_reader *r, json_t *header)
 {
     session_loader *s = r->context;
@@ -292,7 +295,8 @@ static bool read_points(json_reader *r, json_t *value, const json_place *at, voi
                      "expected a list of points, {\"file\": ...} or {\"sample\": ..., \"count\": ..., \"seed\": ...}");
 }
 
-/* Writes a point with a velocity as an object, and any other point as a row. A velocity of -0 counts as a velocity. */
+/* Writes a point. A point with a velocity is written as an object, any other point as a row. A velocity of -0 counts
+ * as a velocity, so that it is restored exactly. */
 static void write_point(json_writer *w, const octree_body *body)
 {
     if (json_has_nonzero_byte(body->velocity, sizeof body->velocity)) {
@@ -327,7 +331,7 @@ const json_codec session_points_codec = {read_points, write_points};
 static bool read_velocity(json_reader *r, json_t *row, const json_place *at, void *into)
 {
     const session_loader *s = r->context;
-    bool *given = into; /* for each body, whether it was given a velocity */
+    bool *given = into; /* given[i]: body i was given a velocity */
     uint64_t id;
     if (json_array_size(row) != 4)
         return json_fail_expected(r, row, at, "[id, vx, vy, vz]");

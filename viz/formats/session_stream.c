@@ -14,8 +14,9 @@ struct session_stream {
     json_reader reader;
     session_loader loader;
     octree_session start;
-    session_stream_state first;  /* the result of reading the object that follows the header */
-    bool has_pending;            /* session_stream_read_tick() has not yet returned `first` and the object */
+    session_stream_state first; /* the state after reading the object that follows the header */
+    /* true: session_stream_read_tick() has still to return `first` and the object that follows the header */
+    bool has_pending;
     octreel_error pending_error; /* the error, if `first` is SESSION_STREAM_BROKEN */
 };
 
@@ -64,7 +65,8 @@ static octree_input make_tick_input(const session_loader *s)
     return session_collect_input(&all);
 }
 
-/* The object is checked here as well as in the game, because only here its line is known for errors. */
+/* The game also checks the object of a tick. The object is checked here, too, because only here the line of an error
+ * is known. */
 static session_stream_state read_tick(session_stream *s, octreel_error *error)
 {
     const size_t line = s->reader.line;

@@ -109,9 +109,9 @@ static bool add_valueless_id(session_values *s, uint64_t id)
     return hash_map_add(&s->plain_ids, &plain_by_id, s->plain);
 }
 
-/* Set the values of an inserted point. An id that was used without values cannot get values later. The reason: if a
- * session is filmed while it is written, the frame of a tick is drawn before the next tick is read, so a later tick
- * must not change it. */
+/* Set the values of an inserted point. If the id was used before without values, it cannot get values later. The
+ * reason: a session may be drawn while it is being written. Then the frame of a tick is drawn before the next tick
+ * is read, so a later tick must not change this frame. */
 static bool set_inserted_value(json_reader *r, const json_place *at, uint64_t id, const point_value *value)
 {
     session_loader *s = r->context;
@@ -166,7 +166,7 @@ typedef struct valued_body {
 
 enum { FIRST_VALUE = 3 };
 
-/* The row of a point_value_kind is rows[FIRST_VALUE + kind]. */
+/* The rows of a body's members. The row of a point_value_kind has the index FIRST_VALUE + kind. */
 const json_member session_body_members[] = {
     {"id", &json_uint64, POINT(body.id), .max = JSON_LARGEST_WHOLE},
     {"position", &json_vector, POINT(body.position), .required = true},
@@ -264,7 +264,7 @@ bool session_read_column_value(json_reader *r, json_t *value, const json_place *
     return row->codec->read(r, value, at, (char *)into + (row->offset - POINT(value)));
 }
 
-/* Writes nothing for a point without values, so that its row is short. */
+/* A point without values gets no columns, so that its row is short. */
 void session_write_column_values(json_writer *w, uint64_t id)
 {
     const unsigned kinds = point_values_kinds(w->context);

@@ -115,7 +115,7 @@ static bool has_neighbors(const void *structure)
 
 #define JUDGED(member) .offset = offsetof(octree_answer, judgement.member)
 
-/* The members about a foreign index: its answer, and how the answer was judged. */
+/* The members of an answer that are about a foreign index: its answer, and the judgement of its answer. */
 static const json_member judgement_members[] = {
     {"answer", &json_ids, JUDGED(given)},
     {"mode", &json_choice, .offset = offsetof(octree_answer, precision), .names = precision_name,
@@ -137,8 +137,8 @@ static const json_member last_answer_members[] = {
     {0},
 };
 
-/* Writes the result of a query. Several neighbours are written as a list. A single neighbour is written as members
- * of the answer, with "id" null if no neighbour was found. */
+/* Writes the result of a query. For one neighbour, the result is written as members of the answer; "id" is null if
+ * no neighbour was found. Several neighbours are written as a list. */
 static void write_result(json_writer *w, const octree_answer *answer, const octree_query_traits *about)
 {
     static const json_member list = {.members = neighbor_members, .size = sizeof(octree_neighbor)};
@@ -281,8 +281,8 @@ static void write_key(json_writer *w, const void *from)
 
 #define TICK(member) .offset = offsetof(octree_tick, member)
 
-/* The numbers of nodes that all queries of the tick visited, accepted as a whole and pruned, and the number of
- * leaves in which points were found. */
+/* Counts over all queries of the tick: the nodes that were visited, accepted as a whole and pruned, and the leaves
+ * in which points were found. */
 static const json_member visit_members[] = {
     {"visited", &json_size, TICK(touched[OCTREE_TRACE_VISITED])},
     {"taken", &json_size, TICK(touched[OCTREE_TRACE_TAKEN])},
@@ -297,7 +297,7 @@ static const json_member tree_members[] = {
     {"digest", WRITE(write_digest), TICK(tree_digest)}, {0},
 };
 
-/* The members of a line. The positions of the player are null if the tick has no player. */
+/* The members of a line of ticks.jsonl. If the tick has no player, the positions of the player are null. */
 static const json_member line_members[] = {
     {"tick", &json_uint64, TICK(number)},
     {"key", WRITE(write_key), TICK(key)},
@@ -318,7 +318,7 @@ static const json_member line_members[] = {
     {0},
 };
 
-/* The members of a line whose tick is a gap. */
+/* The members of a line of ticks.jsonl whose tick is a gap. */
 static const json_member gap_members[] = {
     {"tick", &json_uint64, TICK(number)},
     {"gap", WRITE(json_write_text), TICK(gap)},

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* ticks_write.h - writes a tick as one line of ticks.jsonl. Each member of the line is a row of a table in
- * ticks_write.c. `octreel verify` and `octreel diff` compare the written lines as text, so a new member needs only a
- * new row. */
+ * ticks_write.c. `octreel verify` and `octreel diff` compare lines as text, so a new member needs a new row and no
+ * other change. */
 #ifndef FORMATS_TICKS_WRITE_H
 #define FORMATS_TICKS_WRITE_H
 
@@ -10,11 +10,11 @@
 
 #include <stdio.h>
 
-/* Values of a line that do not follow from the tick. */
+/* The values of a line of ticks.jsonl that do not follow from the tick. */
 typedef struct tick_extras {
     const char *frame;     /* the file name of the tick's frame; null: the tick has no frame */
     uint64_t scene_digest; /* the digest of the frame's scene */
-    bool whole;            /* list all nodes that split or merged, even if there are more than TICK_LISTED */
+    bool whole;            /* true: list all nodes that split or merged, even more than TICK_LISTED */
 } tick_extras;
 
 /* If more than this number of nodes split (or merge) in a tick, the line does not list them. It has their count and
@@ -27,14 +27,14 @@ typedef struct tick_extras {
  * errors. */
 void tick_write(FILE *out, const octree_tick *tick, const tick_extras *extras);
 
-/* Reads the digest of the scene, which is at the end of a line. The line ends with a newline. Returns false if the
- * line does not name the frame of this tick. */
+/* Reads the digest of the scene from a line of ticks.jsonl, where it is at the end. The line ends with a newline.
+ * Returns false if the line does not name the frame of `tick`. */
 bool tick_read_scene_digest(const char *line, size_t size, uint64_t tick, uint64_t *scene);
 
-/* Writes the parameters of the query of an answer. Only parameters that the kind of query has are written. */
+/* Writes the parameters of an answer's query: only the parameters that queries of this kind have. */
 void tick_write_query_parameters(json_writer *w, const octree_answer *answer);
 
-/* Writes an answer as an object with one member. The name of the member is the kind of the query. */
+/* Writes an answer as an object with one member. The name of the member is the kind of the answer's query. */
 void tick_write_answer(json_writer *w, const octree_answer *answer);
 
 /* Prints a digest as sixteen hexadecimal digits. Returns `text`. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* view_options.c - the table of view options; see view_options.h. The rows are at the end of the file. Each section
- * before them holds the functions of a few rows. */
+/* view_options.c - the table of view options; see view_options.h. The rows of the table are at the end of the file.
+ * Each section of the file before the table holds the functions of a few rows. */
 #include "view_options.h"
 #include "file_kind.h"
 #include "hint.h"
@@ -73,8 +73,8 @@ static bool parse_choice(const view_option *option, const char *text, view *v, o
     return true;
 }
 
-/* Sets a switch. On the command line a switch takes no value: an option that is given gets the opposite of its
- * default. */
+/* Sets a switch: an option without a value. If the option is given on the command line, the switch gets the opposite
+ * of its default. */
 static bool parse_switch(const view_option *option, const char *text, view *v, octreel_error *error)
 {
     (void)error;
@@ -90,7 +90,8 @@ static bool parse_whole(const view_option *option, const char *text, view *v, oc
     return true;
 }
 
-/* Parses numbers separated by commas. The limits of the member apply only to options with a single number. */
+/* Parses numbers that are separated by commas. The limits member.min and member.max are checked only for an option
+ * with a single number. */
 static bool parse_numbers(const view_option *option, const char *text, view *v, octreel_error *error)
 {
     const json_member *m = &option->member;
@@ -159,8 +160,7 @@ static bool check_look(json_reader *r, const json_place *at, void *structure)
 
 /* ---- Points ------------------------------------------------------------------------------------------------- */
 
-/* Sets the coloring of points. The scale that --camera-from has read belongs to another coloring, so it is
- * discarded. */
+/* Sets the coloring of points. If --camera-from has read the scale of another coloring, the scale is discarded. */
 static bool parse_point_color(const view_option *option, const char *text, view *v, octreel_error *error)
 {
     v->point_scale.given = false;
@@ -301,11 +301,12 @@ const json_member view_derived_members[] = {
 
 #define MOST_PIXELS NUMBER_DIGITS(VIEW_MAX_SIDE)
 
-/* Sets the member of recording.json: its name, its codec, and the offset of its value in `view`. */
+/* Sets the fields of an option's member in recording.json: its name, its codec, and the offset of its value in
+ * `view`. */
 #define MEMBER(text, how, field) .member.name = text, .member.codec = how, .member.offset = offsetof(view, field)
 
-/* Makes the member nullable: null is written until the user sets the option. `flag` is the bool of the view that is
- * then true. */
+/* Makes an option's member in recording.json nullable. The member is null until the user sets the option. `flag` is
+ * the bool of `view` that says whether the option was set. */
 #define UNSET_UNTIL(flag) .member.nullable = true, .member.given = offsetof(view, flag)
 
 static const view_option rows[] = {
@@ -375,7 +376,8 @@ static const view_option rows[] = {
      MEMBER("region", &json_box, filter.region), UNSET_UNTIL(filter.by_region)},
     {"labels", NULL, NULL, "write paths such as 0/3/7 on nodes that have room for them", parse_switch,
      MEMBER("labels", &json_bool, labels), .standard = "off", .noun = "rule for labels"},
-    /* Up to --lod 4, frames of 100,000 points look the same, because the boxes left out are only specks. */
+    /* Up to --lod 4, frames of 100,000 points look the same as without --lod, because the boxes that are left out
+     * are only specks. */
     {"lod", "PX", "pixels from 0 to " MOST_PIXELS,
      "leave out boxes smaller than PX pixels if an ancestor's box is drawn (default 2; 0: draw all)", parse_numbers,
      MEMBER("lod", &json_number, lod), .standard = "2", .member.max = VIEW_MAX_SIDE, .noun = "level of detail"},
