@@ -20,7 +20,7 @@ static const struct {
 
 enum { FORMATS = sizeof rows / sizeof rows[0] };
 
-/* Returns the format that recognises the contents, or null. */
+/* Returns the format that recognises the contents of a file, or null if no format does. */
 static const cloud_format *recognise_format(cloud_file *file)
 {
     for (int i = 0; i < FORMATS; i++)

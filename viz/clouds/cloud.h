@@ -42,8 +42,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* One row for each format, in the order in which the formats are tried: its identifier, its names for people, and the
- * endings of its files' names. A file that no row recognises is read as text.
+/* One row for each format: its identifier, its names for people, and the endings of file names. The formats are tried
+ * in the order of the rows. A file that no format recognises is read as text.
  *
  * To add a format NAME, add a row here; a file cloud_NAME.c that defines `const cloud_format cloud_NAME` (see
  * cloud_format.h); its test tests/viz/clouds/test_cloud_NAME.c; and a word in viz/formats/session.txt.
@@ -61,21 +61,27 @@
 #define CLOUD_ENDINGS_ROW(id, names, endings) endings
 #define CLOUD_ENDINGS ".xyz.xyzrgb.xyzn.txt.csv.pts" CLOUD_FORMAT_MAP(CLOUD_ENDINGS_ROW)
 
-#define CLOUD_COLUMN_NOTE 256 /* the size of the text, in bytes */
+#define CLOUD_COLUMN_NOTE 256 /* the size of cloud.column_note, in bytes */
 
 typedef struct cloud {
-    double (*positions)[3]; /* `count` rows of x, y and z, in the file's order and units; all finite; owned */
-    size_t count;           /* the number of points; at least 1 after a successful read */
-    size_t skipped;         /* the number of points in the file that are not in `positions` */
-    /* Why points were skipped: "without finite coordinates", or "marked as withheld" (deleted, in LAS). Null if no
-     * point was skipped. Static storage. */
+    /* `count` rows of x, y and z, in the order and the units of the file; all numbers are finite; owned */
+    double (*positions)[3];
+    size_t count;   /* the number of points; at least 1 after a file was read */
+    size_t skipped; /* the number of points that the file contains but `positions` does not */
+    /* The reason for which points were skipped: "without finite coordinates" or, in LAS, "marked as withheld"
+     * (deleted). Null if no point was skipped. Not owned: the text has static storage. */
     const char *why_skipped;
-    size_t *rows; /* the row of each point in the file, counting skipped rows; null if no row was skipped; owned */
-    point_values values; /* colours, intensities and classes, found by cloud_row_number(); owned */
-    unsigned color_full; /* the full scale of colour channels in the file: 1, 255 or 65535; 0: no colours */
-    char column_note[CLOUD_COLUMN_NOTE]; /* a sentence about ignored values, or about columns without names; "": none */
-    size_t out_of_range[POINT_VALUE_KINDS]; /* for each kind of value, how many were out of range and dropped */
-    char note[672];                         /* a sentence about unexpected data after the last point; "": none */
+    /* for each point, its row in the file, where skipped rows count, too; null if no row was skipped; owned */
+    size_t *rows;
+    point_values values; /* colours, intensities and classes, by the numbers that cloud_row_number() returns; owned */
+    /* the full scale of colour channels in the file: 1, 255 or 65535; 0: the file has no colours */
+    unsigned color_full;
+    /* a sentence about values that were ignored, or about columns without names; "" if there is nothing to report */
+    char column_note[CLOUD_COLUMN_NOTE];
+    /* for each kind of value, the number of values that were out of range and therefore discarded */
+    size_t out_of_range[POINT_VALUE_KINDS];
+    /* a sentence about unexpected data after the last point; "" if there is none */
+    char note[672];
 } cloud;
 
 /* Returns the row of a point in its file. Rows are counted from 0 and include skipped rows. */
@@ -84,29 +90,33 @@ size_t cloud_row_number(const cloud *c, size_t index);
 /* Callbacks that report the progress of a long read. First the bytes of the file are loaded, then the points are
  * parsed. */
 typedef struct cloud_watch {
-    void (*read)(uint64_t done, uint64_t total, void *context); /* after each block; total 0: unknown; may be null */
-    void (*step)(double part, void *context);                   /* after every 65536 points: the parsed share, 0 to 1 */
+    /* called after each loaded block of the file; `total` is 0 if the size is unknown; may be null */
+    void (*read)(uint64_t done, uint64_t total, void *context);
+    /* called after every 65536 points with the parsed share of the file, from 0 to 1; may be null */
+    void (*step)(double part, void *context);
     void *context;
 } cloud_watch;
 
-/* Reads a regular file into *out. The path "-" reads standard input. `watch` may be null. On failure returns false,
- * sets *error and empties *out. A file without points is a failure. Cost: O(size) time. Memory: 1 MB plus at most 12
- * bytes for each byte of the file, including the file itself; 800 for each byte of a compressed PCD file, which
- * expands at most 88 times; 22000 for each byte of a LAZ file, which may hold at most 256 points for each byte. */
+/* Reads a regular file into *out. The path "-" is standard input. `watch` may be null. On failure returns false,
+ * sets *error and empties *out. A file without points is an error. Cost: O(size) time. Memory: 1 MB, and for each
+ * byte of the file at most 12 bytes, which include the file itself. A compressed PCD file expands at most 88 times
+ * and takes at most 800 bytes for each byte. A LAZ file may hold at most 256 points for each byte and takes at most
+ * 22000 bytes for each byte. */
 bool cloud_read(const char *path, const cloud_watch *watch, cloud *out, octreel_error *error);
 
-/* Parses a file in memory. `name` is the name of the file; errors contain it, and its ending may decide the format. */
+/* Parses the contents of a file in memory. `name` is the name of the file. Errors contain the name, and its ending
+ * may decide the format. */
 bool cloud_parse(const char *name, const unsigned char *bytes, size_t size, cloud *out, octreel_error *error);
 
 /* Returns whether this build can read LAZ and COPC. */
 bool cloud_can_read_laz(void);
 
-/* Returns whether a file that begins with these bytes is a point cloud: the bytes contain the header of a format, or
- * they are text whose first line is a point. */
+/* Returns whether a file is a point cloud, by its first bytes. The bytes must contain the header of a format, or
+ * they must be text whose first line is a point. */
 bool cloud_is_recognised(const unsigned char *bytes, size_t size);
 
-/* Describes the counts in cloud.out_of_range: "2 colours beyond 0 to 65535 are left out", or "" if all counts are 0.
- * Returns `text`. */
+/* Prints the counts in cloud.out_of_range into `text`, such as "2 colours beyond 0 to 65535 are left out". If all
+ * counts are 0, prints "". Returns `text`. */
 #define CLOUD_OUT_OF_RANGE_TEXT 200
 const char *cloud_describe_out_of_range(const size_t count[POINT_VALUE_KINDS], char text[CLOUD_OUT_OF_RANGE_TEXT]);
 

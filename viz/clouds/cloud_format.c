@@ -12,8 +12,8 @@
 
 /* ---- Result and errors -------------------------------------------------------------------------------------- */
 
-/* Stores the row of the next point. Called only after the first skipped point: until then, row and index of a point
- * are equal. */
+/* Stores the row of the next point. This function is called only after a point was skipped. Before that, the row of
+ * each point is equal to its index. */
 static bool add_row(cloud_file *file)
 {
     cloud *points = file->out;
@@ -32,7 +32,7 @@ void cloud_count_skipped(const cloud_file *file, const char *why)
     file->out->why_skipped = why;
 }
 
-/* Stores the values of a row. For skipped rows before it, stores missing values. */
+/* Stores the values of the point in a row. The rows of skipped points before it get missing values. */
 static bool add_values(cloud_file *file, size_t row, const double *numbers)
 {
     point_values *values = &file->out->values;
@@ -114,8 +114,9 @@ bool cloud_turn_error_into_note(const cloud_file *file)
 
 /* ---- Lines and words ---------------------------------------------------------------------------------------- */
 
-/* Returns the character that ends lines. It is \r only if \r without \n ends the first line. Other files have lines
- * that end with \n or \r\n: binary data after a header's last \r may begin with \n. */
+/* Returns the character that ends the lines of a file. It is \r only if the first line ends with \r and no \n
+ * follows. All other files have lines that end with \n or \r\n. The first line decides, because \n may also be the
+ * first byte of binary data after a header. */
 static char find_terminator(const char *at, const char *limit)
 {
     while (at < limit && *at != '\n' && *at != '\r')
@@ -254,7 +255,7 @@ void cloud_note_trailing_lines(cloud_file *file)
 uint64_t cloud_read_bits(unsigned size, bool big_endian, const unsigned char *bytes)
 {
     uint64_t bits = 0;
-    if (size == 4 && !big_endian) /* the most frequent case: compilers turn it into one load */
+    if (size == 4 && !big_endian) /* the most frequent case comes first: compilers turn it into one load */
         return bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 | (uint32_t)bytes[3] << 24;
     for (unsigned i = 0; i < size; i++)
         bits = bits << 8 | bytes[big_endian ? i : size - 1 - i];
@@ -272,7 +273,7 @@ double cloud_read_scalar(cloud_scalar type, bool big_endian, const unsigned char
         memcpy(&narrow, &low, sizeof narrow);
         memcpy(&wide, &bits, sizeof wide);
         return type.size == 8 ? wide : (double)narrow;
-    case CLOUD_SIGNED: /* two's complement: the sign bit counts as minus its unsigned value */
+    case CLOUD_SIGNED: /* in two's complement, the sign bit stands for minus its value in an unsigned integer */
         return bits & sign ? -(double)(sign - (bits & (sign - 1))) : (double)bits;
     case CLOUD_UNSIGNED:
         break;

@@ -26,22 +26,22 @@ enum {
     AT_LENGTH = 105,
     AT_COUNT = 107,
     AT_FACTORS = 131,      /* the scales of x, y and z, then their offsets */
-    AT_WAVEFORMS = 227,    /* the start of waveforms; since version 1.3 */
-    AT_RECORDS = 235,      /* the start of extended variable length records; since version 1.4 */
-    AT_RECORD_COUNT = 243, /* the number of extended records; since version 1.4 */
-    AT_WIDE_COUNT = 247,   /* since version 1.4: the number of points as 64 bits */
+    AT_WAVEFORMS = 227,    /* the file offset of waveform data; in the header since version 1.3 */
+    AT_RECORDS = 235,      /* the file offset of extended variable length records; in the header since version 1.4 */
+    AT_RECORD_COUNT = 243, /* the number of extended variable length records; in the header since version 1.4 */
+    AT_WIDE_COUNT = 247,   /* the number of points as a 64-bit integer; in the header since version 1.4 */
 };
 
 /* The size of the header in bytes, by minor version. */
 static const unsigned header_sizes[] = {227, 227, 227, 235, 375, 393};
 enum { VERSIONS = sizeof header_sizes / sizeof header_sizes[0] };
 
-/* The minimal size of a record in bytes, by point format. Records of a file may be larger. X, Y and Z have the same
- * position in all point formats. */
+/* The minimal size of a record in bytes, by point format. A file may have larger records. The offsets of X, Y and Z
+ * in a record are the same in all point formats. */
 static const unsigned record_sizes[] = {20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
 enum {
     FORMATS = sizeof record_sizes / sizeof record_sizes[0],
-    COMPRESSED = 0xc0, /* the bits of the point format that LAZ sets */
+    COMPRESSED = 0xc0, /* the bits of the point format that mark compressed records (LAZ) */
 };
 
 const unsigned las_colors_at[FORMATS] = {[2] = 20, [3] = 28, [5] = 28, [7] = 30, [8] = 30, [10] = 30};
@@ -105,13 +105,13 @@ static bool read_format(las_reader *reader)
         return cloud_fail_byte(file, AT_LENGTH,
                                "points of %" PRIu64 " bytes are announced, but those of format %u have at least %u",
                                reader->length, reader->format, record_sizes[reader->format]);
-    if (reader->minor > 0) /* in LAS 1.0 the class is the whole byte; later versions have flags in it */
+    if (reader->minor > 0) /* in LAS 1.0 the class is the whole byte; since LAS 1.1 some bits of this byte are flags */
         reader->withheld = reader->format < 6 ? 0x80 : 0x04;
     return true;
 }
 
-/* Read the number of points. Since LAS 1.4 the header has two such counts, and one of them may be 0. If the counts
- * contradict each other, the file is refused: the specification and common readers disagree on which count is right. */
+/* Read the number of points. Since LAS 1.4 the header has two counts of points, and one of them may be 0. If both
+ * are set and differ, the file is refused: the specification and common readers disagree on which count is right. */
 static bool read_count(las_reader *reader)
 {
     const uint64_t narrow = read_unsigned(reader, AT_COUNT, 4);
@@ -140,8 +140,8 @@ static bool read_scales_and_offsets(las_reader *reader)
 
 /* ---- Place of the points ------------------------------------------------------------------------------------ */
 
-/* LAS 1.0 has two signature bytes before the points. Some writers store the position of these bytes as the position
- * of the points. Skip the bytes in such a file. */
+/* In LAS 1.0 two signature bytes precede the points. The header should hold the offset of the points, but some
+ * writers store the offset of the signature. In such a file, skip the signature. */
 static void skip_signature(las_reader *reader, uint64_t left)
 {
     static const unsigned char start[] = {0xdd, 0xcc};
@@ -170,8 +170,8 @@ static bool find_points(las_reader *reader)
                            reader->count, reader->length, left);
 }
 
-/* Lower *next to the start of a part of the file that follows the points. The header stores the start at offset
- * `at`, as 0 if the part is missing. */
+/* A part of the file may follow the points. The header holds the start of this part at offset `at`; 0 means that the
+ * part is missing. If the start is lower than *next, set *next to it. */
 static bool lower_to_part_start(const las_reader *reader, size_t at, const char *what, uint64_t *next)
 {
     const uint64_t end = reader->first + reader->count * reader->length, start = read_unsigned(reader, at, 8);
@@ -187,7 +187,7 @@ static bool lower_to_part_start(const las_reader *reader, size_t at, const char 
     return true;
 }
 
-/* Add a note if the points are followed by data other than waveforms and extended variable length records. */
+/* Add a note if unknown data follow the points. Waveforms and extended variable length records may follow. */
 static bool check_bytes_after_points(const las_reader *reader)
 {
     static const bool has_waveforms[FORMATS] = {[4] = true, [5] = true, [9] = true, [10] = true};
@@ -217,7 +217,7 @@ static void read_values(const las_reader *reader, const unsigned char *record, d
                                                 : record[LAS_AT_FLAGS] & 0x1f;
 }
 
-/* Add the point of a record. `at` is the byte offset of the record in the file, for errors. */
+/* Add the point in a record. `at` is the byte offset of the record in the file and is used for errors. */
 static bool add_record(const las_reader *reader, const unsigned char *record, size_t at)
 {
     static const cloud_scalar integer = {CLOUD_SIGNED, 4};
@@ -242,9 +242,9 @@ static bool add_decompressed_record(void *context, const unsigned char *record)
     return add_record(reader, record, (size_t)reader->first);
 }
 
-/* Read compressed points. The decompressor finds them itself. Refuse a count of points that no file of this size can
- * hold. The limit leaves room for extreme files: ten million equal points take 68 kB, which is 147 points for each
- * byte. */
+/* Read compressed points. The decompressor itself finds them in the file. Refuse a number of points that no file of
+ * this size can hold. The limit leaves room for extreme files: ten million equal points take 68 kB, which is 147
+ * points for each byte. */
 static bool read_compressed(las_reader *reader)
 {
     enum { MOST_A_BYTE = 256 };

@@ -49,7 +49,8 @@ typedef struct decompression {
     uint64_t count;
 } decompression;
 
-/* Writes why point i cannot be decompressed. The reason contains the first line of the library's message. */
+/* Writes to `why` the reason why point i cannot be decompressed. The reason contains the first line of the message
+ * of liblaszip. */
 static bool write_failure_reason(const decompression *u, FILE *why, laszip_POINTER laszip, uint64_t i)
 {
     laszip_CHAR *message = NULL;
@@ -81,8 +82,8 @@ static bool decompress(void *context, FILE *records, FILE *why)
     return true;
 }
 
-/* Returns the limit of the child's processor time in seconds. It has a wide margin: liblaszip decompresses over a
- * million points a second. */
+/* Returns the limit of the child's processor time in seconds. The limit has a wide margin: liblaszip decompresses
+ * more than a million points a second. */
 static unsigned find_time_limit(uint64_t count)
 {
     enum { LEAST = 20, POINTS_A_SECOND = 50000, MOST = 1000000 };

@@ -6,12 +6,12 @@
 
 #include "laz_child.h"
 
-/* The byte offset of the colour (three 16-bit channels) in a record, by point format; 0: no colour. Defined in
- * cloud_las.c. */
+/* For each point format, the byte offset of the colour in a record. The colour has three 16-bit channels. Offset 0:
+ * the records have no colour. Defined in cloud_las.c. */
 extern const unsigned las_colors_at[];
 
-/* Passes each record of a compressed file to `add`. If the data is damaged, returns false and sets the error. If
- * `add` returns false, returns false. liblaszip opens files by name, so the bytes are copied to a temporary file. */
+/* Passes each record of a compressed file to `add`. Returns false with an error if the data is damaged. Also returns
+ * false if `add` does. The bytes of the file are copied to a temporary file, because liblaszip opens files by name. */
 bool laz_read_records(const cloud_file *file, unsigned format, uint64_t count, laz_record_reader *add, void *context);
 
 #endif

@@ -15,27 +15,28 @@
 
 enum {
     MAX_FIELDS = 1024,
-    LZF_RATIO = 88, /* the highest compression of LZF: its longest match expands 3 bytes to 264 */
+    LZF_RATIO = 88, /* the highest compression ratio of LZF: 3 bytes encode a match of at most 264 bytes */
 };
 
 typedef enum pcd_encoding { PCD_ASCII, PCD_BINARY, PCD_COMPRESSED } pcd_encoding;
 
 typedef struct pcd_field {
     cloud_scalar type;
-    uint64_t count; /* the number of values of the field in each point */
+    uint64_t count; /* the number of values that each point has in this field */
     cloud_span name;
-    int channel;             /* the cloud_channel of the name; -1: the field is ignored */
-    uint64_t column, offset; /* the numbers of values and of bytes before the field in a point */
+    int channel;             /* the cloud_channel that the field's name stands for; -1: the field is ignored */
+    uint64_t column, offset; /* the number of values, and the number of bytes, that precede the field in a point */
 } pcd_field;
 
 typedef struct pcd_reader {
     cloud_file *file;
-    unsigned seen; /* bit i: the line of keyword i was read */
+    unsigned seen; /* bit i is set after the header line of keyword i was read */
     size_t field_count;
-    pcd_field fields[MAX_FIELDS]; /* after the header was read: the fields to read, at most one for each channel */
+    /* the fields of the header; later only the fields to read, at most one for each channel */
+    pcd_field fields[MAX_FIELDS];
     uint64_t width, height, points;
     pcd_encoding encoding;
-    uint64_t columns, stride; /* the numbers of values and of bytes in a point */
+    uint64_t columns, stride; /* the number of values, and the number of bytes, of a point */
 } pcd_reader;
 
 /* ---- Header lines ------------------------------------------------------------------------------------------- */
@@ -140,14 +141,17 @@ typedef enum pcd_key {
     KEYS
 } pcd_key;
 
-/* A kind of header line. At most one of `read`, `set` and `number` is given. If none is given, the line is skipped. */
+/* A kind of header line. At most one of the members `read`, `set` and `number` is used. If none is used, the line is
+ * skipped. */
 typedef struct pcd_keyword {
     const char *name;
     bool required;
     bool (*read)(pcd_reader *reader, cloud_span rest);
-    bool (*set)(pcd_field *field, cloud_span word); /* for a line with one word for each field */
-    const char *reason;                             /* the error if `set` returns false */
-    size_t number;                                  /* for a line with one integer: its offset in pcd_reader */
+    /* for a line with one word for each field: sets a field from its word */
+    bool (*set)(pcd_field *field, cloud_span word);
+    const char *reason; /* the error if `set` returns false */
+    /* for a line with one integer: the offset, in pcd_reader, of the member that stores the integer */
+    size_t number;
 } pcd_keyword;
 
 static const pcd_keyword keywords[KEYS] = {
@@ -206,8 +210,8 @@ static bool is_pcd(cloud_file *file)
 
 /* ---- Whole header ------------------------------------------------------------------------------------------- */
 
-/* Find the number of points: WIDTH times HEIGHT, or POINTS. If the header has both, they must agree. A missing
- * HEIGHT is 1. */
+/* Find the number of points: WIDTH times HEIGHT, or POINTS. If the header has both, the two numbers must be equal.
+ * If HEIGHT is missing, it counts as 1. */
 static bool find_point_count(pcd_reader *reader)
 {
     if (!has_read_keyword(reader, KEY_WIDTH) && !has_read_keyword(reader, KEY_POINTS))
@@ -225,9 +229,9 @@ static bool find_point_count(pcd_reader *reader)
     return true;
 }
 
-/* Compute the offset of each field in a point, and list the fields to read. A coordinate must be a single number;
- * other fields with several numbers are ignored. A packed colour has four bytes, which many files declare as a
- * float. Other colours that are declared as floats are assumed to range from 0 to 1. */
+/* Compute the offset of each field in a point, and list the fields to read. A coordinate must have a single number.
+ * Any other field with several numbers is ignored. A packed colour has four bytes, although many files declare it as
+ * a float. Other colours that are declared as floats are assumed to range from 0 to 1. */
 static bool set_field_offsets(pcd_reader *reader)
 {
     size_t kept = 0;
@@ -318,8 +322,8 @@ static bool read_ascii_points(pcd_reader *reader, size_t offset)
 
 /* ---- Binary data -------------------------------------------------------------------------------------------- */
 
-/* Add the points of binary data. Packed data are stored point by point. Decompressed data are stored field by field:
- * all values of the first field, then all of the second, and so on. */
+/* Add the points of binary data. Packed data hold one point after another. Decompressed data hold one field after
+ * another: all values of the first field, then all values of the second, and so on. */
 static bool add_points(const pcd_reader *reader, const unsigned char *bytes)
 {
     const bool packed = reader->encoding == PCD_BINARY;

@@ -6,15 +6,15 @@
 
 enum {
     MAX_ELEMENTS = 64,
-    MAX_PROPERTIES = 1024, /* the most properties of all elements together */
+    MAX_PROPERTIES = 1024, /* the largest number of properties of all elements together */
 };
 
 typedef enum ply_encoding { PLY_NO_ENCODING, PLY_ASCII, PLY_LITTLE_ENDIAN, PLY_BIG_ENDIAN } ply_encoding;
 
 typedef struct ply_property {
-    cloud_scalar type;   /* the type of the value or, in a list, of each item */
-    cloud_scalar length; /* the type of a list's length; if the property is not a list, its size is 0 */
-    int channel;         /* the cloud_channel of a vertex's property; -1: none */
+    cloud_scalar type;   /* the type of the property's value; if the property is a list, the type of each item */
+    cloud_scalar length; /* if the property is a list, the type of its length; else the size of this type is 0 */
+    int channel;         /* the cloud_channel that the property of a vertex stands for; -1: no channel */
 } ply_property;
 
 typedef struct ply_element {
@@ -25,16 +25,16 @@ typedef struct ply_element {
 
 typedef struct ply_reader {
     cloud_file *file;
-    size_t offset; /* the offset of the next byte of binary data */
+    size_t offset; /* the offset of the next byte to read in binary data */
     ply_encoding encoding;
     ply_element elements[MAX_ELEMENTS];
     size_t element_count;
     ply_property properties[MAX_PROPERTIES];
     size_t property_count;
-    const ply_element *vertex; /* the element that holds the points; null: not declared yet */
-    unsigned full_color;       /* the full scale of colours: 1 for floats, 255 for integers */
-    bool has_all_points;       /* all points were read, so an error in the data after them is only a note */
-    bool is_truncated;         /* the file ends too early */
+    const ply_element *vertex; /* the element "vertex", which holds the points; null until the header declares it */
+    unsigned full_color;       /* the assumed full scale of colours: 1 if they are floats, 255 if they are integers */
+    bool has_all_points;       /* true: all points were read, so an error after the points becomes a note */
+    bool is_truncated;         /* true: the file ends too early */
 } ply_reader;
 
 static bool is_ply(cloud_file *file)
@@ -55,7 +55,7 @@ static bool find_type(cloud_span word, cloud_scalar *scalar)
                                          {CLOUD_SIGNED, 4}, {CLOUD_UNSIGNED, 4}, {CLOUD_FLOAT, 4},  {CLOUD_FLOAT, 8}};
     const int found = cloud_find_word_in_list(word, names);
     if (found >= 0)
-        *scalar = types[found / 2]; /* each type has two names in the list */
+        *scalar = types[found / 2]; /* the list has two names for each type */
     return found >= 0;
 }
 
@@ -108,8 +108,8 @@ static bool read_type(ply_reader *reader, cloud_span *rest, ply_property *proper
     return find_type(word, &property->type) || cloud_fail_at_word(reader->file, word, "is not a PLY type");
 }
 
-/* Assign a channel to a property of the vertices. A coordinate must be a single number and must occur once. If another
- * property is a list or is repeated, it is ignored. */
+/* Set the channel of a vertex property. A coordinate must be a single number and must occur only once. Any other
+ * property that is a list or occurs twice is ignored. */
 static bool set_channel(ply_reader *reader, ply_property *property, cloud_span name)
 {
     const bool list = property->length.size > 0;
@@ -162,7 +162,7 @@ static bool read_header_line(ply_reader *reader, cloud_span keyword, cloud_span 
     }
 }
 
-/* Check that the header as a whole has all required parts. */
+/* Check that the header has all required parts. */
 static bool check_header(const ply_reader *reader)
 {
     if (reader->encoding == PLY_NO_ENCODING)
@@ -275,7 +275,8 @@ static bool read_binary_row(ply_reader *reader, const ply_element *element, uint
 
 /* ---- Elements ----------------------------------------------------------------------------------------------- */
 
-/* If all points were read, turn an error into a note. A truncated file stays an error, even if no point is missing. */
+/* The reader found an error. If all points were read, turn the error into a note. But a truncated file remains an
+ * error, even if no point is missing. */
 static bool turn_damage_into_note(const ply_reader *reader)
 {
     return reader->has_all_points && !reader->is_truncated && cloud_turn_error_into_note(reader->file);
@@ -318,7 +319,8 @@ static bool parse_ply(cloud_file *file)
     reader.offset = (size_t)(file->lines.at - (const char *)file->bytes);
     for (size_t i = 0; i < reader.element_count; i++)
         if (!read_rows(&reader, &reader.elements[i]))
-            return turn_damage_into_note(&reader); /* after an error, a binary file cannot be read further */
+            /* after an error, the next element of a binary file cannot be found */
+            return turn_damage_into_note(&reader);
     if (ascii)
         cloud_note_trailing_lines(file);
     else

@@ -19,23 +19,25 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The two possible ranges of colour channels, as bits: integers from 0 to 255, and fractions from 0 to 1. */
+/* The two ranges that colour channels can have, as bits: integers from 0 to 255, and fractions from 0 to 1. */
 enum { BYTES = 1, FRACTIONS = 2 };
 
-/* The columns of a file from the fourth on, and the state of a guess of their meaning. */
+/* The columns of a file after the coordinates, and the state of guessing what they mean. */
 typedef struct text_columns {
     struct {
-        size_t column; /* the index of the column, counted from 0 at the fourth column; ascending */
+        size_t column; /* the index of the column; index 0 is the fourth column of the file */
         cloud_channel channel;
-    } places[CLOUD_CHANNELS]; /* the columns that have a channel, in ascending order */
+    } places[CLOUD_CHANNELS]; /* the columns that have a channel, in ascending order of their indices */
     size_t place_count;
-    bool counted;     /* a line with the number of points was read */
-    bool unnamed;     /* the file has more than three columns and no column names */
-    bool guessed;     /* the channels are guessed; the members below describe the lines that were read so far */
-    int ranges;       /* the ranges that all colour channels were within */
-    int shifted;      /* the ranges that the column before the colour was always within */
-    bool no_normals;  /* at least one colour is not a vector of length 1 */
-    double brightest; /* the largest channel of all colours */
+    bool counted; /* true: a line with the number of points was read */
+    bool unnamed; /* true: the file has more than three columns but no column names */
+    /* true: the channels are guessed; then the members below are about the lines that were read so far */
+    bool guessed;
+    int ranges;  /* the ranges that contain all colour channels of all lines */
+    int shifted; /* the ranges that contain, in all lines, the column before the colour */
+    /* true: at least one colour, taken as a vector, does not have length 1, so the columns are not normals */
+    bool no_normals;
+    double brightest; /* the largest value of all colour channels */
 } text_columns;
 
 static const char *skip_blanks(cloud_span line)
@@ -57,8 +59,8 @@ static bool is_separator(char c)
     return c == ',' || c == ';';
 }
 
-/* Removes the first column from a line of column names, or from a line that an error quotes. A column ends at a
- * blank, a comma or a semicolon. */
+/* Removes the first column from a line and stores it in *column. The line consists of column names, or an error
+ * quotes it. A column ends at a blank, a comma or a semicolon. */
 static bool read_next_column(cloud_span *line, cloud_span *column)
 {
     while (line->begin < line->limit && (cloud_is_blank(*line->begin) || is_separator(*line->begin)))
@@ -79,7 +81,7 @@ static cloud_span strip_quotes(cloud_span column)
     return column;
 }
 
-/* Returns whether a column is a name: it does not begin like a number. */
+/* Returns whether a column is a name. A column is a name if it does not begin like a number. */
 static bool is_column_name(cloud_span column)
 {
     const char *end;
@@ -87,7 +89,7 @@ static bool is_column_name(cloud_span column)
     return !number_like && !number_parse_nonfinite(column.begin, column.limit, &end);
 }
 
-/* Returns whether a line consists of three or more names. */
+/* Returns whether a line consists of at least three column names. */
 static bool is_column_header(cloud_span line)
 {
     cloud_span column;
@@ -110,9 +112,9 @@ static void add_column(text_columns *columns, size_t column, cloud_channel chann
     columns->places[columns->place_count++].channel = channel;
 }
 
-/* Reads the column names. Names such as "id,x,y,z" are refused, because the first three columns must be the
- * coordinates. A unit, as in "x [m], y [m]", belongs to the name before it. `full` is that of
- * cloud_complete_channels(). */
+/* Reads the line of column names. The first three columns must be x, y and z, so names such as "id,x,y,z" are
+ * refused. A unit, as in "x [m], y [m]", is part of the name before it. `full` is the assumed full scale of colours
+ * for cloud_complete_channels(). */
 static bool read_column_names(cloud_file *file, cloud_span line, unsigned full, text_columns *columns)
 {
     cloud_span column;
@@ -142,8 +144,8 @@ static cloud_span strip_comment(cloud_span line)
     return (cloud_span){line.begin, rest.begin};
 }
 
-/* Removes the first column from a line without a comment. A column ends at `separator`; a separator of ' ' stands for
- * any blank. Returns false if no column is left. */
+/* Removes the first column from a line and stores it in *field. The line has no comment. A column ends at
+ * `separator`; the separator ' ' stands for any blank. Returns false if the line has no column left. */
 static bool read_next_field(cloud_span *line, char separator, cloud_span *field)
 {
     field->begin = line->begin = skip_blanks(*line);
@@ -157,7 +159,7 @@ static bool read_next_field(cloud_span *line, char separator, cloud_span *field)
     return found;
 }
 
-/* Returns the separator of a line: a comma or semicolon if one follows its first column, otherwise ' ' for blanks. */
+/* Returns the separator of a line. It is the comma or semicolon that follows the first column, or ' ' if blanks do. */
 static char find_separator(cloud_span line)
 {
     while (line.begin < line.limit && !cloud_is_blank(*line.begin) && !is_separator(*line.begin))
@@ -166,8 +168,9 @@ static char find_separator(cloud_span line)
     return line.begin < line.limit && is_separator(*line.begin) ? *line.begin : ' ';
 }
 
-/* Parses the coordinates of a point and removes them and the comment from the line. All separators must be the same.
- * Otherwise decimal commas, as in "1,5;2,5;3,5" or "1,5 2,5 3,5", would be read as other points. */
+/* Parses the coordinates of a point. Removes the coordinates, and a comment, from the line. All separators of the
+ * line must be the same. Otherwise decimal commas, as in "1,5;2,5;3,5" or "1,5 2,5 3,5", would be read as other
+ * points. */
 static bool parse_position(const cloud_file *file, cloud_span *line, char *separator, double position[3])
 {
     static const char mixed[] = "mixes blanks, commas and semicolons between its columns";
@@ -200,8 +203,8 @@ static double parse_field(cloud_span field)
     return number_parse(field.begin, field.limit, &end, &number) && end == field.limit ? number : NAN;
 }
 
-/* Parses the columns after the coordinates, up to the last one that has a channel. Missing columns become NaN. Returns
- * the number of parsed columns, and one more if others follow. */
+/* Parses the columns after the coordinates, up to the last column that has a channel. A missing column becomes NaN.
+ * Returns the number of parsed columns. If further columns follow, returns one more. */
 static size_t parse_values(cloud_span line, char separator, const text_columns *columns, double numbers[CLOUD_CHANNELS])
 {
     cloud_span field;
@@ -216,12 +219,15 @@ static size_t parse_values(cloud_span line, char separator, const text_columns *
 
 /* ---- Columns without names ---------------------------------------------------------------------------------- */
 
-/* Finds the meaning of further columns from the first line of numbers, and whether it is declared or guessed. */
+/* Finds the meaning of the columns after the coordinates. The input is the first line of numbers. Also finds whether
+ * this meaning is declared by the file or guessed. */
 static void find_columns(cloud_file *file, cloud_span rest, char separator, text_columns *columns)
 {
     static const struct {
-        const char *ending; /* null: any; the meaning is guessed */
-        bool counted;       /* it is declared only after the number of points; colours are integers from 0 to 255 */
+        /* the ending of the file's name for which this row holds; null: any ending, and the meaning is guessed */
+        const char *ending;
+        /* true: the row holds only after a line with the number of points; then colours are integers from 0 to 255 */
+        bool counted;
         size_t count;
         const char *names;
     } rows[] = {
@@ -262,7 +268,8 @@ static void discard_guessed_columns(cloud_file *file, text_columns *columns)
     columns->guessed = false;
 }
 
-/* Compares the guess with the numbers of a line. If the numbers contradict the guess, discards it. */
+/* Compares the guessed meaning of the columns with the numbers of a line. If the numbers contradict the guess,
+ * discards the guess. */
 static void check_guessed_columns(cloud_file *file, text_columns *columns, size_t count, const double *numbers)
 {
     double square = 0;
@@ -277,9 +284,10 @@ static void check_guessed_columns(cloud_file *file, text_columns *columns, size_
         discard_guessed_columns(file, columns);
 }
 
-/* Decides after the last line whether the columns are colours. Some channel must be bright. If the channels are
- * fractions, not all colours may have length 1, as normals do. If there are four columns, the first must have a
- * number outside the range of colour channels; otherwise the first three could be the colour. */
+/* Decides after the last line whether the guessed columns are colours. At least one channel must be bright. If the
+ * channels are fractions, at least one colour must not have length 1, because normals have length 1. If there are
+ * four columns, the first must have a number outside the range of colour channels; otherwise the first three columns
+ * could be the colour. */
 static void settle_guessed_columns(cloud_file *file, text_columns *columns)
 {
     const int range = columns->ranges & BYTES ? BYTES : FRACTIONS;
@@ -313,7 +321,8 @@ static void begin_reading_lines(cloud_file *file)
         file->lines.at += 3;
 }
 
-/* Returns whether a line is a single integer. A .pts file begins with such a line: the number of its points. */
+/* Returns whether a line is a single integer. The first line of a .pts file is such an integer: the number of
+ * points. */
 static bool is_point_count(cloud_span line, uint64_t *count)
 {
     cloud_span field;
@@ -343,7 +352,8 @@ bool cloud_text_is_recognised(cloud_file *file)
     return false;
 }
 
-/* Reads a line that contains a point. The values of a skipped point are not read and do not affect the guess. */
+/* Reads a line that contains a point. If the point is skipped, its values are not read and do not affect the guess
+ * of the columns. */
 static bool parse_point(cloud_file *file, cloud_span line, bool named, text_columns *columns)
 {
     double numbers[CLOUD_CHANNELS];
@@ -377,14 +387,15 @@ static bool is_comment_with_column_names(cloud_span *line)
     return is_column_header(names);
 }
 
-/* Reads all lines. The first point may follow a comment with column names, and then a line that has either column
- * names or the number of points. More points than this number are read; fewer points are an error. */
+/* Reads all lines. Before the first point there may be a comment with column names, then a line with either column
+ * names or the number of points. If more points follow than this number, all of them are read. If fewer points
+ * follow, this is an error. */
 static bool parse_lines(cloud_file *file, text_columns *columns)
 {
     cloud_span line;
     bool named = false, has_header = false;
     uint64_t count = 0, points = 0;
-    size_t count_line = 0; /* the number of the line that announces the count of points; 0: no such line */
+    size_t count_line = 0; /* the line number of the line that holds the number of points; 0: no such line */
     begin_reading_lines(file);
     while (cloud_read_next_line(file, &line)) {
         cloud_report_progress(file, file->lines.number, (uint64_t)(file->lines.at - (const char *)file->bytes),

@@ -63,7 +63,7 @@ bool cloud_parse_channel(const cloud_file *file, cloud_span word, int channel, d
 
 enum { UNIT = 1, BYTE = 255, WORD = 65535 };
 
-/* Adds a word to the note on ignored values. The padding of PCD files, which is named _, is no value. */
+/* Adds a value's name to the note on ignored values. The name "_" is not added: it marks padding in PCD files. */
 static void note_ignored(const cloud_file *file, cloud_span word)
 {
     char quote[CLOUD_QUOTE], *note = file->out->column_note;
@@ -89,7 +89,8 @@ bool cloud_add_channel(cloud_file *file, int channel, cloud_span name)
     return added;
 }
 
-/* A colour needs all three channels; otherwise its channels are ignored. A packed colour beside them is ignored. */
+/* If a file lacks one of the three colour channels, the other two are ignored. If a file has all three, a packed
+ * colour is ignored. */
 void cloud_complete_channels(cloud_file *file, unsigned full)
 {
     const unsigned three = file->channels & CLOUD_COLOR;
@@ -107,7 +108,7 @@ void cloud_discard_values(cloud_file *file)
     point_values_release(&file->out->values);
 }
 
-/* Raises the full scale of colours after a channel exceeded it. All earlier channels were within the old scale, so
+/* Raises the full scale of colours after a channel exceeded it. All channels before were within the old scale, so
  * their 8-bit values can be rescaled. From 1 to 255: the old maximum, 1, becomes 1 of 255. From 255 to 65535: every
  * old value, at most 255, is less than one 8-bit step and becomes 0. */
 static void raise_full_scale(cloud *points)
@@ -156,8 +157,8 @@ static bool has_channel(const cloud_file *file, cloud_channel channel)
     return file->channels >> channel & 1;
 }
 
-/* Counts a value that is out of range, unless `valid`. NaN and infinity are not counted, because many files mark
- * missing values by them. Returns `valid`. */
+/* Returns `valid`. If a value is not valid, counts it as out of range. NaN and infinity are not counted, because
+ * many files mark missing values with them. */
 static bool count_if_out_of_range(const cloud_file *file, point_value_kind kind, bool valid, const double *numbers,
                                   size_t count)
 {

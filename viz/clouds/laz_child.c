@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* laz_child.c - starts a child process that writes records to a pipe, and the reason of a failure to a temporary file,
- * and reads both in the parent. */
+/* laz_child.c - starts a child process and reads its output. The child writes records to a pipe. If it fails, it
+ * writes the reason to a temporary file. */
 #include "laz_child.h"
 
 #include <errno.h>
@@ -13,8 +13,8 @@
 
 /* ---- The child ---------------------------------------------------------------------------------------------- */
 
-/* Runs in the child process and exits. A crash must not print anything and must not dump core, so signals, core size
- * and standard error are reset first. */
+/* Runs in the child process and never returns. If the child crashes, it must not print anything and must not dump
+ * core. Signal handlers, the limit of core files and standard error are therefore reset first. */
 static _Noreturn void run_child(const laz_child *child, const int pipe_ends[2], FILE *why)
 {
     static const int ends[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGPIPE, SIGXCPU};
@@ -25,7 +25,7 @@ static _Noreturn void run_child(const laz_child *child, const int pipe_ends[2], 
     const int nowhere = open("/dev/null", O_WRONLY);
     if (nowhere >= 0)
         dup2(nowhere, STDERR_FILENO);
-    close(pipe_ends[0]); /* so that the child gets SIGPIPE when the parent stops reading */
+    close(pipe_ends[0]); /* the child closes its read end, so that it gets SIGPIPE when the parent stops reading */
     FILE *records = fdopen(pipe_ends[1], "wb");
     const bool done = records && child->produce(child->context, records, why) && fflush(records) == 0;
     fflush(why);
@@ -34,8 +34,8 @@ static _Noreturn void run_child(const laz_child *child, const int pipe_ends[2], 
 
 /* ---- The parent --------------------------------------------------------------------------------------------- */
 
-/* Passes records to `add`. Returns false if `add` returns false or if too few records arrive; in the second case
- * *too_few is true. */
+/* Passes records from the pipe to `add`. Returns false if `add` returns false or if fewer than `count` records
+ * arrive. If too few arrive, sets *too_few to true. */
 static bool pass_records(const cloud_file *file, FILE *records, uint64_t count, laz_record_reader *add, void *context,
                          bool *too_few)
 {
@@ -49,7 +49,8 @@ static bool pass_records(const cloud_file *file, FILE *records, uint64_t count, 
     return true;
 }
 
-/* Sets the error for a child that wrote too few records, from its exit status and the reason that it wrote. */
+/* The child wrote too few records. Sets the error from the child's exit status and from the reason that the child
+ * wrote. */
 static bool fail_with_too_few_records(const laz_child *child, const cloud_file *file, FILE *why, int status)
 {
     char text[256];
@@ -73,7 +74,7 @@ bool laz_child_read_records(const laz_child *child, const cloud_file *file, uint
     bool too_few = false;
     FILE *why = tmpfile();
     if (!why)
-        why = fopen("/dev/null", "r+b"); /* where files cannot be made, a failure has no reason */
+        why = fopen("/dev/null", "r+b"); /* if no temporary file can be made, the error of a failure has no reason */
     if (!why || pipe(pipe_ends) != 0) {
         cloud_fail(file, "cannot create a temporary file and a pipe for decompression: %s", strerror(errno));
         if (why)

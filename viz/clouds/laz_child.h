@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* laz_child.h - runs a decompressor in a child process. If the decompressor crashes, hangs or returns too little,
- * this process is not harmed. Private to cloud*.c. */
+ * the parent process survives and reports an error. Private to cloud*.c. */
 #ifndef CLOUDS_LAZ_CHILD_H
 #define CLOUDS_LAZ_CHILD_H
 
@@ -8,16 +8,17 @@
 
 #include <stdio.h>
 
-/* Byte offsets in a LAS record, the same in all point formats. The coordinates come first. Since point format 6 the
- * class has its own byte; before, it is the lowest five bits of the flags. Only the first LAS_RECORD_READ bytes of a
- * record are read. */
+/* Byte offsets in a LAS record. They are the same in all point formats. The coordinates come first. Since point
+ * format 6 the class has a byte of its own; before, the class is the lowest five bits of the flags. Only the first
+ * LAS_RECORD_READ bytes of a record are read. */
 enum { LAS_AT_INTENSITY = 12, LAS_AT_FLAGS = 15, LAS_AT_CLASS = 16, LAS_RECORD_READ = 36 };
 
-/* Receives the first LAS_RECORD_READ bytes of an uncompressed record. Returns false to stop. */
+/* A callback that receives the first LAS_RECORD_READ bytes of an uncompressed record. Returns false to stop the
+ * reading. */
 typedef bool laz_record_reader(void *context, const unsigned char *record);
 
-/* Runs in the child process. Writes LAS_RECORD_READ bytes for each record to `records`. On failure writes one line
- * to `why` and returns false. */
+/* A callback that runs in the child process. It writes LAS_RECORD_READ bytes for each record to `records`. On
+ * failure it writes one line to `why` and returns false. */
 typedef bool laz_produce(void *context, FILE *records, FILE *why);
 
 typedef struct laz_child {
@@ -27,7 +28,7 @@ typedef struct laz_child {
 } laz_child;
 
 /* Starts the child, passes `count` records to `add`, and waits until the child ends. Returns false with an error if
- * fewer records arrive. Also returns false if `add` does. */
+ * fewer records arrive. Also returns false if `add` returns false. */
 bool laz_child_read_records(const laz_child *child, const cloud_file *file, uint64_t count, laz_record_reader *add,
                             void *context);
 

@@ -29,7 +29,7 @@ static octree_box find_bounds(const void *positions, size_t stride, size_t count
     return box;
 }
 
-/* Returns half of the extent along an axis. The result is right even if the extent itself overflows. */
+/* Returns half of the extent of a box along an axis. The result is right even if the whole extent overflows. */
 static double find_half_extent(const octree_box *bounds, int axis)
 {
     const double extent = bounds->max[axis] - bounds->min[axis];
@@ -53,7 +53,7 @@ octree_box find_point_world(const void *positions, size_t stride, size_t count)
     octree_box box = find_bounds(positions, stride, count);
     const double half = find_half_side(&box);
     for (int i = 0; i < 3; i++) {
-        /* The slack is not negative, and rounding is monotone. Rounding can therefore not move a face of the cube
+        /* The slack is never negative, and rounding is monotone. Therefore rounding never moves a face of the cube
          * inward past a point. */
         const double slack = fmax(half - find_half_extent(&box, i), 0);
         box.min[i] = fmax(box.min[i] - slack, -DBL_MAX);
