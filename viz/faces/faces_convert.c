@@ -13,8 +13,8 @@
 
 enum { MOST_FACES = 16, MOST_WIDTH = 16, MOST_HEIGHT = 32, MOST_BYTES = 1 << 20, PSF2_HEADER = 32 };
 
-/* The bytes of a font file, and the place of its glyphs in them. Each row of a glyph is a whole number of bytes; the
- * highest bit is the leftmost pixel. */
+/* The bytes of a font file, and the offset of its glyphs in the file. Each row of a glyph takes a whole number of
+ * bytes. The highest bit of a row's first byte is the leftmost pixel. */
 typedef struct font {
     unsigned char bytes[MOST_BYTES];
     unsigned size, at, count, each, width, height;
@@ -55,8 +55,8 @@ static void read_header(font *f, const char *path)
     }
 }
 
-/* Replaces letters of 12 x 24 that differ between releases of Spleen by our own drawings: release 2.2 moved them to the
- * left. */
+/* Replaces some letters of 12 x 24 pixels by our own drawings. Release 2.2 of the font Spleen moved these letters to
+ * the left, so they differ between releases. */
 static void replace_letters(font *f)
 {
     static const struct {
@@ -70,12 +70,13 @@ static void replace_letters(font *f)
         memcpy(f->bytes + f->at + own[i].letter * f->each, own[i].rows, sizeof own[i].rows);
 }
 
-/* Stops if a face of Spleen has other letters than all frames. */
+/* Stops the program if the font is Spleen and its letters differ from the letters of earlier frames. With other
+ * letters, the pixels of all frames would change. */
 static void check_letters(const font *f, const char *path)
 {
     static const struct {
         unsigned width, height;
-        unsigned long digest; /* the CRC-32 of the letters' rows */
+        unsigned long digest; /* the CRC-32 of the rows of the letters */
     } faces[] = {
         {5, 8, 0x9a1c850}, {6, 12, 0xd90cbb7}, {8, 16, 0x15c4e5c3}, {12, 24, 0xd3b4d4a5}, {16, 32, 0x80deb6f3}};
     const unsigned long digest = crc32(0, f->bytes + f->at + GLYPH_FIRST * f->each, GLYPH_COUNT * f->each);
@@ -114,7 +115,8 @@ static bitmap find_glyph(const font *f, unsigned letter)
     return b;
 }
 
-/* Returns the number of consecutive set pixels from (x, y) to the right, at most `most`. */
+/* Returns the number of successive set pixels that begin at (x, y) and go to the right. The result is at most
+ * `most`. */
 static int find_run_length(const bitmap *b, int x, int y, int most)
 {
     int run = 0;
@@ -152,8 +154,8 @@ static glyph_part remove_largest_rectangle(bitmap *b)
     return best;
 }
 
-/* A face: the size of its glyph cells, and for each glyph the index of its first rectangle. The last entry of `first`
- * is the number of rectangles. */
+/* A face: the size of its glyph cells in pixels, and for each glyph the index of its first rectangle. The last entry
+ * of `first` is the number of all rectangles. */
 typedef struct face {
     unsigned width, height, first[GLYPH_COUNT + 1];
 } face;
