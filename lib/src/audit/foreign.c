@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* foreign.c - checks that foreign nodes form a forest. Keeps a copy of the current nodes, with their depths, kinds and
- * point counts.
- */
+/* foreign.c - checks that the nodes of a foreign index form a forest. It keeps a copy of the current nodes with
+ * their depths, kinds and point counts. */
 #include "foreign.h"
 #include "../exact/float_mode.h"
 #include "octree/digest.h"
@@ -17,7 +16,7 @@ const char *octree_node_visit_name(octree_node_visit visit)
 }
 
 #define DEPTH_UNKNOWN UINT_MAX
-#define DEPTH_ON_PATH (UINT_MAX - 1) /* a depth not known yet: find_depths() is on its way through the node */
+#define DEPTH_ON_PATH (UINT_MAX - 1) /* not known yet: find_depths() is on its way through the node */
 
 /* ---- Checks ------------------------------------------------------------------------------------------------- */
 
@@ -94,8 +93,9 @@ static octree_status list_node_places(arena *memory, const octree_foreign_tree *
     return OCTREE_OK;
 }
 
-/* Find the depths of a node and of its ancestors. The function walks up to an ancestor whose depth is known, marks the
- * nodes on the way, then walks back down. If it reaches a marked node on the way up, this node is its own ancestor. */
+/* Find the depths of a node and of its ancestors. The function walks up to an ancestor whose depth is known and
+ * marks the nodes on the way. Then it walks back down and sets the depths. If the walk up reaches a marked node,
+ * this node is its own ancestor, which is an error. */
 static octree_status find_depths(arena *memory, octree_foreign_place *places, size_t from, list *path)
 {
     size_t at = from;
@@ -116,8 +116,8 @@ static octree_status find_depths(arena *memory, octree_foreign_place *places, si
     return OCTREE_OK;
 }
 
-/* List the places of the nodes, and the nodes' keys sorted by id. Errors, and the wrong node in *fault, are those of
- * octree_foreign_check(). */
+/* Make a list of the nodes' places, and a list of the nodes' keys sorted by id. Return the error of
+ * octree_foreign_check(), and set *fault to the wrong node. */
 static octree_status index_nodes(arena *memory, const octree_foreign_tree *tree, list *places, list *keys,
                                  size_t *fault)
 {
@@ -194,8 +194,8 @@ static uint64_t digest_foreign_node(uint64_t digest, const octree_foreign_node *
     return octree_digest_word(digest, (uint64_t)node->precision);
 }
 
-/* Store in place->kind the index of the node's kind in the list of kinds. A new kind is added to the list while there
- * is room; further kinds share the last index. False when there is no memory. */
+/* Set place->kind to the index of the node's kind in the list of kinds. A new kind is appended to the list. If the
+ * list is full, further kinds share its last index. False when there is no memory. */
 static bool find_node_kind(foreign *f, octree_foreign_place *place)
 {
     const char(*kinds)[OCTREE_NODE_KIND] = f->kinds.items;
@@ -214,8 +214,8 @@ static bool find_node_kind(foreign *f, octree_foreign_place *place)
     return true;
 }
 
-/* Add the points of all descendants to each node's count. The walk starts at each leaf. It continues with a node's
- * parent after the last child of the parent is done. */
+/* Add to each node's count the points of all its descendants. The walk starts at each leaf and goes up. It continues
+ * with the parent of a node only after all children of the parent are done. */
 static void sum_points_below(foreign *f)
 {
     octree_foreign_place *places = f->places.items;

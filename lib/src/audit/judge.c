@@ -25,12 +25,12 @@ typedef struct judge_state {
     judge *judge;
     const judged_query *about;
     octree_judgement *made;
-    octree_answer asked; /* the query's members; they are rounded to floats if the foreign index promises floats */
+    octree_answer asked; /* the members of the query; they are rounded to floats if the foreign index promises floats */
     bool rounds;
     metric metric;
     list *collected; /* the list to which a search appends the points that it finds */
     size_t boundary; /* the number of points on the region's boundary that a search found */
-    bool failed;     /* true: there was no memory */
+    bool failed;     /* true: the memory ran out */
 } judge_state;
 
 static bool finds_neighbors(const judge_state *s)
@@ -40,7 +40,8 @@ static bool finds_neighbors(const judge_state *s)
 
 /* ---- Positions ---------------------------------------------------------------------------------------------- */
 
-/* Start judging a query. *s must not move in memory after this, because its judged points point to its target. */
+/* Begin to judge a query. After this call, *s must not move in memory, because its judged points point to its
+ * target. */
 static void begin_judging(judge_state *s, judge *j, const judged_query *about, octree_judgement *made)
 {
     const octree *tree = about->points->tree;
@@ -80,8 +81,8 @@ static int compare_ids(const void *a, const void *b)
     return (p->point.id > q->point.id) - (p->point.id < q->point.id);
 }
 
-/* Compare the real distances of two points to the target. Squares in doubles decide if they differ by more than their
- * error. */
+/* Compare the exact distances of two points to the target. The squared distances in doubles decide if they differ by
+ * more than their rounding error; else exact arithmetic decides. */
 static int compare_distances(const judged_point *a, const judged_point *b)
 {
     if (a->square > metric_above(b->square))
@@ -99,8 +100,8 @@ static int compare_ranks(const void *a, const void *b)
 
 /* ---- The foreign answer ------------------------------------------------------------------------------------- */
 
-/* Record how the answer is wrong, unless a kind with a lower value is recorded already. `id` is used only for the kinds
- * that name an id. */
+/* Record how the answer is wrong. If a kind with a lower value is already recorded, that kind is kept. `id` is used
+ * only for the kinds that name an id. */
 static void record_wrong(judge_state *s, octree_wrong_kind wrong, uint64_t id)
 {
     octree_judgement *made = s->made;
@@ -110,7 +111,8 @@ static void record_wrong(judge_state *s, octree_wrong_kind wrong, uint64_t id)
     made->wrong_id = wrong <= OCTREE_WRONG_SKIPPED ? id : 0;
 }
 
-/* Remove repeated points from the foreign answer, which is sorted by id, and record that it has them. */
+/* The foreign answer is sorted by id. Remove repeated points from it. If there were any, record that the answer has
+ * duplicates. */
 static void remove_duplicates(judge_state *s, list *points)
 {
     judged_point *items = points->items;
@@ -124,7 +126,7 @@ static void remove_duplicates(judge_state *s, list *points)
     points->count = kept;
 }
 
-/* List the points of the foreign answer, sorted by id, each once. Points that the query skips are left out. */
+/* List the points of the foreign answer, sorted by id, without duplicates. Points that the query skips are left out. */
 static void list_foreign_answer(judge_state *s)
 {
     judge *j = s->judge;
@@ -149,7 +151,8 @@ static void list_foreign_answer(judge_state *s)
 
 /* ---- The exact answer --------------------------------------------------------------------------------------- */
 
-/* List the exact answer for positions as they are. The game has asked the tree for it already. */
+/* List the exact answer for exact positions. The tree has already answered the query for the game, so no search is
+ * needed. */
 static void list_exact_answer(judge_state *s)
 {
     const judged_query *about = s->about;
@@ -160,7 +163,7 @@ static void list_exact_answer(judge_state *s)
     }
 }
 
-/* The greatest distance by which rounding to floats moves a point of the world along one axis. */
+/* The largest distance, along one axis, by which rounding to floats moves a point of the world. */
 static double largest_rounding(const octree *tree)
 {
     double largest = 0;
@@ -181,8 +184,8 @@ static bool collect_judged_point(const octree_point *point, void *context)
     return !s->failed;
 }
 
-/* Collect the points in a ball around the target. The search is valid, so it can fail only for lack of memory, which
- * sets s->failed. */
+/* Collect the points in a ball around the target. The arguments of the search are valid, so only a lack of memory
+ * can make it fail. This sets s->failed. */
 static void collect_ball(judge_state *s, double radius, double slack)
 {
     static const octree_box all = {{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}};
@@ -194,7 +197,8 @@ static void collect_ball(judge_state *s, double radius, double slack)
         octree_range(tree, &all, collect_judged_point, s);
 }
 
-/* Search larger and larger balls until the k-th neighbour found is nearer than every point outside the ball. */
+/* Search larger and larger balls. Stop when the k-th neighbour in the ball is nearer than every point outside the
+ * ball. */
 static void collect_nearest(judge_state *s, double slack)
 {
     const octree_answer *answer = s->about->answer;
@@ -218,15 +222,15 @@ static void collect_nearest(judge_state *s, double slack)
     exact->count = exact->count < k ? exact->count : k;
 }
 
-/* An upper bound of how far rounding moves any point of the world. Rounding moves a point in space by up to sqrt(3)
- * times the largest rounding along one axis. */
+/* An upper bound of the distance by which rounding moves any point of the world. In space this distance is at most
+ * sqrt(3) times the largest rounding along one axis. */
 static double rounding_slack(const judge_state *s)
 {
     return s->rounds ? 2 * largest_rounding(s->about->points->tree) : 0;
 }
 
-/* Visit the points that may be in the region once their positions are rounded as the foreign index rounds them. The box
- * is valid, so the search cannot fail. */
+/* Visit all points that may lie in the region after the foreign index rounds their positions. The searched box is
+ * valid, so the search cannot fail. */
 static void search_region(judge_state *s, octree_point_visitor visit)
 {
     const octree_box bound = query_rules_of(s->asked.kind)->bound(&s->asked, rounding_slack(s));
@@ -260,8 +264,8 @@ static void list_wrong_point(judge_state *s, const judged_point *p, size_t *coun
     ++*count;
 }
 
-/* Whether an answer is right with the point and without it. If `slack` is above 0, it is so for points within this
- * distance of the region that are not in the exact answer. */
+/* Whether the answer is right with or without a point. If `slack` is above 0, this holds for each point that is not
+ * in the exact answer but within the distance `slack` of the region. */
 static bool is_optional(const judge_state *s, const judged_point *p, double slack)
 {
     return (slack > 0 && query_rules_of(s->asked.kind)->compare(&s->asked, p->at, slack) <= 0) ||
@@ -277,8 +281,8 @@ static bool count_boundary_point(const octree_point *point, void *context)
     return true;
 }
 
-/* Find the bounds with which the wrong points, which all lie on the boundary, are right. If the boundary has more
- * points, the answer contains only a part of them. */
+/* All wrong points lie on the boundary of the region. Find the bounds of the query with which these points are
+ * right. If the boundary has other points, too, the answer contains only a part of the boundary. */
 static void find_accepting_bounds(judge_state *s)
 {
     octree_judgement *made = s->made;
@@ -290,8 +294,8 @@ static void find_accepting_bounds(judge_state *s)
                                                                                         : OCTREE_BOUNDS_CLOSED;
 }
 
-/* List as wrong the points of `from` that are not in `without`, unless they are optional. Both lists are sorted by id.
- * `wrong` is the kind of such points, MISSING or EXTRA. */
+/* List the points of `from` that are not in `without` as wrong, except optional points. Both lists are sorted by id.
+ * `wrong` is the kind of the listed points: MISSING or EXTRA. */
 static void judge_difference(judge_state *s, octree_wrong_kind wrong, const list *from, const list *without,
                              double slack, size_t *count)
 {
@@ -322,12 +326,13 @@ static void judge_region(judge_state *s)
 
 /* ---- Neighbours --------------------------------------------------------------------------------------------- */
 
-/* Whether point a is farther than epsilon allows. The exact neighbour b of the same rank is nearer than a. */
+/* Whether point `a` is too far from the target for the rank it has in the answer. Point `b` is the exact neighbour of
+ * this rank and is nearer than `a`. Point `a` may be farther than `b` only by the factor 1 + epsilon. */
 static bool is_too_far(const judge_state *s, const judged_point *a, const judged_point *b)
 {
     if (!(s->asked.epsilon > 0) || same_position(b->at, s->asked.target))
         return true;
-    /* the rounding error of the factor is within the band of metric_above() */
+    /* metric_above() leaves room for the rounding error of this factor */
     const double factor = 1 + s->asked.epsilon;
     return a->square > metric_above(factor * factor * (b->square + 0x1p-999));
 }
@@ -349,9 +354,9 @@ static void judge_ranks(judge_state *s, const judged_point *foreign, const judge
         record_wrong(s, OCTREE_WRONG_FARTHER, 0);
 }
 
-/* List the missing and the extra points of a wrong answer. Every right answer contains all points that are nearer than
- * the last exact neighbour. It fills the remaining places with points at the distance of this neighbour. It contains no
- * farther point. */
+/* List the missing and the extra points of a wrong answer for neighbours. A right answer contains all points that
+ * are nearer than the last exact neighbour. Its other points are as far as the last exact neighbour. It contains no
+ * point that is farther. */
 static void list_wrong_neighbors(judge_state *s)
 {
     const judge *j = s->judge;
@@ -390,8 +395,8 @@ static void judge_neighbors(judge_state *s, size_t given)
 
 /* ---- An answer ---------------------------------------------------------------------------------------------- */
 
-/* Compare the foreign answer with the exact one, unless one of the lists is incomplete. `given` is the number of ids in
- * the foreign answer. */
+/* Compare the foreign answer with the exact answer. If one of the two lists is incomplete, do nothing. `given` is
+ * the number of ids in the foreign answer. */
 static void compare_lists(judge_state *s, size_t given)
 {
     if (!s->failed && finds_neighbors(s))
@@ -425,8 +430,8 @@ static void remove_lost_points(list *l, point_test *is_lost, void *context)
     l->count = kept;
 }
 
-/* List all points that a right answer may contain, in place of the foreign answer: the points within epsilon of the
- * last exact neighbour. */
+/* Replace the foreign answer by all points that a right answer may contain: the points that are at most epsilon
+ * farther than the last exact neighbour. */
 static void list_possible_neighbors(judge_state *s)
 {
     const list *exact = &s->judge->exact;
@@ -439,8 +444,8 @@ static void list_possible_neighbors(judge_state *s)
                  s->rounds ? rounding_slack(s) : 0x1p-1000);
 }
 
-/* Make the best answer that has none of the lost points: the nearest other points, or all other points of the
- * region. */
+/* Replace the foreign answer by the best answer that contains no lost points. For neighbours this is the nearest
+ * other points; for a region it is all other points in the region. */
 static void list_best_answer(judge_state *s, point_test *is_lost, void *context)
 {
     list *foreign = &s->judge->foreign;
@@ -470,7 +475,7 @@ bool judge_without_lost_points(judge *j, const judged_query *about, point_test *
         return !s.failed;
     list_best_answer(&s, is_lost, context);
     compare_lists(&s, j->foreign.count);
-    /* report only lost points: the best answer contains all others that a right answer needs */
+    /* only lost points can be missing here: the best answer contains all other points that a right answer needs */
     const octree_point *missed = j->wrong.items;
     for (size_t i = 0; !s.failed && made.wrong && i < made.missing_count; i++)
         s.failed = !report(&missed[listed + i], context);
@@ -484,7 +489,7 @@ void judge_assign_lists(const judge *j, octree_answer *answers, size_t count)
 {
     const uint64_t *given = j->given.items;
     const octree_point *wrong = j->wrong.items;
-    size_t ids = 0, points = 0; /* the numbers of ids and points in the answers before this one */
+    size_t ids = 0, points = 0; /* the number of ids, and the number of points, in the answers before this one */
     for (size_t i = 0; i < count; i++) {
         octree_judgement *made = &answers[i].judgement;
         made->given = made->given_count ? given + ids : NULL;

@@ -51,8 +51,8 @@ static octree_foreign_place *foreign_places(const foreign *f)
     return f->places.items;
 }
 
-/* Count a wrong node, and list it while there is room. `place` is the index of the node; SIZE_MAX if the report is
- * about no existing node. False when there is no memory. */
+/* Count a wrong node. While the list has room, also add the node to the list. `place` is the index of the node;
+ * SIZE_MAX if the report is about a node that does not exist. False when there is no memory. */
 static bool report_wrong_node(foreign *f, size_t place, octree_wrong_node wrong)
 {
     f->state.wrong[wrong.kind]++;
@@ -84,8 +84,8 @@ bool foreign_node_contains(const octree_foreign_node *node, const double positio
     return box_contains(&box, rounded);
 }
 
-/* Whether a child's box lies in its parent's box. The boxes are compared as floats if one of the two nodes has the
- * precision FLOATS. */
+/* Whether the box of a child lies in the box of its parent. If the child or the parent has the precision FLOATS, the
+ * boxes are compared as floats. */
 static bool is_within_parent(const octree_foreign_node *child, const octree_foreign_node *parent)
 {
     octree_box inner = child->box, outer = parent->box;
@@ -108,7 +108,7 @@ static bool check_boxes_in_parents(foreign *f)
     return ok;
 }
 
-/* Check the points that a node lists. False when there is no memory. */
+/* Check the points that a node lists, and report the wrong ones. False when there is no memory. */
 static bool check_listed_points(foreign *f, const audited_points *points, size_t place)
 {
     const octree_foreign_node *node = foreign_places(f)[place].node;
@@ -136,8 +136,8 @@ static int compare_by_place(const void *a, const void *b)
     return p->place != q->place ? (p->place > q->place) - (p->place < q->place) : (p->id > q->id) - (p->id < q->id);
 }
 
-/* Report the points that a node lists more than once, sorted by node and then by point. f->holdings is sorted
- * already. */
+/* Report the points that a node lists more than once. The reports are sorted by node and then by point; f->holdings
+ * is sorted by point. */
 static bool report_repeated_points(foreign *f)
 {
     const foreign_holding *items = f->holdings.items;
@@ -171,8 +171,8 @@ typedef struct holding_search {
     foreign *foreign;
     const audited_points *points;
     const octree_foreign_node *leaf;
-    size_t lost; /* the number of unlisted points that are in no leaf found so far */
-    bool failed; /* true: there was no memory */
+    size_t lost; /* the number of unlisted points for which no leaf was found yet */
+    bool failed; /* true: the memory ran out */
 } holding_search;
 
 static bool is_audited_point(const audited_points *points, uint64_t id)
@@ -191,7 +191,7 @@ static bool collect_unlisted_point(const octree_point *point, void *context)
     return !s->failed;
 }
 
-/* An octree_point_visitor: record that a leaf holds the point, if the point is in the box of the leaf. */
+/* An octree_point_visitor: if the point lies in the box of the leaf, record that the leaf holds the point. */
 static bool mark_held_point(const octree_point *point, void *context)
 {
     holding_search *s = context;
@@ -205,7 +205,7 @@ static bool mark_held_point(const octree_point *point, void *context)
     return s->lost > 0;
 }
 
-/* A box that contains every position that is in the leaf's box after rounding to floats. */
+/* A box that contains every position which, rounded to floats, lies in the box of the leaf. */
 static octree_box enlarged_box(const octree_foreign_node *leaf)
 {
     octree_box box = leaf->box;
@@ -224,7 +224,7 @@ static void mark_points_in_boxes(holding_search *search)
             continue;
         const octree_box box = enlarged_box(places[i].node);
         search->leaf = places[i].node;
-        /* The box is valid, so that the search cannot fail. */
+        /* The box is valid, so the search cannot fail. */
         octree_range(search->points->tree, &box, mark_held_point, search);
     }
 }
@@ -303,7 +303,7 @@ bool foreign_check_nodes(foreign *f, const audited_points *points)
 typedef struct node_query {
     foreign *foreign;
     const audited_points *points;
-    size_t answer; /* the index of the query's answer among those of the tick */
+    size_t answer; /* the index of the query's answer among the answers of the tick */
 } node_query;
 
 static foreign_mark *foreign_marks(const foreign *f)
@@ -324,14 +324,14 @@ static bool record_node_visit(const node_query *q, octree_node_visit visit, uint
     node->visits |= 1u << visit;
     foreign_mark *mark = &foreign_marks(f)[place];
     const bool first = mark->query != f->query;
-    /* a node that the query both pruned and visited does not count as pruned */
+    /* if the query both pruned and visited a node, the node counts as visited */
     if (first || mark->visit == OCTREE_NODE_PRUNED)
         *mark = (foreign_mark){.query = f->query, .visit = visit};
     return list_push(f->memory, &f->visits, &place, sizeof place);
 }
 
-/* The pruned node that excludes the node at `place` from the query; SIZE_MAX if none does. Only the first node that the
- * query names counts, on the way from `place` up to the root. */
+/* On the way from the node at `place` up to the root, find the first node that the query named. If the query pruned
+ * this node, return its index: it excludes the node at `place` from the query. Else return SIZE_MAX. */
 static size_t find_pruned_ancestor(const foreign *f, size_t place)
 {
     while (place != SIZE_MAX && foreign_marks(f)[place].query != f->query)
@@ -339,7 +339,8 @@ static size_t find_pruned_ancestor(const foreign *f, size_t place)
     return place != SIZE_MAX && foreign_marks(f)[place].visit == OCTREE_NODE_PRUNED ? place : SIZE_MAX;
 }
 
-/* The index of the next node that holds a point; SIZE_MAX if there are no more. *at is 0 before the first call. */
+/* The index of the next node that holds a point; SIZE_MAX if no more nodes hold it. *at must be 0 before the first
+ * call. */
 static size_t find_next_holding_leaf(const foreign *f, const octree_point *point, size_t *at)
 {
     const foreign_holding *items = f->holdings.items;
@@ -354,7 +355,7 @@ static size_t find_next_holding_leaf(const foreign *f, const octree_point *point
     return SIZE_MAX;
 }
 
-/* Whether nodes hold the point and the query pruned all of these nodes. */
+/* Whether the query pruned all nodes that hold the point. False if no node holds the point. */
 static bool is_pruned(const octree_point *point, void *context)
 {
     const node_query *q = context;
@@ -367,8 +368,8 @@ static bool is_pruned(const octree_point *point, void *context)
     return holders > 0;
 }
 
-/* Report the pruned nodes that exclude the holders of a lost point. For each query a node is reported once, with the
- * first point lost. */
+/* A point is lost because the query pruned all nodes that hold it. Report these pruned nodes. For each query, a node
+ * is reported only once, with the first point that was lost. */
 static bool report_pruned(const octree_point *point, void *context)
 {
     const node_query *q = context;
