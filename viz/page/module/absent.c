@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* absent.c - replaces functions that need files, because a page has no files. These functions fail with an error. They
+/* absent.c - replaces functions that read files, because a page has no files. The replacements fail with an error. They
  * are linked in place of file_read.c and the cloud readers. */
 #include "cloud.h"
 #include "file.h"

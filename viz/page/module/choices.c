@@ -24,7 +24,7 @@ static void write_color(json_writer *w, theme_role role)
 
 JSON_NAMES(bounds_name, octree_bounds_name, octree_bounds)
 
-/* Write the members of queries of one kind. The member that gives the kind its name comes first. */
+/* Write the members of queries of one kind. The member after which the kind is named comes first. */
 static void write_query_members(json_writer *w, const octree_query_traits *about)
 {
     static const char *const types[] = {[OCTREE_MEMBER_BOX] = "box",

@@ -6,8 +6,8 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-/* Write the values of each view option, the layers with their colours, and the query kinds with their members, as one
- * JSON object. Returns true. */
+/* Write the choices as one JSON object: the possible values of each view option, the layers with their colours, and the
+ * query kinds with their members. Returns true. */
 bool choices_write(FILE *out);
 
 #endif

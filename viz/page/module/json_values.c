@@ -16,8 +16,8 @@ typedef struct value {
     union {
         double number;
         struct {
-            size_t count; /* number of items, members or bytes */
-            void *first;  /* first value of an array, first entry of an object, or text of a string */
+            size_t count; /* number of items of an array, members of an object, or bytes of a string */
+            void *first;  /* first value of an array, first entry of an object, or bytes of a string */
         };
     };
 } value;
@@ -36,18 +36,18 @@ _Static_assert(sizeof(value) == 16 && offsetof(entry, next) == 16 && offsetof(en
 
 #define FROM_PAGE(name) __attribute__((import_module("page"), import_name(name)))
 
-/* Parse a text. If `alone` is true, bytes after its first value are an error. Returns the number of bytes that the
- * value needs in memory, and sets error->position to the end of the value in the text. Returns 0 with the line and the
- * reason in *error if the text is not JSON. */
+/* Parse a JSON text. If `alone` is true, bytes after the first value are an error. Returns the number of bytes of
+ * memory that the value needs, and sets error->position to the end of the value in the text. If the text is not JSON,
+ * returns 0 and sets the line and the reason in *error. */
 FROM_PAGE("parse_json") size_t page_parse_json(const char *text, size_t size, bool alone, json_error_t *error);
 
-/* Write the value that page_parse_json() parsed last to `to`. */
+/* Write the value that page_parse_json() parsed last to the memory at `to`. */
 FROM_PAGE("write_json") void page_write_json(value *to);
 
 /* ---- Functions of jansson ------------------------------------------------------------------------------------ */
 
-/* Unlike jansson's function, this one makes every number a JSON_REAL, and always refuses an object that has the same
- * name twice. */
+/* Unlike jansson's function of this name, this one turns every number into a JSON_REAL, and always refuses an object
+ * that has two members with the same name. */
 json_t *json_loadb(const char *text, size_t size, size_t flags, json_error_t *error)
 {
     const size_t bytes = page_parse_json(text, size, !(flags & JSON_DISABLE_EOF_CHECK), error);
@@ -59,7 +59,7 @@ json_t *json_loadb(const char *text, size_t size, size_t flags, json_error_t *er
     return (json_t *)v;
 }
 
-/* Free a value. It must be a value that json_loadb() returned, not a part of one. */
+/* Free a value. The value must have been returned by json_loadb(); it must not be a part of another value. */
 void json_delete(json_t *json)
 {
     free(json);

@@ -18,8 +18,9 @@ static size_t memory_size(void)
     return (size_t)__builtin_wasm_memory_size(0) * MEMORY_PAGE;
 }
 
-/* Returns the number of bytes, from address 0, that contain the module's state. At first this is the whole memory,
- * because newer versions of wasi-libc use the part behind the static data without calling sbrk(). */
+/* Returns the number of bytes, counted from address 0, that contain the module's state. Before the first call of sbrk()
+ * this is the whole memory, because newer versions of wasi-libc use the memory behind the static data without calling
+ * sbrk(). */
 size_t web_used(void)
 {
     return end ? end : memory_size();

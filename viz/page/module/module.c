@@ -31,9 +31,9 @@
 typedef struct web {
     session_file session;
     playback playback;
-    bool open, drawn;       /* the playback is open; the current tick is drawn */
+    bool open, drawn;       /* true: the playback is open; true: the current tick is drawn */
     bool has_fitted_scale;  /* true: the point scale was fitted to the points, not given in the view */
-    unsigned summed_layers; /* heat layers, as bits of view_layer, whose sums over all ticks are collected */
+    unsigned summed_layers; /* the heat layers whose sums over all ticks are collected, as bits of view_layer */
     char *room, *text;
     size_t room_size, text_size;
     uint32_t *rgba; /* the picture, 4 bytes per pixel: R, G, B, A */
@@ -107,8 +107,8 @@ static void close_game_and_picture(void)
     page.open = page.drawn = page.has_fitted_scale = false;
 }
 
-/* Open a session and play its tick 0. The input buffer holds `session` bytes of a session.json and, behind them,
- * `recording` bytes of a recording.json. A session that is already open is closed. */
+/* Open a session and play its tick 0. The input buffer holds `session` bytes of a session.json, followed by `recording`
+ * bytes of a recording.json. A session that is already open is closed first. */
 bool web_open(size_t session, size_t recording)
 {
     view v;
@@ -128,8 +128,8 @@ bool web_open(size_t session, size_t recording)
     return page.open || report_error_text();
 }
 
-/* Play the next tick. `key` is the player's key press. If it is 0, the tick has the session's own key press, edits and
- * queries. */
+/* Play the next tick. `key` is the player's key press. If `key` is 0, the tick has the key press, edits and queries
+ * that the session has for it. */
 bool web_step(int key)
 {
     const octree_input input = {.key = (char)key};
@@ -147,13 +147,13 @@ double web_tick(void)
     return (double)octree_game_tick(page.playback.game)->number;
 }
 
-/* Returns the number of ticks after tick 0. */
+/* Returns the number of the session's ticks, without tick 0. */
 double web_length(void)
 {
     return (double)octree_session_length(&page.session.session);
 }
 
-/* Returns the minimum corner and then the maximum corner of the world, three doubles each. */
+/* Returns the world of the session as six doubles: the minimum corner, then the maximum corner. */
 const double *web_world(void)
 {
     return page.session.session.tree.world.min;
@@ -165,7 +165,7 @@ static bool write_facts(FILE *out)
     return true;
 }
 
-/* Make web_text() return the current tick's line of ticks.jsonl, without the members about its frame. */
+/* Make web_text() return the line of ticks.jsonl for the current tick, without the members about a frame. */
 bool web_facts(void)
 {
     return set_text(write_facts);
@@ -173,7 +173,7 @@ bool web_facts(void)
 
 /* ---- The picture -------------------------------------------------------------------------------------------- */
 
-/* Fit a view to the points of tick 0. Opening the session does the same. */
+/* Fit a view to the points of tick 0. Opening the session again does the same. */
 static bool fit_to_start(view *v)
 {
     octree_game *start;
@@ -185,8 +185,8 @@ static bool fit_to_start(view *v)
     return fitted;
 }
 
-/* Fit a view. Fitting a point scale is slow, and dragging changes the view at every frame. So a fitted scale is kept
- * while the filter and the colouring stay the same. */
+/* Fit a view. Fitting a point scale is slow, and dragging changes the view at every frame. The fitted scale is
+ * therefore kept as long as the filter and the colouring of points stay the same. */
 static bool fit_view(view *v)
 {
     const view *now = &page.playback.view;
@@ -200,7 +200,7 @@ static bool fit_view(view *v)
     return picture_fit(v, octree_game_tree(page.playback.game), &page.session.values, &page.error);
 }
 
-/* Set the view to that of a recording.json, whose `recording` bytes are in the input buffer. */
+/* Set the view to the view in a recording.json. The input buffer holds `recording` bytes of this file. */
 bool web_view(size_t recording)
 {
     view v, *now = &page.playback.view;
@@ -217,7 +217,7 @@ bool web_view(size_t recording)
     return true;
 }
 
-/* Returns true if the view shows a heat layer whose sums over all ticks were not collected. The page must then open the
+/* Returns true if the view shows a heat layer whose sums were not collected since tick 0. The page must then open the
  * session again with this view. */
 bool web_lacks_sums(void)
 {
@@ -242,8 +242,8 @@ static uint32_t rgba_word(image_color color)
     return word;
 }
 
-/* Convert the pixels of a frame to RGBA. This takes much of a frame's time, so each pixel is written as one 32-bit
- * word, and palette indices are looked up in a table. */
+/* Convert the pixels of a frame to RGBA. This takes a large part of a frame's time. Each pixel is therefore written as
+ * one 32-bit word, and palette indices are looked up in a table. */
 static void color_pixels(const image *frame)
 {
     const size_t pixels = (size_t)frame->width * (size_t)frame->height;
@@ -296,8 +296,8 @@ bool web_digest(void)
     return set_text(write_digest);
 }
 
-/* Write the center of a camera, the pixel at which this center is drawn, and the length of a pixel there in world
- * units. */
+/* Write the center of a camera, the pixel at which this center is drawn, and the length of a pixel at the center in
+ * world units. */
 static void write_center(json_writer *w, const camera *c, const int origin[2])
 {
     json_write_vector_member(w, "center", c->center);
@@ -332,16 +332,16 @@ static bool write_camera(FILE *out)
     return true;
 }
 
-/* Make web_text() return the camera of the drawn picture as JSON. It has the camera's axes, its center, the pixel at
- * which the center is drawn, and the length of a pixel there in world units. A close-up has the same members and its
- * window in the picture. */
+/* Make web_text() return the camera of the drawn picture as JSON: its axes, its center, the pixel at which the center
+ * is drawn, and the length of a pixel at the center in world units. If there is a close-up, its camera has the same
+ * members, and its window in the picture. */
 bool web_camera(void)
 {
     return set_text(write_camera);
 }
 
 /* Project positions in the world onto the drawn picture. The input buffer holds three doubles for each position. They
- * are replaced by two doubles for each position, its pixel; both are NaN if the position is behind the camera. */
+ * are replaced by two doubles for each position: its pixel, or NaN twice if the position is behind the camera. */
 void web_project(size_t count)
 {
     double *numbers = (double *)(void *)page.room;
@@ -388,8 +388,8 @@ bool web_pick(int x, int y, int radius)
     return set_text(write_pick);
 }
 
-/* Answer queries at the current tick. The input buffer holds a session whose header has the queries. The answers are
- * part of web_facts() until the next tick. */
+/* Answer queries at the current tick. The input buffer holds `size` bytes of a session.json whose header has the
+ * queries. Until the next tick, web_facts() includes the answers. */
 bool web_ask(size_t size)
 {
     session_file asked;
@@ -418,7 +418,8 @@ static octree_walk_order find_point(const octree_node *node, void *context)
     return s->found ? OCTREE_WALK_STOP : OCTREE_WALK_ON;
 }
 
-/* Returns the position of the point with this id, three doubles; null if there is no such point. Cost: O(points). */
+/* Returns the position of the point with this id as three doubles, or null if there is no such point. Cost: O(number of
+ * points). */
 const double *web_point(double id)
 {
     point_search s = {.id = (uint64_t)id};

@@ -3,7 +3,7 @@
  * on each line. */
 "use strict";
 
-/* A text as one word of a shell. */
+/* Quote a text so that a shell reads it as one word. */
 const shellWord = text => /^[\w@%+=:,./-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`;
 
 class Selection {
@@ -18,7 +18,8 @@ class Selection {
         this.show();
     }
 
-    /* An unreadable frame cannot become a reference, and accept.txt cannot hold a name with a line break. */
+    /* Whether a frame can be accepted. An unreadable frame cannot become a reference, and accept.txt cannot hold a name
+     * with a line break. */
     isAcceptable(i)
     {
         const {finding, frames} = this.findings.frames[i];
@@ -85,7 +86,7 @@ class Selection {
         setTimeout(() => URL.revokeObjectURL(link.href));
     }
 
-    /* A page opened as a file may have no navigator.clipboard. */
+    /* Copy the text to the clipboard. A page that was opened as a file may have no navigator.clipboard. */
     async copy()
     {
         try {

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* curve.js - a bar for each compared frame: its count of pixels that differ. A click goes to the frame. */
+/* curve.js - a chart with one bar for each compared frame: the number of pixels that differ. A click on a bar goes to
+ * its frame. */
 "use strict";
 
-const BAR_GAP = 3; /* CSS pixels: bars narrower than this touch */
+const BAR_GAP = 3; /* CSS pixels per bar: if there are fewer, the bars touch each other */
 
-/* A bar's share of the height. By the square root, a hundredth of the most is still visible. */
+/* The height of a bar as a fraction of the chart's height. With the square root, a bar of a hundredth of the largest
+ * count is still visible. */
 function barHeight(pixels, most)
 {
     return most > 0 ? Math.sqrt(pixels / most) : 0;
@@ -15,7 +17,7 @@ class Curve {
     {
         this.canvas = figure.querySelector("canvas");
         this.pixels = findings.whole.pixels;
-        this.entries = findings.whole.entries; /* for each frame the index of its finding in the page, or null */
+        this.entries = findings.whole.entries; /* for each frame: the index of its finding in the page, or null */
         this.most = this.pixels.reduce((most, pixels) => Math.max(most, pixels ?? 0), 0);
         this.entry = -1;
         this.canvas.addEventListener("click", event => goTo(this.nearest(event.offsetX)));
@@ -33,7 +35,7 @@ class Curve {
             `${grouped(this.most)}; the first frame that differs is ${shortName(frames[0])}`);
     }
 
-    /* The finding in the page whose frame is nearest to x on the canvas. */
+    /* The index of the finding whose bar is nearest to the coordinate x of the canvas. */
     nearest(x)
     {
         const place = Math.floor(x / this.canvas.clientWidth * this.pixels.length);
@@ -59,7 +61,7 @@ class Curve {
         context.fillRect(0, height - 1, width, 1);
         const step = width / this.pixels.length, wide = Math.max(step > BAR_GAP ? step - 1 : step, 1);
         this.pixels.forEach((pixels, i) => {
-            /* A frame without a count is as tall as the most. */
+            /* A frame without a count of pixels has a bar of full height. */
             const tall = pixels === null ? height : Math.ceil(barHeight(pixels, this.most) * height);
             context.fillStyle = this.entries[i] === this.entry ? text : warm;
             context.fillRect(i * step, height - tall, wide, tall);

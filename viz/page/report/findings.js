@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* findings.js - the findings of a comparison, parsed from the page, and their words. */
+/* findings.js - the findings of a comparison, parsed from the page, and the sentences that describe them. */
 "use strict";
 
 const KINDS = {
@@ -24,7 +24,7 @@ class Findings {
         this.pictures = document.getElementById("pictures").content;
     }
 
-    /* The picture of a frame as an address that holds its data, or null. */
+    /* The data URL of a picture of a frame, or null if the page does not hold the picture. */
     picture(frame, which)
     {
         return this.pictures.querySelector(`[data-frame="${frame}"][data-picture="${which}"]`)?.src ?? null;
@@ -36,19 +36,20 @@ class Findings {
     }
 }
 
-/* The counted differences; if none were counted, as in frames of different sizes, all differences. */
+/* The differences that count as a finding. If none were counted, as in frames of different sizes, all differences. */
 function tallyOf(finding)
 {
     return finding.counted?.pixels > 0 ? finding.counted : finding.unlike ?? {pixels: 0};
 }
 
-/* A finding's name. Its frames have the same difference; the page shows the pictures of the first one. */
+/* The title of a finding. All frames of a finding have the same difference; the page shows the pictures of the first of
+ * these frames. */
 function titleOf(finding)
 {
     return finding.frames.length > 1 ? finding.frames_words : shortName(finding);
 }
 
-/* "tick 41" for frame_000041.png of a recording; other files keep their names. */
+/* The short name of a frame: "tick 41" for frame_000041.png of a recording. Other files keep their names. */
 function shortName(finding)
 {
     const tick = /^frame_(\d+)\.png$/.exec(finding.frame);
@@ -63,16 +64,17 @@ function shortWords(finding)
     return `${grouped(pixels)} ${pixels === 1 ? "pixel" : "pixels"}`;
 }
 
-/* A text with a capital letter, unless it starts with the name of a picture. */
+/* Capitalize a text, unless it starts with the file name of a picture. */
 const capital = text => /^[^;]*\.png /i.test(text) ? text : text.charAt(0).toUpperCase() + text.slice(1);
 
-/* The cause, or the amount of difference if it is unknown; only the part before the first semicolon. */
+/* The headline of a finding: its cause or, if the cause is unknown, the amount of difference. Only the part before the
+ * first semicolon. */
 function headlineOf(finding)
 {
     return capital((finding.cause ?? finding.words).split("; ")[0]);
 }
 
-/* The first frame that differs, and why. */
+/* The headline of the report: the first frame that differs, and the cause if it is known. */
 function headlineOfAll(whole, [first])
 {
     const name = shortName(first);
@@ -80,7 +82,8 @@ function headlineOfAll(whole, [first])
             ...whole.headline ? [whole.headline] : []].join(": ");
 }
 
-/* The rest of the cause, and the difference itself if it is not in pixels. */
+/* The details of a finding: the part of the cause that the headline leaves out, and the difference itself if it is not
+ * in pixels. */
 function detailsOf(finding)
 {
     const [, ...rest] = (finding.cause ?? "").split("; ");
@@ -102,7 +105,7 @@ function forgivenIn(finding)
         .filter(([member]) => finding[member] > 0).map(([member, words]) => `${grouped(finding[member])} ${words}`);
 }
 
-/* The sizes of both pictures; one row if they are equal. */
+/* Rows with the sizes of the two pictures; a single row if the sizes are equal. */
 function sizesOf({reference_size: expected, frame_size: actual})
 {
     const sizes = [["expected", expected], ["actual", actual]].filter(([, size]) => size);
@@ -110,13 +113,13 @@ function sizesOf({reference_size: expected, frame_size: actual})
         sizes.map(([name, size]) => [name, sides(size)]);
 }
 
-/* Round up as all reports do, so that the shown number works as a tolerance. */
+/* The largest difference of a pixel, rounded up as in all reports, so that the shown number works as a tolerance. */
 function shownDelta(delta)
 {
     return (Math.ceil(delta * 1e4) / 1e4).toFixed(4);
 }
 
-/* The names and values that the panel shows. */
+/* The names and values of a finding that the panel shows. */
 function factsOf(finding)
 {
     const tally = tallyOf(finding), facts = [], forgiven = forgivenIn(finding);

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/* report.js - the report page: the current finding, how its pictures are compared, and the facts beside them. The
- * address holds the frame and the mode: #frame=frame_000041.png&mode=blink. */
+/* report.js - the report page: the current finding, the way its pictures are compared, and the facts beside them. The
+ * page's address holds the frame and the mode: #frame=frame_000041.png&mode=blink. */
 "use strict";
 
-const ADDRESS_DELAY = 200; /* ms: browsers refuse an address that changes too often */
-const SWIPE_STEP = 2; /* percent */
+/* Milliseconds between two changes of the page's address: browsers refuse an address that changes too often. */
+const ADDRESS_DELAY = 200;
+const SWIPE_STEP = 2; /* percent of the stage by which a key moves the line between the pictures */
 const ZOOM_STEP = 1.5;
 
-/* Ways to compare: mode, key, name and help text. */
+/* The ways to compare two pictures. Each row has the mode, its key, its name and its help text. */
 const MODES = [
     ["swipe", "s", "swipe", "expected on the left of the line, actual on its right"],
     ["blink", "b", "blink", "expected and actual in turn"],
@@ -95,7 +96,7 @@ class Report {
         this.showFiles(finding);
     }
 
-    /* Links to the picture files beside the page. */
+    /* Show links to the picture files in the folder of the page. */
     showFiles(finding)
     {
         const links = Object.entries(finding.files).map(([word, file]) =>
@@ -122,7 +123,8 @@ class Report {
         byId("nothing").hidden = Object.keys(addresses).length > 0;
         byId("nothing").textContent = this.whyNothing(finding);
         this.showStage();
-        document.body.dataset.frame = finding.frame; /* set once everything is shown: tests wait for it */
+        /* Set after everything is shown: the browser tests wait for this attribute. */
+        document.body.dataset.frame = finding.frame;
     }
 
     whyNothing(finding)
@@ -171,7 +173,8 @@ class Report {
 
 /* ---- Keys and buttons --------------------------------------------------------------------------------------- */
 
-/* For each key: its names in KeyboardEvent, its name in the help, the help text, and the action. */
+/* The keys of the page. Each row has the key's names in KeyboardEvent, its name in the help, its help text, and its
+ * action. */
 const KEYS = [
     [["n", "ArrowRight", "ArrowDown"], "n →", "next difference", report => report.step(1)],
     [["p", "ArrowLeft", "ArrowUp"], "p ←", "previous difference", report => report.step(-1)],
@@ -197,7 +200,7 @@ function actionOf(key)
     return KEYS.find(([names]) => names.includes(key))?.[3];
 }
 
-/* Whether the focused control handles the key itself. */
+/* Whether the focused control handles the pressed key itself. */
 function isHandled(event)
 {
     const control = event.target.closest?.("button, a, input");
@@ -227,7 +230,8 @@ function listen(report)
     byId("handle").addEventListener("keydown", event => swipeByKey(event, report.stage));
     for (const button of document.querySelectorAll("[data-key]"))
         button.addEventListener("click", () => actionOf(button.dataset.key)(report));
-    /* A clicked button gives up the focus, so that the space bar blinks and does not press it again. */
+    /* Take the focus from a clicked button. Otherwise the space bar would press the button again, instead of
+     * blinking. */
     document.addEventListener("click", event => event.detail > 0 && event.target.closest("button")?.blur());
     byId("help-open").addEventListener("click", () => byId("help").showModal());
     addEventListener("hashchange", () => report.readAddress());

@@ -1,16 +1,18 @@
 /* SPDX-License-Identifier: MIT */
-/* stage.js - the pictures of one frame, in panes that lie over each other or side by side and show the same part. */
+/* stage.js - the pictures of one frame, in panes. The panes lie on top of each other or side by side, and all show the
+ * same part of their pictures. */
 "use strict";
 
 const PICTURES = ["expected", "actual", "difference"];
 const LARGEST_SCALE = 64;
-const WORST_ACROSS = 48; /* picture pixels across a pane that is zoomed to the worst pixel */
-const BLINK = 600; /* ms */
-const EDGE = 8; /* between a mark and its content, in CSS pixels */
+/* The width of the shown part, in pixels of the picture, when a pane is zoomed to the worst pixel. */
+const WORST_ACROSS = 48;
+const BLINK = 600; /* ms between two pictures of the blink mode */
+const EDGE = 8; /* CSS pixels by which a mark is larger than the pixels that it marks */
 
 const clamp = (value, least, most) => Math.min(Math.max(value, least), most);
 
-/* The panes of each mode; of panes that overlap the last is on top. */
+/* The panes that each mode shows. If panes overlap, the last one is on top. */
 const PANES = {
     swipe: ["expected", "actual"],
     blink: ["expected", "actual"],
@@ -28,8 +30,9 @@ class Stage {
         this.panes = new Map(PICTURES.map(name => [name, root.querySelector(`[data-picture="${name}"]`)]));
         this.images = new Map();
         this.mode = "swipe";
-        this.swiped = 50; /* percent of the stage that shows expected */
-        this.zoom = null; /* {scale, x, y}: (x, y) of the picture is in the middle; null: the whole picture */
+        this.swiped = 50; /* percent of the stage that shows the expected picture */
+        /* {scale, x, y}: the pixel (x, y) of the picture is in the middle; null: the whole picture is shown. */
+        this.zoom = null;
         this.marked = true;
         this.still = matchMedia("(prefers-reduced-motion: reduce)").matches;
         this.onchange = () => {};
@@ -39,14 +42,15 @@ class Stage {
 
     /* ---- Pictures -------------------------------------------------------------------------------------- */
 
-    /* `addresses` holds a data URL for each picture; `place` the worst pixel and the box around all differences. */
+    /* Show the pictures of a frame. `addresses` holds a data URL for each picture. `place` holds the worst pixel and
+     * the box around all differences. */
     async show(addresses, place)
     {
         const wanted = this.wanted = {};
         const images = new Map(await Promise.all(Object.entries(addresses).map(async ([name, address]) =>
             [name, await this.load(name, address)])));
         if (this.wanted !== wanted)
-            return; /* another frame was requested meanwhile */
+            return; /* another frame was requested during the loading */
         this.images = images;
         this.place = place;
         this.zoom = null;
@@ -65,9 +69,9 @@ class Stage {
         const image = new Image();
         image.alt = name;
         image.draggable = false;
-        image.decoding = "sync"; /* avoids an empty moment before it shows */
+        image.decoding = "sync"; /* decode the image before it is shown, so that the pane is never empty */
         return new Promise(done => {
-            image.onload = image.onerror = () => done(image); /* an undecodable picture stays empty */
+            image.onload = image.onerror = () => done(image); /* a picture that cannot be decoded stays empty */
             image.src = address;
         });
     }
@@ -88,7 +92,8 @@ class Stage {
 
     /* ---- Modes --------------------------------------------------------------------------------------- */
 
-    /* Show a mode. If the frame lacks a picture for it, show one that it has; the next frame uses the mode again. */
+    /* Show the pictures in a mode. If the frame lacks a picture for this mode, another picture is shown instead; the
+     * mode stays for the next frame. */
     look(mode)
     {
         this.mode = mode;
@@ -107,7 +112,7 @@ class Stage {
         this.root.classList.toggle("flipped");
     }
 
-    /* Switch pictures by hand, which ends the automatic blinking. */
+    /* Switch between the pictures by hand. This ends the automatic blinking. */
     flipByHand()
     {
         if (this.seen !== "blink")
@@ -130,7 +135,7 @@ class Stage {
         return this.seen ? PANES[this.seen].map(name => this.panes.get(name)) : [];
     }
 
-    /* The count of columns with which the panes are largest. */
+    /* The number of columns for which the panes are largest. */
     columns()
     {
         if (this.seen !== "side")
@@ -144,7 +149,7 @@ class Stage {
     {
         const pane = this.shown()[0];
         const scale = Math.min(pane.clientWidth / this.width, pane.clientHeight / this.height);
-        return scale > 1 ? Math.floor(scale) : scale; /* small pictures in whole pixels */
+        return scale > 1 ? Math.floor(scale) : scale; /* enlarge small pictures only by whole factors */
     }
 
     scale()
@@ -171,7 +176,7 @@ class Stage {
         this.zoomTo(this.scale() * factor, x, y);
     }
 
-    /* Zoom to the worst pixel; the second time show the whole picture again. */
+    /* Zoom to the worst pixel. If the stage is already zoomed to it, show the whole picture again. */
     zoomToWorst()
     {
         if (!this.place || this.zoom?.worst) {
@@ -238,7 +243,7 @@ class Stage {
             this.root.addEventListener(end, () => this.held = null);
     }
 
-    /* Zoom; the place under the pointer stays there. */
+    /* Zoom with the wheel. The pixel under the pointer stays under the pointer. */
     wheel(event)
     {
         const pane = event.target.closest(".pane");

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* ask.js - the form for a query at the shown tick: the query kinds with their names and members come from the module.
- * */
+/* ask.js - the form that asks a query at the shown tick. The module provides the query kinds with their names and
+ * members. */
 "use strict";
 
-/* The label and the initial value of an input, by the member's name, else by its type. */
+/* The label and the initial value of the input of a query member, by the member's name. A member that is not listed has
+ * its name as the label, and the initial value of its type. */
 const QUERY_INPUTS = {
     k: ["count", "8"],
     radius: ["radius", "100"],
@@ -14,7 +15,7 @@ const QUERY_INPUTS = {
 const INPUT_VALUES = {position: "0,0,0", number: "1", box: "-100,-100,-100,100,100,100"};
 
 class AskForm {
-    /* `ask(query)` is called with a query as in a session file, `forget()` to remove it. */
+    /* `ask(query)` is called with a query in the form of a session file. `forget()` is called to remove the query. */
     constructor(root, kinds, {ask, forget})
     {
         this.kinds = kinds;
@@ -38,7 +39,7 @@ class AskForm {
         this.showInputs();
     }
 
-    /* A text input, or a list from which one of the choices is selected, at first the first one. */
+    /* Make a text input, or a list of choices if there are any. The first choice is selected initially. */
     input(name, value, choices)
     {
         const input = choices ? element("select") : element("input", "", {type: "text", value});
@@ -59,7 +60,7 @@ class AskForm {
             label.hidden = !this.members.some(({name}) => name === member);
     }
 
-    /* Fill in a position, a box around it with a tenth of the world's extent, and a radius. */
+    /* Fill in the position `place`, a box around this position with a tenth of the world's extent, and a radius. */
     setPlace(place, extent)
     {
         this.inputs.at.input.value = place.map(roundedPlace).join(",");
@@ -79,7 +80,7 @@ class AskForm {
         return type === "position" ? numbers : numbers[0];
     }
 
-    /* The query as in a session file. Its first member is named by the kind. */
+    /* The query in the form of a session file. The name of its first member is determined by the query kind. */
     query()
     {
         const [named, ...others] = this.members;

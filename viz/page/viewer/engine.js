@@ -1,30 +1,35 @@
 /* SPDX-License-Identifier: MIT */
-/* engine.js - octreel's game and its drawing as a WebAssembly module, and states that a session can go back to.
+/* engine.js - octreel's game and renderer as a WebAssembly module, and the saved states to which a session can go back.
  *
- * The page does not imitate the program: the module is the same C, from reading session.json to filling pixels,
- * compiled for WebAssembly. It plays a session by itself and needs no recorded frame. Few things cross the border: texts (the
- * session, the view, a query; facts and picks as JSON) are copied as UTF-8 into a buffer that web_reserve_buffer() gives and are
- * read back from web_text(); numbers pass as doubles; and a picture is the RGBA bytes at the address that web_draw()
- * returns. C calls JavaScript only to parse JSON (json_values.js); every system call fails, as a page has no files.
+ * The module is octreel's own C code compiled for WebAssembly, from reading session.json to filling pixels; the page
+ * does not imitate the program. It plays a session by itself and needs no recorded frames.
  *
- * Its pixels equal those of the recorded PNGs: the integer rasterizer uses no GPU, scenes come from double arithmetic
- * that IEEE 754 and the C code fix bit by bit (no fused multiply-add, no libm beyond exact functions), and WebAssembly
- * specifies that arithmetic. test_page_plays compares every tick. Since all state is in the module's linear memory, a
- * copy of that memory is a state of the game: going back copies it in again. Functions are described in
- * module/module.c. */
+ * JavaScript and C exchange little. Texts (the session, the view, a query; facts and picks as JSON) are copied as UTF-8
+ * into a buffer that web_reserve_buffer() returns, and are read back from web_text(). Numbers pass as doubles. A
+ * picture is the RGBA bytes at the address that web_draw() returns. C calls JavaScript only to parse JSON
+ * (json_values.js). Every system call fails, because a page has no files. The functions are described in
+ * module/module.c.
+ *
+ * The pixels equal those of the recorded PNGs; test_page_plays compares every tick. The integer rasterizer uses no GPU.
+ * Scenes use double arithmetic that is the same bit for bit everywhere: WebAssembly specifies it, and the C code uses
+ * no fused multiply-add and only exact functions of libm.
+ *
+ * All state is in the module's linear memory. A copy of this memory is therefore a state of the game, and the page goes
+ * back to the state by copying the bytes back.
+ */
 "use strict";
 
-const NO_FILE = 8; /* EBADF of WASI: every system call returns it, as a page has no files */
+const NO_FILE = 8; /* EBADF of WASI: the result of every system call, because a page has no files */
 
 const moduleText = () => document.getElementById("module")?.textContent.trim();
 
-/* Whether the page holds the module and the browser can run it. */
+/* Whether the page contains the module and the browser can run it. */
 function hasModule()
 {
     return Boolean(moduleText()) && typeof WebAssembly === "object" && typeof DecompressionStream === "function";
 }
 
-/* Decode a text that module/pack_module wrote: Z85 with some digits replaced. */
+/* Decode a text that module/pack_module encoded: Z85 with some digits replaced. */
 function unpackLetters(text)
 {
     const digits = new Map([..."0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ.-:+=^!/*?,_>()[]{}~%$#"]
@@ -39,7 +44,7 @@ function unpackLetters(text)
     return new Uint8Array(words.buffer, 0, words.byteLength - text[0]);
 }
 
-/* The module, compiled. */
+/* Compile the module that the page contains. */
 async function compileModule()
 {
     try {
@@ -61,7 +66,7 @@ class Engine {
         imports.page = {parse_json: (...text) => json.parse(...text), write_json: at => json.write(at)};
         this.wasm = new WebAssembly.Instance(module, imports).exports;
         this.wasm._initialize?.();
-        this.tick = -1; /* no tick is played yet */
+        this.tick = -1; /* -1: no tick is played yet */
     }
 
     bytes(at, size)
@@ -74,7 +79,8 @@ class Engine {
         return new TextDecoder().decode(this.bytes(this.wasm.web_text(), this.wasm.web_text_size()));
     }
 
-    /* The text that a function left; throws its error if it failed. */
+    /* The text that a function of the module stored. Throws the text as an error if the function failed, so that `done`
+     * is false. */
     textAfter(done)
     {
         if (!done)
@@ -82,7 +88,7 @@ class Engine {
         return this.text();
     }
 
-    /* Write texts or bytes for the next call. Returns their sizes in bytes. */
+    /* Write texts or bytes into the input buffer for the next call. Returns their sizes in bytes. */
     writeInput(...texts)
     {
         const parts = texts.map(text => typeof text === "string" ? new TextEncoder().encode(text) : text);
@@ -105,7 +111,7 @@ class Engine {
         this.length = this.wasm.web_length() + 1;
     }
 
-    /* Play the session's next tick, or a key. */
+    /* Play the session's next tick, with `key` as the player's key press if it is not empty. */
     step(key)
     {
         this.textAfter(this.wasm.web_step(key ? key.charCodeAt(0) : 0));
@@ -123,13 +129,14 @@ class Engine {
         this.view = view;
     }
 
-    /* Whether the view shows sums over all ticks that were not collected since tick 0. */
+    /* Whether the view shows sums over all ticks that were not collected, so that the session must be played again from
+     * tick 0. */
     get lacksSums()
     {
         return Boolean(this.wasm.web_lacks_sums());
     }
 
-    /* Draw the tick. The picture is valid until the next call. */
+    /* Draw the current tick. The returned picture is valid until the next call of the module. */
     draw()
     {
         const at = this.wasm.web_draw();
@@ -149,7 +156,7 @@ class Engine {
         return JSON.parse(this.textAfter(this.wasm.web_camera()));
     }
 
-    /* The session's world. */
+    /* The corners of the session's world. */
     world()
     {
         const at = new Float64Array(this.wasm.memory.buffer, this.wasm.web_world(), 6);
@@ -166,7 +173,7 @@ class Engine {
         return JSON.parse(this.textAfter(this.wasm.web_pick(x, y, radius)));
     }
 
-    /* The pixels of places in the world; NaN for a place behind the camera. */
+    /* Project positions in the world onto the picture. A position behind the camera becomes NaN. */
     project(places)
     {
         this.writeInput(new Uint8Array(new Float64Array(places.flat()).buffer));
@@ -175,21 +182,21 @@ class Engine {
         return places.map((place, i) => [numbers[2 * i], numbers[2 * i + 1]]);
     }
 
-    /* The position of the point with an id, or null. */
+    /* The position of the point with this id, or null if there is no such point. */
     point(id)
     {
         const at = this.wasm.web_point(id);
         return at ? [...new Float64Array(this.wasm.memory.buffer, at, 3)] : null;
     }
 
-    /* Answer queries, written as in a session file, at the current tick. */
+    /* Answer queries at the current tick. The queries have the form of a session file. */
     ask(queries)
     {
         const text = JSON.stringify({octreel: "session", version: 2, queries});
         this.textAfter(this.wasm.web_ask(...this.writeInput(text)));
     }
 
-    /* Replace the session's ticks after `last` by keys. */
+    /* Replace the session's ticks after tick `last` by ticks with the player's key presses `keys`. */
     setKeys(last, keys)
     {
         this.writeInput(keys);
@@ -197,7 +204,7 @@ class Engine {
         this.length = this.wasm.web_length() + 1;
     }
 
-    /* The session as session.json. */
+    /* The text of session.json for the session, with the user's key presses. */
     session()
     {
         return this.textAfter(this.wasm.web_session());
@@ -210,7 +217,7 @@ class Engine {
         return this.bytes(0, this.wasm.web_used());
     }
 
-    /* Go back to a state of an engine of the same module. The view stays. */
+    /* Go back to a state that was saved by an engine of the same module. The view does not change. */
     restore(state)
     {
         const view = this.view, missing = state.size - this.wasm.memory.buffer.byteLength;
@@ -226,20 +233,20 @@ class Engine {
 
 const BLOCK = 4096;
 const MOST_STATE_BYTES = 160 << 20;
-const STATE_INTERVAL = 40; /* ms of playing between two states: the most that going to a tick costs */
+const STATE_INTERVAL = 40; /* ms of playing between two saved states; going to a tick plays at most this long */
 
-/* States of an engine at some of its ticks. A state is a copy of the engine's memory in blocks; blocks that did not
- * change are shared with the state before it. When the states grow too large, every other one is dropped and the
- * interval between new ones doubles. */
+/* Saved states of an engine, at some of its ticks. A state is a copy of the engine's memory, divided into blocks.
+ * Blocks that did not change are shared with the previous state. When the states use too much memory, every second
+ * state is dropped, and the interval between new states doubles. */
 class States {
     constructor()
     {
-        this.list = []; /* by tick */
+        this.list = []; /* the states, in the order of their ticks */
         this.bytes = 0;
         this.interval = STATE_INTERVAL;
     }
 
-    /* The last state at or before a tick, or null. */
+    /* The last state at or before a tick, or null if there is none. */
     before(tick)
     {
         return this.list.findLast(state => state.tick <= tick) ?? null;
@@ -254,7 +261,7 @@ class States {
             this.bytes += block.length;
     }
 
-    /* Save a state. `isBranched`: the user's keys are part of it. */
+    /* Save a state of the engine. `isBranched`: the user's key presses are part of the state. */
     keep(engine, isBranched)
     {
         const bytes = engine.used(), last = this.list.at(-1);
@@ -267,7 +274,7 @@ class States {
         this.interval *= 2;
     }
 
-    /* One copy of all: copying block by block takes three times as long. */
+    /* Copy all bytes at once and divide the copy into blocks: copying block by block takes three times as long. */
     copiedBlocks(bytes)
     {
         const copy = bytes.slice(), blocks = [];

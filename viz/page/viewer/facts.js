@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* facts.js - the recording: the lines of ticks.jsonl, each parsed only when it is shown. A tick like the one before it
- * has no line of its own. */
+/* facts.js - the recording: the lines of ticks.jsonl. A line is parsed only when its tick is shown. A tick that is like
+ * the tick before it has no line of its own. */
 "use strict";
 
-/* The curves: the path of the fact in a tick, and the curve's name. "own" facts are those of Octreel's tree, and are
- * named so if the recording has foreign nodes too. A list counts as the number of its entries. A curve without values
- * is left out. */
+/* The curves of the timeline. Each row has the path of a fact in a tick and the name of the curve. "own" marks a fact
+ * of Octreel's tree: if the recording also has foreign nodes, "Octreel's" is added to the name. The value of a list is
+ * the number of its entries. A curve without values is left out. */
 const CURVES = [
     ["foreign_nodes.count", "foreign nodes"],
     ["foreign_nodes.depth", "foreign depth"],
@@ -18,7 +18,7 @@ const CURVES = [
 ];
 
 /* The events and their signs, in the order of octree_event. A "rare" event comes last, has no key, and has a lane only
- * if it occurs; "own" as above. */
+ * if it occurs. "own" marks an event of Octreel's tree, as in CURVES. */
 const EVENTS = [
     ["moved", "→", "player"],
     ["refused", "⊘"],
@@ -31,13 +31,14 @@ const EVENTS = [
 
 const MOVED = 1;
 
-/* The member at a path such as "tree.nodes", or undefined. */
+/* The member of a tick at a path such as "tree.nodes", or undefined if the tick has no such member. */
 function factAt(tick, path)
 {
     return path.split(".").reduce((value, name) => value?.[name], tick);
 }
 
-/* The count of entries that octreel cut off a list: then its last entry is {"more": count}. */
+/* The number of entries that octreel left out at the end of a list. The last entry of such a list is {"more":
+ * count}. */
 function leftOut(list)
 {
     return list.at(-1)?.more ?? 0;
@@ -67,22 +68,23 @@ function eventBits(names)
 
 const frameName = tick => `frame_${String(tick).padStart(6, "0")}.png`;
 
-/* Keeps each tick as its line of text, with a few lists of numbers; parsed ticks are not kept. */
+/* The ticks of a recording. Each tick is kept as its line of text, with a few lists of numbers. Parsed ticks are not
+ * kept. */
 class Recording {
     constructor(about, lines)
     {
         this.about = about;
-        this.lines = [];  /* for each tick the last line up to it */
-        this.scenes = []; /* of ticks without a line of their own: the scene digest, "" without a frame */
+        this.lines = [];  /* for each tick: its line, or the line of the tick that it repeats */
+        this.scenes = []; /* for a tick without a line of its own: its scene digest, or "" if it has no frame */
         this.events = [];
-        this.filmed = []; /* for each tick the last tick up to it with a frame; -1: none */
+        this.filmed = []; /* for each tick: the last tick up to it that has a frame; -1: no such tick */
         this.curves = CURVES.map(([path, name, of]) => ({path, name, of, values: []}));
         lines.forEach(line => this.append(line));
         this.curves = this.curves.filter(curve => !this.length || curve.values.some(value => !isNaN(value)));
         this.hasForeignNodes = this.length > 0 && this.curves.some(({path}) => path.startsWith("foreign_nodes"));
     }
 
-    /* The name of a curve or an event. */
+    /* The displayed name of a curve or an event. */
     nameOf(name, of)
     {
         return of === "player" ? `player ${name}` : of === "own" && this.hasForeignNodes ? `Octreel's ${name}` : name;
@@ -99,8 +101,8 @@ class Recording {
         return this.lines.length;
     }
 
-    /* Add a tick's line; or the scene digest of a tick like the one before it; or the count of such ticks without a
-     * frame. */
+    /* Add a line of the page, parsed as JSON. An object is the line of a tick. A string is the scene digest of a tick
+     * that repeats the tick before it. A number is the count of such ticks without a frame. */
     append(line)
     {
         const value = JSON.parse(line);
@@ -128,7 +130,7 @@ class Recording {
             values[i] = values[i - 1];
     }
 
-    /* The first `length` ticks. */
+    /* Returns a recording of the first `length` ticks. */
     cut(length)
     {
         const part = new Recording(this.about, []);

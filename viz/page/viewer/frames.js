@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: MIT */
-/* frames.js - the recorded PNG frames: each is decoded before it is shown, and the last few are kept. */
+/* frames.js - the recorded PNG frames. A frame is decoded before it is shown, and the last few decoded frames are
+ * kept. */
 "use strict";
 
 const FRAMES_KEPT = 12;
 
 class Frames {
-    /* `nameOf(tick)` returns the file name of a tick's frame. */
+    /* `nameOf(tick)` returns the file name of the frame of a tick. */
     constructor(stage, nameOf)
     {
         this.stage = stage;
         this.nameOf = nameOf;
-        this.decoded = new Map(); /* tick -> promise of an image; the least recently used first */
+        this.decoded = new Map(); /* maps a tick to the promise of an image; the least recently used first */
         this.shown = this.wanted = -1;
         this.busy = false;
     }
@@ -46,7 +47,8 @@ class Frames {
         return text;
     }
 
-    /* Show a tick's frame. One frame loads at a time; if the slider moves on meanwhile, only the last tick follows. */
+    /* Show the frame of a tick. Only one frame loads at a time. If several ticks are requested during this time, only
+     * the last of them is shown. */
     async show(tick)
     {
         this.wanted = tick;
@@ -61,7 +63,7 @@ class Frames {
         this.busy = false;
     }
 
-    /* Start to decode frames that are likely to be shown next. */
+    /* Start to decode the frames of ticks that are likely to be shown next. */
     prepare(ticks)
     {
         ticks.forEach(tick => this.load(tick));

@@ -1,24 +1,26 @@
 /* SPDX-License-Identifier: MIT */
-/* interaction.js - playing in the page: the first gesture starts the WebAssembly module, which draws in place of the
- * recorded frames; from any tick on, the keys of the game play on. */
+/* interaction.js - playing in the page. The first gesture starts the WebAssembly module, which then draws in place of
+ * the recorded frames. From any tick on, the user can continue the game with the keys of the player. */
 "use strict";
 
-const LONG_WAIT = 100; /* ms; a longer wait shows a progress bar */
-const LARGE = 1 << 20; /* characters of a session; reading a larger one shows a progress bar first */
-const MOST_FILE = 256 << 20; /* bytes of a session file */
-const FEW = 4; /* elements at a pixel that are shown before "and n more" */
+const LONG_WAIT = 100; /* ms; if the user waits longer, a progress bar is shown */
+const LARGE = 1 << 20; /* characters; before a longer session is read, a progress bar is shown */
+const MOST_FILE = 256 << 20; /* the maximum size of a session file in bytes */
+const FEW = 4; /* the number of elements at a pixel that are shown before "and n more" */
 
-/* A view for a session without one: the recording's, without the options that depend on its world. */
+/* A view for a session that comes without a view: the recording's view, without the options that depend on the
+ * recording's world. */
 function plainView(about)
 {
     const {fit, look, center, zoom, slice, region, depths, derived, ...view} = about;
     return view;
 }
 
-/* A file's name for a sentence: no line breaks or changes of text direction, at most 60 characters. */
+/* A file name that is safe in a sentence: without line breaks and changes of text direction, and with at most 60
+ * characters. */
 const shownName = name => name.replace(/[\p{Cc}\p{Cf}\p{Zl}\p{Zp}]/gu, "?").replace(/^(.{60}).+$/u, "$1…");
 
-/* The text of a session file. A file that does not start as JSON, or is too large, is not read to its end. */
+/* Read the text of a session file. Reading stops early if the file does not start as JSON or is too large. */
 async function readSession(file)
 {
     const read = part => part.text().catch(() => {
@@ -55,7 +57,8 @@ class Interaction {
 
     /* ---- Begin and end ------------------------------------------------------------------------------------------ */
 
-    /* Start the module and draw, once. False if that fails; the page then shows the error. */
+    /* Start the module and draw the shown tick. Later calls do nothing. Returns false if the start fails; the page then
+     * shows the error. */
     start()
     {
         return this.starting ??= this.begin().catch(error => {
@@ -75,7 +78,7 @@ class Interaction {
         return true;
     }
 
-    /* Play a session from now on. While a large one is read, the progress bar shows no value. */
+    /* Play a session from now on. While a large session is read, the progress bar shows no value. */
     async play(session, view, recording)
     {
         const bar = byId("ahead");
@@ -103,7 +106,8 @@ class Interaction {
         this.showBranch();
         byId("view").hidden = byId("asking").hidden = false;
         byId("live-start").hidden = true;
-        byId("hint").hidden = recording.hasFrames; /* no frames: it started by itself */
+        /* If there are no recorded frames, the page started to play by itself. */
+        byId("hint").hidden = recording.hasFrames;
         byId("caption").hidden = true;
         this.stage.classList.remove("stale");
         this.showStatus(!player.isCut ? "" : `The session has ${grouped(player.engine.length)} ticks; ` +
@@ -112,7 +116,7 @@ class Interaction {
         if (tick > 0)
             this.playAhead();
         await this.show(tick);
-        if (tick === 0) /* its picture does not need ticks played ahead, so it is drawn first */
+        if (tick === 0) /* draw tick 0 before playing ahead: it needs no earlier ticks */
             this.playAhead();
     }
 
@@ -142,7 +146,7 @@ class Interaction {
         }).catch(error => this.showStatus(error.message));
     }
 
-    /* Play from tick 0 to the shown tick once more, for a view that needs sums over all ticks. */
+    /* Play from tick 0 to the shown tick once more, because the view needs sums over all ticks. */
     playAgain()
     {
         this.player.reopen(this.session);
@@ -150,7 +154,7 @@ class Interaction {
         return this.show(this.viewer.tick);
     }
 
-    /* Add the facts of a tick that was played, unless the recording has them. */
+    /* Add the facts of a tick that was just played, unless the recording already has this tick. */
     appendTick(tick, engine)
     {
         const recording = this.viewer.recording;
@@ -160,7 +164,7 @@ class Interaction {
         this.viewer.follow(recording);
     }
 
-    /* Show a tick. If more are requested while it is drawn, only the last of them follows. */
+    /* Show a tick. If several ticks are requested during the drawing, only the last of them is shown. */
     async show(tick)
     {
         this.wanted = Math.min(tick, this.player.length - 1);
@@ -178,7 +182,7 @@ class Interaction {
         this.busy = false;
     }
 
-    /* Leave playing: show the recorded frames again. */
+    /* Stop playing in the page and show the recorded frames again. */
     goBack()
     {
         if (!this.isLive)
@@ -195,7 +199,7 @@ class Interaction {
         this.viewer.goTo(this.viewer.tick);
     }
 
-    /* Keys start the module as dragging does. */
+    /* Turn the camera by a key. Like dragging, this starts the module. */
     async turn(dx, dy)
     {
         if (await this.start())
@@ -216,7 +220,7 @@ class Interaction {
 
     /* ---- Playing on -------------------------------------------------------------------------------------------- */
 
-    /* Play a key after those that were pressed before it. */
+    /* Play the user's key press after all key presses that came before it. */
     press(key)
     {
         this.pressed = (this.pressed ?? Promise.resolve()).then(() => this.playKey(key));
@@ -229,7 +233,7 @@ class Interaction {
             return;
         const {viewer, player} = this;
         viewer.pause();
-        do /* the viewer's tick may change while the player goes there */
+        do /* the viewer may go to another tick while the player is on its way */
             await player.goTo(viewer.tick);
         while (player === this.player && player.engine.tick !== Math.min(viewer.tick, player.length - 1));
         if (!this.isLive || player !== this.player)
@@ -262,8 +266,8 @@ class Interaction {
         this.showBackButton();
     }
 
-    /* Show the button that goes back. Without recorded frames it appears only after the view or the keys were changed.
-     * */
+    /* Show the button that leaves playing. If there are no recorded frames, the button appears only after the user has
+     * changed the view or pressed a key of the game. */
     showBackButton()
     {
         const {hasFrames} = this.recorded, button = byId("live-end");
@@ -296,7 +300,8 @@ class Interaction {
         }
     }
 
-    /* Replace the user's query at this tick, or remove it. The answer is in the picture and among the facts. */
+    /* Replace the user's query at this tick, or remove it if `query` is missing. The answer appears in the picture and
+     * among the facts. */
     ask(query)
     {
         if (!this.isLive)
@@ -354,7 +359,7 @@ class Interaction {
         byId("live-start").addEventListener("click", () => this.start());
         byId("live-end").addEventListener("click", () => this.goBack());
         byId("save").addEventListener("click", () => this.save());
-        const held = new Set(); /* pointers that are down: a click may end before the module has started */
+        const held = new Set(); /* ids of the pointers that are down: a click may end before the module has started */
         stage.addEventListener("pointerdown", event => {
             held.add(event.pointerId);
             this.start().then(begun => begun && (held.has(event.pointerId) ? this.live?.down(event) : this.live?.pickAt(event)));

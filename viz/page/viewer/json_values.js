@@ -1,23 +1,26 @@
 /* SPDX-License-Identifier: MIT */
-/* json_values.js - JSON for the WebAssembly module: JSON.parse() reads a text, and the value is written into the
- * module's memory as the structures of module/json_values.c. JavaScript's numbers are the same doubles, to the last
- * bit. JSON.parse() accepts some texts that octreel's own reader refuses; those are refused here. */
+/* json_values.js - JSON for the WebAssembly module. JSON.parse() reads a text, and the value is written into the
+ * module's memory as the structures of module/json_values.c. Numbers need no conversion, because JavaScript's numbers
+ * are doubles too. JSON.parse() accepts some texts that octreel's own reader refuses; they are refused here. */
 "use strict";
 
 const VALUE_SIZE = 16, ENTRY_SIZE = 20;
-const JSON_TYPES = {object: 0, array: 1, string: 2, number: 4, true: 5, false: 6, null: 7}; /* jansson's json_type */
-const ERROR_POSITION = 8, ERROR_TEXT = 92, ERROR_TEXT_SIZE = 160; /* in jansson's json_error_t */
+/* The values of jansson's enumeration json_type. */
+const JSON_TYPES = {object: 0, array: 1, string: 2, number: 4, true: 5, false: 6, null: 7};
+/* Offsets and a size in jansson's structure json_error_t. */
+const ERROR_POSITION = 8, ERROR_TEXT = 92, ERROR_TEXT_SIZE = 160;
 const MOST_NESTED = 200;
 
 const codesOf = text => new Set([...text].map(char => char.charCodeAt(0)));
 const [QUOTE] = codesOf('"'), [BACKSLASH] = codesOf("\\"), [COLON] = codesOf(":");
 const OPENING = codesOf("[{"), CLOSING = codesOf("]}"), ENDING = codesOf("]}, \t\r\n");
 
-const sizeOfText = text => 3 * text.length + 1; /* UTF-8 takes up to three bytes for each UTF-16 unit */
+/* The room for a text with its final zero: UTF-8 takes up to three bytes for each UTF-16 unit. */
+const sizeOfText = text => 3 * text.length + 1;
 const aligned = size => (size + 7) & ~7;
 
-/* The end of the JSON value that bytes begin with, found by brackets and quotes alone, and the count of members in it:
- * of its colons outside strings. */
+/* Find the end of the JSON value with which the bytes begin, by its brackets and quotes alone. Also counts the members
+ * in the value, by its colons outside strings. */
 function findJsonEnd(bytes)
 {
     let depth = 0, members = 0;
@@ -38,8 +41,8 @@ function findJsonEnd(bytes)
     return {end: bytes.length, members};
 }
 
-/* Refuse a value that octreel's reader refuses. Returns the bytes that it takes beside its own structure, and counts
- * its members. */
+/* Throw an error if octreel's own reader would refuse the value. Returns the number of bytes that the value needs in
+ * addition to its own structure. Adds the number of its members to counts.members. */
 function checkJson(value, counts)
 {
     const sum = (items, sizeOf) => items.reduce((size, item) => size + sizeOf(item), 0);
@@ -58,8 +61,8 @@ function checkJson(value, counts)
         ENTRY_SIZE + 4 + checkJson(key, counts) + checkJson(member, counts));
 }
 
-/* The line of a syntax error. Browsers say it, or quote ten characters on each side of the place; else the text ended
- * early. */
+/* The line of a syntax error. Some browsers report the line. Others quote ten characters on each side of the error. If
+ * neither is found, the text ended early. */
 function findErrorLine(source, message)
 {
     const [, line] = /line (\d+)/.exec(message) ?? [], [, near] = /"(.*)"[.]* is not valid JSON/s.exec(message) ?? [];
@@ -67,13 +70,13 @@ function findErrorLine(source, message)
 }
 
 class JsonValues {
-    /* `memory()`: the module's, which may grow between calls. */
+    /* `memory()` returns the module's memory, which may grow between two calls. */
     constructor(memory)
     {
         this.memory = memory;
     }
 
-    /* page_parse_json() of json_values.c. */
+    /* The function page_parse_json() that json_values.c calls. */
     parse(text, size, alone, error)
     {
         const {buffer} = this.memory(), bytes = new Uint8Array(buffer, text, size), counts = {members: 0};
@@ -95,7 +98,7 @@ class JsonValues {
         }
     }
 
-    /* page_write_json() of json_values.c. */
+    /* The function page_write_json() that json_values.c calls. */
     write(at)
     {
         this.out = new DataView(this.memory().buffer);
@@ -104,7 +107,7 @@ class JsonValues {
         this.value = this.out = null;
     }
 
-    /* Returns the size of the text without its closing zero. */
+    /* Write a text with a final zero. Returns the size of the text in bytes, without the zero. */
     writeText(at, text, size = sizeOfText(text))
     {
         const bytes = new Uint8Array(this.memory().buffer, at, size);
@@ -117,7 +120,7 @@ class JsonValues {
     {
         const type = value === null ? "null" : Array.isArray(value) ? "array" : typeof value;
         this.out.setUint32(at, JSON_TYPES[type] ?? JSON_TYPES[value], true);
-        this.out.setUint32(at + 4, 1, true); /* a reference */
+        this.out.setUint32(at + 4, 1, true); /* the reference count of the value */
         if (type === "number")
             this.out.setFloat64(at + 8, value, true);
         else if (type === "string")
@@ -128,7 +131,7 @@ class JsonValues {
             this.writeObject(at, Object.entries(value));
     }
 
-    /* Take room, and let the pointer at `link` point there. */
+    /* Reserve `size` bytes and set the pointer at the address `link` to them. Returns their address. */
     point(link, size)
     {
         const at = this.next;

@@ -1,27 +1,27 @@
 /* SPDX-License-Identifier: MIT */
-/* live.js - the picture that the module draws in place of the recorded frame: the pointer turns, moves and zooms it,
- * and a click identifies what is at a pixel. */
+/* live.js - the picture that the module draws in place of the recorded frame. The pointer turns, moves and zooms the
+ * picture. A click identifies the elements at a pixel. */
 "use strict";
 
 const DEGREES_A_PIXEL = 0.3;
 const ZOOM_A_NOTCH = 1.0015; /* the zoom factor for a wheel delta of 1 */
-const ZOOMS = [0.001, 1e6];  /* the range of --zoom */
-const CLICK = 4;             /* CSS pixels: a pointer that moves less clicks */
+const ZOOMS = [0.001, 1e6];  /* the smallest and the largest value of --zoom */
+const CLICK = 4;             /* CSS pixels: if a pointer moves less between down and up, it is a click */
 const PICK_RADIUS = 5;
-const KEY_STEP = 16;         /* a key turns as dragging by this many pixels does */
+const KEY_STEP = 16;         /* pixels of the picture: a key turns the camera as much as dragging by this distance */
 
 const MARK_COLOR = "#ffffff";
 
 const BOX_EDGES = [0, 1, 2, 3].flatMap(i => [[i, i + 4], [2 * i, 2 * i + 1], [i + (i & 2), i + (i & 2) + 2]]);
 
 const clamp = (value, low, high) => Math.min(Math.max(value, low), high);
-/* Numbers for a command line: 8 digits are enough for angles and sizes; a position far from the origin needs 15. */
+/* Numbers for a command line. 8 digits are enough for angles and sizes. A position far from the origin needs 15. */
 const rounded = number => Number(number.toPrecision(8));
 const roundedPlace = number => Number(number.toPrecision(15));
 
 class Live {
-    /* `showStatus(text)` shows a sentence, `picked(pick, place)` the elements at a pixel; `changed()` is called after
-     * the view changed; `again()` plays from tick 0 to this tick once more. */
+    /* `showStatus(text)` shows a sentence. `picked(pick, place)` shows the elements at a pixel. `changed()` is called
+     * after the view has changed. `again()` plays from tick 0 to the shown tick once more. */
     constructor(stage, player, {showStatus, picked, changed, again})
     {
         this.stage = stage;
@@ -33,7 +33,7 @@ class Live {
         this.recorded = player.engine.view;
         this.canvas = element("canvas", "", {class: "live", role: "img"});
         this.marks = element("canvas", "", {class: "marks", "aria-hidden": "true"});
-        this.subject = null; /* the marked element: {node} or {point} */
+        this.subject = null; /* the marked element, as {node} or {point}; null: no element */
         this.pointers = new Map();
     }
 
@@ -47,7 +47,7 @@ class Live {
         return this.engine.view;
     }
 
-    /* The camera of the picture, which is drawn first if there is none yet. */
+    /* The camera of the last drawn picture. If there is no picture yet, it is drawn first. */
     get camera()
     {
         if (!this.seen)
@@ -69,7 +69,7 @@ class Live {
 
     /* ---- Drawing ----------------------------------------------------------------------------------------------- */
 
-    /* Draw at the next animation frame: several changes make one picture. */
+    /* Draw the picture at the next animation frame, so that several changes make only one picture. */
     draw()
     {
         this.waiting ??= new Promise(done => requestAnimationFrame(() => {
@@ -98,7 +98,7 @@ class Live {
         }
     }
 
-    /* Change the view. Values that are refused leave the view unchanged. */
+    /* Change the view. If the module refuses the new values, the view stays unchanged. */
     look(changes)
     {
         const view = {...this.view, ...changes};
@@ -137,14 +137,14 @@ class Live {
         return this.look({look: [rounded(turned), rounded(clamp(elevation + dy * DEGREES_A_PIXEL, -90, 90))]});
     }
 
-    /* The camera at a pixel: the close-up's inside the close-up. */
+    /* The camera of the view at a pixel: inside the close-up it is the camera of the close-up. */
     cameraAt([x, y])
     {
         const {closeup} = this.camera, [left, top, width, height] = closeup?.window ?? [0, 0, 0, 0];
         return x >= left && y >= top && x < left + width && y < top + height ? {...this.camera, ...closeup} : this.camera;
     }
 
-    /* A camera's center after the picture moved by pixels. */
+    /* The center of a camera after the picture has been moved by a number of pixels. */
     moved(dx, dy, {right, up, center, pixel} = this.camera)
     {
         return center.map((at, i) => roundedPlace(at - (right[i] * dx - up[i] * dy) * pixel));
@@ -155,7 +155,7 @@ class Live {
         return this.look({center: this.moved(dx, dy)});
     }
 
-    /* Zoom; the place at pixel (x, y) stays at that pixel. */
+    /* Zoom by a factor. The position at the pixel (x, y) stays at that pixel. */
     zoom(factor, x, y)
     {
         const before = this.view.zoom ?? 1, after = clamp(before * factor, ...ZOOMS);
@@ -166,8 +166,8 @@ class Live {
 
     /* ---- The pointer -------------------------------------------------------------------------------------------- */
 
-    /* A pointer's position as a pixel of the picture, which fills the stage as far as its shape allows and is centered.
-     * */
+    /* The pixel of the picture at a pointer's position. The picture is centered in the stage and fills it as far as its
+     * shape allows. */
     pixelAt(event)
     {
         const box = this.stage.getBoundingClientRect(), [width, height] = this.view.size;
@@ -182,7 +182,8 @@ class Live {
         this.pointers.set(event.pointerId, {x: event.clientX, y: event.clientY, far: 0});
     }
 
-    /* One pointer turns; with Shift or a secondary button it moves. Two pointers move and zoom. */
+    /* Change the view by dragging. One pointer turns the camera; with Shift or a secondary button, it moves the
+     * picture. Two pointers move and zoom the picture. */
     drag(event)
     {
         const pointer = this.pointers.get(event.pointerId);
@@ -227,7 +228,7 @@ class Live {
 
     /* ---- Identifying ------------------------------------------------------------------------------------------ */
 
-    /* Identify the elements at a pointer's position, or without an event in the middle of the view. */
+    /* Identify the elements at the position of a pointer event. Without an event, the middle of the view is used. */
     pickAt(event)
     {
         const [x, y] = (event ? this.pixelAt(event) : this.camera.middle).map(Math.floor), [width, height] = this.view.size;
@@ -239,7 +240,7 @@ class Live {
         this.mark();
     }
 
-    /* Keys turn by a step, and zoom about the middle. */
+    /* Turn the camera by one step, for a key. */
     turnStep(dx, dy)
     {
         return this.turn(dx * KEY_STEP, dy * KEY_STEP);
@@ -250,7 +251,7 @@ class Live {
         return this.zoom(factor, ...this.camera.middle);
     }
 
-    /* The position of the picked element: a node's center, or null if nothing was picked. */
+    /* The position of the marked element. For a node this is the center of its box. Null if no element is marked. */
     placeOfSubject()
     {
         if (this.subject?.point)
@@ -259,14 +260,14 @@ class Live {
         return box ? box.min.map((low, i) => (low + box.max[i]) / 2) : null;
     }
 
-    /* The place at a pixel, at the distance of the camera's center. */
+    /* The position in the world at a pixel, at the distance of the camera's center from the camera. */
     placeAt([x, y])
     {
         const camera = this.cameraAt([x, y]), {middle} = camera;
         return this.moved(middle[0] - x, middle[1] - y, camera);
     }
 
-    /* Mark the picked element where it is at this tick. */
+    /* Mark the picked element in the picture, at its position in this tick. */
     mark()
     {
         const [width, height] = this.view.size, point = this.subject?.point && this.engine.point(this.subject.point.id);

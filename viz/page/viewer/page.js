@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-/* page.js - the viewer: its current tick, playing, the event filter, keys and buttons. The address holds the tick and
- * the filter: #t=41&filter=collided,full. */
+/* page.js - the viewer: the current tick, playing, the event filter, keys and buttons. The page's address holds the
+ * tick and the filter: #t=41&filter=collided,full. */
 "use strict";
 
-const SPEEDS = [1, 2, 5, 10, 15, 30, 60]; /* frames a second */
+const SPEEDS = [1, 2, 5, 10, 15, 30, 60]; /* frames per second */
 const START_SPEED = 15;
 const FRAMES_AHEAD = 6;
-const SHORTEST_WAIT = 4; /* ms */
-const GROWTH_DELAY = 250; /* ms from one drawing of a timeline that grows to the next */
-const ADDRESS_DELAY = 200; /* ms: browsers refuse an address that changes with each frame */
+const SHORTEST_WAIT = 4; /* the shortest wait between two frames in ms */
+const GROWTH_DELAY = 250; /* ms between two drawings of a timeline that grows while ticks are added */
+/* Milliseconds between two changes of the page's address: browsers refuse an address that changes with each frame. */
+const ADDRESS_DELAY = 200;
 
 const NO_FRAMES = "This recording has no frames.";
 const NO_MODULE = "This recording has no frames, and this page cannot draw them: octreel was built without " +
@@ -23,7 +24,7 @@ class Viewer {
     {
         this.recording = recording;
         this.tick = 0;
-        this.filter = 0; /* bits of the selected events; 0: no filter */
+        this.filter = 0; /* the selected events as bits; 0: no filter */
         this.playing = false;
         this.stage = new Frames(byId("stage"), tick => recording.tick(tick).frame);
         this.timeline = new Timeline(recording, {goTo: tick => this.goTo(tick), toggle: bit => this.toggle(bit)});
@@ -40,7 +41,7 @@ class Viewer {
         return Math.max(10, Math.round(this.recording.length / 20));
     }
 
-    /* Show another recording, or the same one after ticks were added. */
+    /* Show another recording, or the same recording after ticks were added to it. */
     follow(recording)
     {
         const other = recording !== this.recording;
@@ -70,7 +71,7 @@ class Viewer {
         this.goTo(this.tick + ticks);
     }
 
-    /* The nearest tick in a direction for which wanted(tick) is true; -1 if there is none. */
+    /* The nearest tick in a direction for which wanted(tick) is true. Returns -1 if there is no such tick. */
     seek(from, direction, wanted)
     {
         for (let i = from + direction; i >= 0 && i <= this.last; i += direction)
@@ -79,7 +80,8 @@ class Viewer {
         return -1;
     }
 
-    /* Without a filter any event matches except "moved", which most ticks have. */
+    /* Whether a tick matches the event filter. Without a filter, a tick matches if it has any event except "moved",
+     * which most ticks have. */
     matches(tick)
     {
         return (this.recording.events[tick] & (this.filter || ~MOVED)) !== 0;
@@ -107,7 +109,8 @@ class Viewer {
 
     /* ---- Playing -------------------------------------------------------------------------------------------- */
 
-    /* Whether playing shows a tick: with a filter the ticks that match, else those with a picture. */
+    /* Whether playing shows a tick. With a filter, playing shows the ticks that match it. Without a filter, it shows
+     * the ticks that have a picture. */
     isPlayed(tick)
     {
         return this.filter ? this.matches(tick) : this.interaction.isLive || this.recording.hasFrame(tick);
@@ -135,7 +138,8 @@ class Viewer {
         this.showPlaying();
     }
 
-    /* Waits for a frame that is still being decoded, so that playing skips none. */
+    /* Show the next frame when it is due. A frame that is still being decoded is waited for, so that playing skips no
+     * frame. */
     playDueFrame()
     {
         const now = performance.now();
@@ -198,8 +202,8 @@ class Viewer {
         byId("stage").classList.toggle("stale", filmed !== this.tick);
     }
 
-    /* A recording without frames: start drawing, or say what is missing. Interaction shows an error that occurs on the
-     * way. */
+    /* Show a recording without frames: start drawing, or say what is missing. If drawing cannot be started, Interaction
+     * shows the error. */
     async drawOrExplain()
     {
         const caption = byId("caption");
@@ -261,7 +265,7 @@ class Viewer {
 
 /* ---- Keys and buttons --------------------------------------------------------------------------------------- */
 
-/* Rows of KEYS for pages that can play. */
+/* The rows of KEYS that exist only in pages that can play. */
 const PLAYING_KEYS = [
     ...[..."wsdaefn.q"].map(key => [[key], key, `play on from this tick: ${KEY_MEANINGS[key]}`,
                                    viewer => viewer.interaction.press(key)]),
@@ -274,7 +278,8 @@ const PLAYING_KEYS = [
     [["Escape"], "Esc", "back to the recording or session", viewer => viewer.interaction.goBack()],
 ];
 
-/* For each key: its names in KeyboardEvent, its name in the help, the help text, and the action. */
+/* The keys of the page. Each row has the key's names in KeyboardEvent, its name in the help, its help text, and its
+ * action. */
 const KEYS = [
     [["ArrowRight"], "→", "next tick", viewer => viewer.step(1)],
     [["ArrowLeft"], "←", "previous tick", viewer => viewer.step(-1)],
@@ -301,7 +306,7 @@ function actionOf(key)
     return KEYS.find(([names]) => names.includes(key))?.[3];
 }
 
-/* Whether the focused control handles the key itself. */
+/* Whether the focused control handles the pressed key itself. */
 function isHandled(event)
 {
     const control = event.target.closest?.("button, select, a, input, dialog");
@@ -323,7 +328,7 @@ function listenToKeys(viewer)
     });
 }
 
-/* Go to a tick that was typed; anything but a number restores the current one. */
+/* Go to the tick that the user typed. If the user did not type a number, the field shows the current tick again. */
 function typeTick(viewer, tick)
 {
     viewer.step(isNaN(tick) ? 0 : Math.trunc(tick) - viewer.tick);
@@ -333,7 +338,8 @@ function listenToControls(viewer)
 {
     for (const button of document.querySelectorAll("[data-does]"))
         button.addEventListener("click", () => actionOf(BUTTONS[button.dataset.does])(viewer));
-    /* A clicked button gives up the focus, so that the space bar plays and does not press it again. */
+    /* Take the focus from a clicked button. Otherwise the space bar would press the button again, instead of
+     * playing. */
     document.addEventListener("click", event => event.detail > 0 && event.target.closest("button")?.blur());
     byId("speed").addEventListener("change", event => event.target.blur());
     byId("slider").addEventListener("input", event => viewer.goTo(Number(event.target.value)));
@@ -345,7 +351,8 @@ function listenToControls(viewer)
 
 /* ---- The page ----------------------------------------------------------------------------------------------- */
 
-/* The folder's name; for a page with a file name other than index.html, that name. */
+/* The name of the recording: the name of its folder. If the page's file is not called index.html, the name of that
+ * file. */
 function recordingName()
 {
     const [folder, file] = location.pathname.split("/").slice(-2);
@@ -353,7 +360,7 @@ function recordingName()
     try {
         return decodeURIComponent(name);
     } catch {
-        return name; /* the name holds a plain % */
+        return name; /* the name contains a % that encodes no character */
     }
 }
 
@@ -398,4 +405,4 @@ function openRecording()
     return viewer;
 }
 
-const octreel = openRecording(); /* global for the browser's console and the tests */
+const octreel = openRecording(); /* a global variable, for the browser's console and the tests */

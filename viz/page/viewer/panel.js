@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* panel.js - the facts of one tick beside its frame: every member of its line of ticks.jsonl, in the same order. Names
- * are the members' own with spaces for underscores, so a new fact needs no change here. */
+/* panel.js - the facts of one tick beside its frame: all members of the tick's line of ticks.jsonl, in the same order.
+ * The name of a fact is the member's name with spaces in place of underscores, so a new member needs no change here. */
 "use strict";
 
 const KEY_MEANINGS = {
     w: "+y", s: "−y", d: "+x", a: "−x", e: "+z", f: "−z", n: "nearest neighbour", ".": "wait", q: "end",
 };
 
-/* Lists without a count beside their names: positions are single things, and events are few. */
+/* Lists that are shown without a count beside their names: a position is a single thing, and events are few. */
 const NOT_COUNTED = new Set(["player", "attempt", "position", "target", "min", "max", "center", "events"]);
 
 const ABSENT = "–";
@@ -26,19 +26,19 @@ function grouped(number)
     return number.toLocaleString("en");
 }
 
-/* "1 tick", "2 ticks". */
+/* A count with its noun: "1 tick", "2 ticks". */
 function counted(count, noun)
 {
     return `${grouped(count)} ${noun}${count === 1 ? "" : "s"}`;
 }
 
-/* A value as in ticks.jsonl: the shortest text of a number, with the sign of -0. */
+/* The text of a value as in ticks.jsonl: the shortest text of a number, and "-0" for negative zero. */
 function textOf(value)
 {
     return value === null ? ABSENT : Object.is(value, -0) ? "-0" : String(value);
 }
 
-/* Digits that are shown; the tooltip has all of them. */
+/* The number of digits that are shown; the tooltip shows all digits. */
 const READ_DIGITS = 7;
 
 function readable(value)
@@ -52,10 +52,10 @@ function showPlain(values)
     return read === exact ? exact : element("span", read, {title: exact});
 }
 
-/* Entries of a list that are shown before "more". */
+/* The number of entries of a list that are shown before "more". */
 const OPEN_ENTRIES = 10;
 
-/* The rest of a longer list, folded. */
+/* The remaining entries of a long list, folded into an element that the user can open. */
 function folded(list)
 {
     const rest = element("details", element("summary", `${grouped(listLength(list) - OPEN_ENTRIES)} more`));
@@ -120,7 +120,8 @@ function showKey(key)
 const SHOWN_AS = {
     events: showEvents,
     key: showKey,
-    frame: name => [element("a", name, {href: `./${name}`, target: "_blank"})], /* beside the page */
+    /* A link to the frame's file, in the same folder as the page. */
+    frame: name => [element("a", name, {href: `./${name}`, target: "_blank"})],
 };
 
 function showValue(value, path)
@@ -132,7 +133,7 @@ function showValue(value, path)
     return isPlain(value) ? [showPlain([value])] : [showObject(value, path)];
 }
 
-/* A fact's name, with the count of entries of a list. */
+/* Show the name of a fact. For a list, the number of its entries is added. */
 function showTerm(name, value)
 {
     const term = element("dt", name.replaceAll("_", " "));
@@ -141,7 +142,7 @@ function showTerm(name, value)
     return term;
 }
 
-/* An object's facts stand below its name, a plain value beside it. */
+/* Show a fact. The members of an object stand below its name; a plain value stands beside its name. */
 function showFact(name, value, path)
 {
     const description = element("dd", "", {"data-fact": path});

@@ -1,37 +1,38 @@
 /* SPDX-License-Identifier: MIT */
-/* player.js - reaches any tick of a session in a few milliseconds: one engine (the scout) plays ahead and saves states,
- * another goes back to the nearest state, plays from there and draws. Keys that the user plays replace the session's
- * ticks from one tick on. */
+/* player.js - reaches any tick of a session in a few milliseconds. One engine, the scout, plays ahead and saves states.
+ * The other engine goes back to the nearest saved state, plays from there to the tick, and draws. The user's key
+ * presses replace the session's ticks from some tick on. */
 "use strict";
 
 const SLICE = 12;         /* ms of playing before control returns to the browser */
-const MOST_AHEAD = 64 << 20; /* bytes of a state; larger sessions have no scout, which needs as much again */
+/* Maximum size of a state in bytes for which there is a scout, because the scout needs as much memory again. */
+const MOST_AHEAD = 64 << 20;
 
-const MAX_TICKS = 100000; /* played at most: a session may have a billion */
+const MAX_TICKS = 100000; /* maximum number of ticks to play, because a session may have a billion ticks */
 
 const nextTask = () => new Promise(done => setTimeout(done));
 
 class Player {
-    /* `known`: ticks whose facts the recording has. `played(tick, engine)` is called for each tick that is played
-     * ahead. */
+    /* `known` is the number of ticks whose facts the recording has. `played(tick, engine)` is called for each tick that
+     * is played ahead. */
     constructor(module, session, view, known, played)
     {
         this.module = module;
         this.maxTicks = Math.max(MAX_TICKS, known);
         this.played = played;
         this.states = new States();
-        this.keys = ""; /* the user's, played after tick `branch` */
-        this.run = 0;   /* number of the current run in the background; a new run ends the old one */
+        this.keys = ""; /* the user's key presses, played after tick `branch` */
+        this.run = 0;   /* number of the current run of the scout; a new run ends the previous run */
         this.engine = new Engine(module);
         this.engine.open(session, view);
-        this.given = this.length; /* the ticks of the session itself */
+        this.given = this.length; /* number of ticks of the session itself, without the user's ticks */
         this.branch = this.given - 1;
         this.states.keep(this.engine, false);
         this.playsAhead = this.engine.used().length <= MOST_AHEAD;
-        this.scout = null; /* the engine that plays ahead, made after the first picture */
+        this.scout = null; /* the engine that plays ahead; created after the first picture is drawn */
     }
 
-    /* Count of ticks that can be shown. */
+    /* The number of ticks that can be shown. */
     get length()
     {
         return this.isBranched ? this.branch + 1 + this.keys.length : Math.min(this.engine.length, this.maxTicks);
@@ -47,13 +48,13 @@ class Player {
         return this.keys.length > 0;
     }
 
-    /* Play an engine's next tick. */
+    /* Play the next tick of an engine, with the user's key press if there is one for this tick. */
     step(engine)
     {
         engine.step(engine.tick >= this.branch ? this.keys[engine.tick - this.branch] : "");
     }
 
-    /* Play ahead in the background to the last tick, and save states on the way. */
+    /* Play ahead to the last tick in the background, and save states on the way. */
     async playAhead(progress)
     {
         const run = ++this.run;
@@ -89,13 +90,13 @@ class Player {
         return this.scout;
     }
 
-    /* Stop playing ahead. */
+    /* Stop playing ahead in the background. */
     stop()
     {
         this.run++;
     }
 
-    /* Bring the engine that draws to a tick. False if another call replaced this one. */
+    /* Bring the engine that draws to a tick. Returns false if a later call replaced this call. */
     async goTo(tick)
     {
         const going = this.going = {};
@@ -114,7 +115,7 @@ class Player {
         return true;
     }
 
-    /* Play the shown tick once more, which removes the user's query from it. */
+    /* Play the shown tick once more, without the user's query. */
     replay()
     {
         const {engine} = this, {tick} = engine;
@@ -129,7 +130,7 @@ class Player {
             engine.setKeys(this.branch, this.keys);
     }
 
-    /* Play a key after the shown tick; later ticks are dropped. */
+    /* Play the user's key press after the shown tick. All later ticks are dropped. */
     press(key)
     {
         const {engine, scout} = this;
@@ -147,7 +148,7 @@ class Player {
         this.step(engine);
     }
 
-    /* Drop states, and play ahead from the last one that is left. */
+    /* Drop the states for which isForgotten(state) is true, and play ahead again from the last remaining state. */
     rewind(isForgotten)
     {
         this.run++;
@@ -156,7 +157,7 @@ class Player {
             this.restore(this.scout, this.states.list.at(-1));
     }
 
-    /* Open the session once more, at tick 0, for a view that shows sums over all ticks. */
+    /* Open the session once more, at tick 0, because the view shows sums over all ticks. */
     reopen(session)
     {
         const {engine} = this;
@@ -169,7 +170,7 @@ class Player {
             this.restore(one, this.states.list[0]);
     }
 
-    /* The session with the user's keys, as session.json. */
+    /* The text of session.json for the session, with the user's key presses. */
     save()
     {
         return this.engine.session();

@@ -1,15 +1,18 @@
 /* SPDX-License-Identifier: MIT */
-/* timeline.js - one lane for each event and curve, all on one scale of ticks, with the current tick marked. */
+/* timeline.js - the timeline: one lane for each event and each curve. All lanes have the same scale of ticks and mark
+ * the current tick. */
 "use strict";
 
-const THUMB = 8; /* half the slider's thumb in CSS pixels: the lanes are inset by it to agree with the slider */
+/* Half the width of the slider's thumb in CSS pixels; the lanes are inset by it, so that they line up with the
+ * slider. */
+const THUMB = 8;
 
 function colorOf(name)
 {
     return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`);
 }
 
-/* Clear a canvas and give it the screen's resolution; its context measures in CSS pixels. */
+/* Clear a canvas and give it the resolution of the screen. Coordinates of the returned context are CSS pixels. */
 function prepareCanvas(canvas)
 {
     const ratio = window.devicePixelRatio, context = canvas.getContext("2d");
@@ -19,7 +22,7 @@ function prepareCanvas(canvas)
     return context;
 }
 
-/* The position of ticks across a lane. */
+/* Converts between ticks and horizontal positions in a lane. */
 class Scale {
     constructor(ticks, width)
     {
@@ -39,7 +42,8 @@ class Scale {
     }
 }
 
-/* Consecutive ticks with the event are one bar, so that a lane is a few rectangles for any count of ticks. */
+/* Draw the ticks with an event. Consecutive ticks with the event become one bar, so that a lane of any length needs few
+ * rectangles. */
 function drawEvents(context, scale, height, events, bit)
 {
     const half = Math.max(Math.min(scale.width / Math.max(scale.last, 1) * 0.4, 5), 0.75);
@@ -57,14 +61,14 @@ function rangeOf(values)
 {
     let low = Infinity, high = -Infinity;
     for (const value of values) {
-        low = value < low ? value : low; /* false for NaN */
+        low = value < low ? value : low; /* a comparison with NaN is false, so NaN is skipped */
         high = value > high ? value : high;
     }
     return [low, high];
 }
 
-/* Trace steps, not slopes, as there is nothing between two ticks. A tick without a value is a gap. If several ticks
- * share a pixel, its first, lowest, highest and last values are drawn. */
+/* Trace a curve as steps, not slopes, because there is nothing between two ticks. A tick without a value leaves a gap.
+ * If several ticks share a pixel, the first, lowest, highest and last of their values are drawn. */
 function traceCurve(context, scale, y, values)
 {
     const ticksAPixel = 1 / (scale.x(1) - scale.x(0));
@@ -97,7 +101,7 @@ function drawCurve(context, scale, height, values, [low, high])
 }
 
 class Timeline {
-    /* `goTo(tick)` shows a tick, `toggle(bit)` selects or deselects an event. */
+    /* `goTo(tick)` shows a tick. `toggle(bit)` selects or deselects an event. */
     constructor(recording, {goTo, toggle})
     {
         this.root = document.getElementById("timeline");
@@ -108,12 +112,13 @@ class Timeline {
         this.toggle = toggle;
         this.show(recording);
         this.followPointer(goTo);
-        this.measure(); /* and again only after a resize: measuring at each tick costs a layout */
+        /* Measure now, and later only after a resize: measuring at each tick would cost a layout of the page. */
+        this.measure();
         new ResizeObserver(() => this.scrub.clientWidth !== this.width && this.draw()).observe(this.root);
         matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.draw());
     }
 
-    /* Show another recording, or the same one after ticks were added. */
+    /* Show another recording, or the same recording after ticks were added to it. */
     show(recording)
     {
         this.recording = recording;
@@ -201,7 +206,7 @@ class Timeline {
             lane.shown.textContent = lane.value(tick);
     }
 
-    /* Fade the lanes of events that are not selected. */
+    /* Fade the lanes of all events that are not selected. */
     choose(bits)
     {
         this.bits = bits;

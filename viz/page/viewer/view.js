@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-/* view.js - the controls of the view: one row for each member of recording.json; the module lists the choices. */
+/* view.js - the controls of the view: one row for each member of recording.json. The module lists the possible
+ * values. */
 "use strict";
 
 const AXES = ["x", "y", "z"];
 
 const numbersOf = text => text.trim() === "" ? [] : text.split(/[\s,]+/).map(Number);
 
-/* For each member of the view: its label and its control. That is a choice from the module's list, a switch, a number,
- * or a text with functions that read and write it; an empty text removes the member. */
+/* The rows of the view. Each row has a member of the view, its label and its control. The control is a choice from the
+ * module's list, a switch, a number, or a text. A text has functions that read and write it; an empty text removes the
+ * member. */
 const VIEW_ROWS = [
     ["camera", "camera", "choice"],
     ["look", "direction (degrees)", "text", {hint: "30,22", read: numbersOf, write: look => look.join(",")}],
@@ -44,7 +46,7 @@ const VIEW_ROWS = [
 ];
 
 class ViewControls {
-    /* `change(members)` is called with the members that the user changed. */
+    /* `change(members)` is called with the members of the view that the user changed. */
     constructor(root, choices, change)
     {
         this.root = root;
@@ -68,7 +70,8 @@ class ViewControls {
         for (const name of this.choices[member] ?? [])
             select.append(new Option(name, name));
         select.addEventListener("change", () => {
-            /* A camera has its own direction, centre and zoom; each colouring of points has its own scale. */
+            /* reset values that belong to the old choice: each camera has its own direction, center and zoom, and each
+             * colouring of points its own scale */
             const own = {camera: {look: undefined, center: undefined, zoom: undefined},
                          color_points: {derived: {...this.view.derived, point_scale: undefined}}};
             this.change({[member]: select.value, ...own[member]});
@@ -121,7 +124,7 @@ class ViewControls {
     }
 }
 
-/* The command-line options that turn the recorded view into another. */
+/* The command-line options that turn the recorded view into `view`. */
 function optionsOf(view, recorded)
 {
     const written = {
