@@ -96,7 +96,7 @@ static void clear_slot(bodies *b, size_t gap)
     b->slots[gap] = 0;
 }
 
-/* Remove a body from the array. The last body of the array moves to its index. */
+/* Remove a body from the array. The last body of the array takes the index of the removed body. */
 static void bodies_remove(bodies *b, moving_body *body)
 {
     b->movers -= is_moving(body->velocity);
@@ -321,7 +321,7 @@ typedef struct motion {
     octree_point *points; /* the moving points, at the positions that the tree stores */
     double (*to)[3];
     octree_status *statuses;
-    uint32_t *bodies; /* bodies[i]: the index in the list of bodies of the body that move i moves */
+    uint32_t *bodies; /* bodies[i]: the body of move i, as an index in the list of bodies */
     size_t count, room;
 } motion;
 
@@ -366,7 +366,7 @@ static void collect_moves_by_velocity(const octree_game *game, motion *m)
     }
 }
 
-enum { MANY = 256 }; /* with this many moves or more, octree_move_many() is faster than single moves */
+enum { MANY = 256 }; /* from this number of moves on, octree_move_many() is faster than single moves */
 
 /* Move the points in the tree, without changing the bodies. False when there is no memory; some points may have
  * moved. */

@@ -222,8 +222,8 @@ static bool check_foreign_nodes(octree_game *game, const octree_foreign_tree *re
            foreign_check_nodes(&game->foreign, &points);
 }
 
-/* Check the foreign nodes. Then ask the queries and list the shapes. Queries and shapes of this tick come first, those
- * of every tick follow. False when there is no memory. */
+/* Check the foreign nodes. Then ask the queries and list the shapes. Queries and shapes of this tick come first.
+ * Queries and shapes that belong to every tick follow. False when there is no memory. */
 static bool ask_queries_and_list_shapes(octree_game *game, const octree_input *input)
 {
     const octree_input always = session_input(game->session, OCTREE_EVERY_TICK);

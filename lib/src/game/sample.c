@@ -78,7 +78,7 @@ static void sample_clustered(uint64_t seed, size_t count, double (*rows)[3])
     }
 }
 
-/* Draw random points in a ball and project them onto its surface. */
+/* Draw random points in a ball and project the points onto the surface of the ball. */
 static void sample_surface(uint64_t seed, size_t count, double (*rows)[3])
 {
     for (size_t n = 0; n < count; n++) {

@@ -181,8 +181,8 @@ static size_t collect_finite_bodies(octree_game *game, octree_point *points)
     return count;
 }
 
-/* Add the bodies to the game. `statuses` are those of the points that were collected and inserted. A duplicate id makes
- * octree_game_create() fail, so it does no harm that its point is already in the tree. */
+/* Add the bodies to the game. `statuses` are the results of inserting the points of the bodies into the tree. If an id
+ * is a duplicate, its point is already in the tree; this does no harm, because octree_game_create() fails. */
 static octree_status add_bodies(octree_game *game, const octree_status *statuses)
 {
     for (size_t i = 0; i < game->session->body_count; i++) {

@@ -27,7 +27,7 @@ void tree_summary_record(tree_summary *s, arena *memory, const octree *tree, con
 {
     if (!s->known)
         return;
-    /* If more positions than this have changed, most subtrees must be walked anyway. */
+    /* If many positions have changed, most subtrees must be walked anyway. */
     const bool few = s->touched.count < 4096 + tree->root.count / 64;
     const uint64_t code = morton_code(tree->axes, position);
     s->known = few && list_push(memory, &s->touched, &code, sizeof code);
