@@ -10,7 +10,7 @@
 /* Sort the points of a list from index `first` on, by id and then by position. */
 void sort_points(list *points, size_t first);
 
-/* A query that is being asked, and the lists to which its result is appended. */
+/* The state of asking a query: the query's tree, and the lists to which the result is appended. */
 typedef struct query_run {
     const octree *tree;
     octree_search how;

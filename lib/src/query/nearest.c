@@ -213,7 +213,8 @@ static unsigned find_adjacent_codes(const uint32_t keys[3], unsigned depth, size
             beside[i] -= size;
         else if (within >= size - close)
             beside[i] += size;
-        if (beside[i] != keys[i] && beside[i] < PLANE_GRID) /* a key below 0 has wrapped around to a large number */
+        /* A key below 0 has wrapped around to a large unsigned number, which this test excludes. */
+        if (beside[i] != keys[i] && beside[i] < PLANE_GRID)
             codes[count++] = morton_interleave(beside);
     }
     return count;
@@ -454,7 +455,7 @@ octree_status octree_nearest_batch(const octree *tree, const double (*targets)[3
     const octree_status status = check_batch_arguments(tree, targets, count, &search, neighbors);
     if (status != OCTREE_OK || count == 0)
         return status;
-    /* an arena of its own, because queries must not change the tree's byte count */
+    /* a separate arena, because queries must not change the byte count in the tree's arena */
     arena memory = {.allocator = tree->def.allocator};
     target_batch b = {tree, targets, count, search, neighbors, found, .tasks = count_tasks(tree, count)};
     const size_t size = count <= SIZE_MAX / 2 / sizeof(morton_item) ? 2 * count * sizeof(morton_item) : SIZE_MAX;

@@ -268,8 +268,8 @@ void neighbor_heap_add(neighbor_heap *h, const octree_point *point, double squar
         add_to_heap(h, point, square);
 }
 
-/* Sort by the distances themselves. In FAST mode squares may underflow or round to the same double, so their order may
- * differ from that of the distances. */
+/* Sort by the distances themselves. In FAST mode squares may underflow or round to the same double, so the order of the
+ * squares may differ from the order of the distances. */
 static RARE void sort_by_distance(neighbor_heap *h)
 {
     for (size_t i = 0; i < h->count; i++) {

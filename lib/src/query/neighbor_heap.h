@@ -36,7 +36,7 @@ typedef struct neighbor_heap {
     double node_reach;      /* a node with a greater scaled squared distance contains none of the k nearest */
     octree_neighbor *items; /* the caller's array. Until the end of the search `distance` holds scaled squares */
     size_t count, k;
-    few_neighbors few; /* used in place of `items` until the end of the search, if k <= FEW_NEIGHBORS */
+    few_neighbors few; /* if k <= FEW_NEIGHBORS, holds the neighbours in place of `items` until the end of the search */
 } neighbor_heap;
 
 /* Start a search for the k nearest neighbours. The caller has set h->metric. A negative radius means that the distance

@@ -7,7 +7,7 @@
  * of the cell, index 1 for the upper half. Selecting a half by an index avoids an unpredictable branch. */
 typedef struct ball_cell {
     double center[3];  /* the cell's centre, in units in which the world extends from -1 to 1 */
-    double near[3];    /* the squared distance to the nearest coordinate in the cell */
+    double near[3];    /* the squared distance from the ball's centre to the nearest coordinate in the cell */
     double ends[3][2]; /* the squared distances to the cell's lower and upper planes */
     double middle[3];  /* the squared distance to the plane that splits the cell */
     double half[3][2]; /* the squared distances to the nearest coordinate in the lower and in the upper half */
@@ -19,7 +19,7 @@ typedef struct ball {
     double radius; /* the radius in world units, not scaled */
     double square; /* the square of the scaled radius */
     double reach;  /* a point or cell with a greater scaled squared distance is outside the ball */
-    /* A cell lies within radius + epsilon if the squared distance of its farthest corner is smaller than this. */
+    /* A cell lies within radius + epsilon if the squared distance of its farthest corner is smaller than `whole`. */
     double whole;
     ball_cell cells[OCTREE_MAX_DEPTH];
 } ball;

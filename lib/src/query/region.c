@@ -11,8 +11,8 @@ typedef struct frame {
     uint8_t inside;  /* bit mask of the octants that lie within the region */
 } frame;
 
-/* The room of a queue of leaves. A leaf waits in it while its points are loaded from memory; meanwhile the descent
- * continues. */
+/* The capacity of a queue of leaves. While the points of a leaf are loaded from memory, the leaf waits in the queue and
+ * the descent continues. */
 #define QUEUE_ROOM 16
 
 typedef struct descent {

@@ -27,7 +27,7 @@ typedef struct region {
     octant_masks (*enter)(void *shape, const octree *tree, unsigned depth, unsigned octant);
     /* Returns a bit mask of the points that are in the region: bit i is for points[i]. 1 <= count <= SCAN_POINTS. */
     uint64_t (*scan)(const void *shape, const octree_point *points, unsigned count);
-    octree_point_visitor visit; /* null: count the points and visit none */
+    octree_point_visitor visit; /* null: the points are counted, but not visited */
     void *context;
     size_t count;
     meter meter;

@@ -100,7 +100,7 @@ static inline void meter_prune(meter *m, octree_address parent, unsigned octants
                 meter_trace(m, parent << 3 | octant, OCTREE_TRACE_PRUNED);
 }
 
-/* Record that the root is pruned. */
+/* Record that the root is pruned, so that no node is visited. */
 static inline void meter_prune_root(meter *m)
 {
     m->count.pruned++;

@@ -65,7 +65,7 @@ static double choose_scale(const octree *tree, const sweep *box)
 typedef struct axis_view {
     double step, low, high;
     double far;   /* the distance from the start of the step to the farther bound of the world */
-    double error; /* the largest error of the position of a plane */
+    double error; /* the largest error of the position of a plane between cells */
 } axis_view;
 
 static axis_view make_axis_view(const metric *m, const axis *a, double start, double end)
