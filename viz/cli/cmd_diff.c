@@ -26,7 +26,7 @@ typedef struct arguments {
     output_file outputs[OUTPUTS];
     uint64_t max_ticks;
     uint64_t causes; /* the value of --causes: how many differing frames and ticks are explained */
-    bool has_causes; /* --causes was given */
+    bool has_causes; /* true: --causes was given */
     size_t lines;    /* the number of groups of differences that are listed; at least the value of --causes */
     bool flat, json, force, each, annotate;
 } arguments;

@@ -151,7 +151,7 @@ static bool draw_picture(const report *r, octreel_error *error)
                    point_scale_missing_value(&r->view, &r->made->values), view_point_color_name(r->view.point_color));
     if (drawn.over_budget)
         print_note("%s leaves out %s beyond --budget", picture, film_left_out_text(drawn.beyond, left_out));
-    /* In the picture, only the text layer would say this. */
+    /* If the picture has the text layer, the picture itself contains this note. */
     if (drawn.below_lod && !view_shows_layer(&a->view, LAYER_TEXT))
         print_note("%s leaves out %s smaller than --lod", picture, film_left_out_text(drawn.small, left_out));
     if (drawn.left_out)

@@ -141,7 +141,7 @@ static void put_term(FILE *out, const char *term, size_t length)
 static void put_text(FILE *out, const char *text)
 {
     prose_block block;
-    bool begins = true; /* true after .SH, because the macro .SH begins a paragraph itself */
+    bool begins = true; /* true: a paragraph has just begun, because the macro .SH also begins a paragraph */
     for (const char *at = text; prose_next_block(&at, &block);) {
         switch (block.kind) {
         case PROSE_HEADING:
