@@ -21,7 +21,8 @@ typedef struct film_options {
      * chunk ends with the session. All chunks of a recording go into the same folder, in any order or at the same time.
      * join_chunks() then completes the recording. */
     uint64_t first, last;
-    uint64_t max_ticks; /* a longer session is refused; 0: SESSION_MOST_PLAYED; not for live recordings */
+    /* Maximum number of ticks: a longer session is refused; 0: SESSION_MOST_PLAYED; ignored by live recordings. */
+    uint64_t max_ticks;
     /* The number of processes that record; 0 and 1: only the calling process. The files are the same for any number.
      * Jobs are started by fork(), so the caller must not have opened a renderer or started threads. */
     unsigned jobs; /* at most FILM_MOST_JOBS, and at most the number of frames */

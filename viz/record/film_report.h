@@ -28,7 +28,8 @@ void film_report_empty(FILE *out, const film_summary *summary, const film_option
 void film_report_notes(FILE *out, const film_summary *summary, const film_options *options,
                        const octree_session *session);
 
-/* Print the summary of a recording that join_chunks() completed. This summary is shorter than that of film_report(). */
+/* Print the summary of a recording that join_chunks() completed. This summary is shorter than the summary that
+ * film_report() prints. */
 void film_report_joined(FILE *out, const film_summary *summary, const film_options *options, bool json);
 
 /* Print the number of recorded ticks and the command that resumes the recording. */

@@ -226,7 +226,7 @@ static bool check_live_session(const char *folder, uint64_t session_digest, octr
 }
 
 /* Check that the folder contains recording.json and session.json. The caller must list the folder before this check: a
- * recording that another process has just begun writes these two files before all others, and so passes. */
+ * recording that another process has just begun writes these two files before all other files, and so passes. */
 static bool check_recorded_start(const char *folder, const char *past, uint64_t session_digest, octreel_error *error)
 {
     const bool view = folder_contains(folder, "recording.json"), session = folder_contains(folder, "session.json");

@@ -60,8 +60,8 @@ static bool flush_session(live_recording *live, octreel_error *error)
     return true;
 }
 
-/* Returns the input of tick 0, without the queries and shapes that belong to every tick: the session's header has
- * those. */
+/* Returns the input of tick 0, without the queries and shapes that belong to every tick: these are in the session's
+ * header. */
 static octree_input make_first_input(const octree_session *session)
 {
     octree_input input = {

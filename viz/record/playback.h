@@ -23,7 +23,7 @@
 typedef enum playback_frames {
     FRAMES_SHOW,  /* draw frames into playback.picture, but write no files */
     FRAMES_WRITE, /* draw frames and write them into the folder */
-    FRAMES_KEEP,  /* keep frame files that exist and are complete and correct; draw and write all others */
+    FRAMES_KEEP,  /* keep existing frame files that are complete and correct; draw and write all other frames */
 } playback_frames;
 
 /* The ticks first to last - 1 of a session, all of them or the share of one job. If count is not 0, there are `count`
