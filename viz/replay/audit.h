@@ -29,7 +29,7 @@ typedef struct audit_case {
     /* True: the wrong answer is within the limits when judged alone. Many such answers together may still violate the
      * recall limit. */
     bool allowed;
-    octree_judgement made; /* the judgement, without its lists of points */
+    octree_judgement made; /* the judgement of the answer; its lists of points are not kept */
     /* The first AUDIT_POINTS points that are missing in the answer, and the first AUDIT_POINTS points that are
      * extra. */
     octree_point missing[AUDIT_POINTS], extra[AUDIT_POINTS];
@@ -56,7 +56,8 @@ typedef struct audit_kind {
     uint64_t first_wrong; /* the first tick with a wrong answer; set if `wrong` is not 0 */
     double *ratios;       /* the ratio of each answer to a neighbour query, ascending */
     size_t ratio_count, ratio_room;
-    audit_case worst[AUDIT_WORST]; /* the worst answer first; of equally bad answers the earliest first */
+    /* The worst wrong answers, the worst first; among equally bad answers, the earliest first. */
+    audit_case worst[AUDIT_WORST];
     size_t worst_count;
     audit_tick *ticks; /* one entry for each tick with a query of this kind */
     size_t tick_count, tick_room;

@@ -8,10 +8,10 @@
 
 #include <stdio.h>
 
-/* The answers to a list of queries, in the same order. */
+/* The answers to a list of queries, in the order of the queries. */
 typedef struct inspect_answers {
     const octree *tree;
-    octree_answer *answers; /* the answers, in the same form as in a tick of a game */
+    octree_answer *answers; /* the answers, in the form that the answers of a game's tick have */
     /* nearest[i]: if answer i answers a radius query, its points sorted by distance; otherwise empty. */
     octree_answer *nearest;
     size_t count;

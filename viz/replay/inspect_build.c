@@ -25,7 +25,7 @@ enum {
      * they are less than a twentieth of the tree. */
     MOST_PORTIONS = 16,
     LEAST_PORTION = 1 << 16,
-    LEVELS = 5, /* how many times the world is halved along each axis */
+    LEVELS = 5, /* number of times that the world is halved along each axis */
     SIDE = 1 << LEVELS,
     CELLS = 1 << 3 * LEVELS
 };

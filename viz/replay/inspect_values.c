@@ -11,8 +11,9 @@ enum { CLASSES = UINT16_MAX + 1, CLASSES_LISTED = 16 };
 
 /* The summary of the values of all points. */
 typedef struct value_summary {
-    size_t counts[POINT_VALUE_KINDS]; /* counts[k]: number of points that have a value of kind k */
-    float least, most;                /* the smallest and the largest intensity of all points */
+    /* Counts[k]: number of points that have a value of kind k (colour, intensity or class). */
+    size_t counts[POINT_VALUE_KINDS];
+    float least, most; /* the smallest and the largest intensity of all points */
 } value_summary;
 
 static void count_intensity(value_summary *s, float intensity)

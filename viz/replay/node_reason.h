@@ -10,7 +10,7 @@
 typedef struct node_reason {
     uint64_t tick;
     size_t points, capacity;
-    bool split; /* the node split at this tick */
+    bool split; /* true: the node split at this tick */
     /* The points that entered the node at this tick, and the points that left it; empty at tick 0; owned. */
     id_list arrived, left;
     node_change maker; /* the split or merge that made the node's cell; zero: the cell exists since tick 0 */

@@ -49,7 +49,8 @@ static bool check_recording_beside(const pick *p, const char *folder, octreel_er
     return true;
 }
 
-/* Replay to the frame's tick, compose its scene, and check that its digest is that of the frame. */
+/* Replay to the frame's tick and compose the scene of this tick. Check that the digest of the scene equals the scene
+ * digest in the frame. */
 static bool compose_scene_again(pick *p, replay *r, octreel_error *error)
 {
     r->playback.history.changes.tracked = true;

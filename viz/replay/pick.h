@@ -18,7 +18,7 @@ typedef struct pick_options {
     /* If nothing is drawn at the pixel (x, y), the nearest drawn pixel up to `radius` pixels away is described. */
     int radius;
     renderer_choice renderer;
-    uint64_t max_ticks; /* a longer session is refused; 0: SESSION_MOST_PLAYED */
+    uint64_t max_ticks; /* maximum number of ticks: a longer session is refused; 0: SESSION_MOST_PLAYED */
 } pick_options;
 
 /* An element at a pixel. `touch` describes which samples of the pixel it covers. */
@@ -44,7 +44,7 @@ typedef struct pick {
     int width, height;
     int samples; /* samples per pixel */
     int asked[2];
-    int pixel[2]; /* the described pixel: equal to `asked`, or the nearest drawn pixel */
+    int pixel[2]; /* the pixel that is described: `asked`, or the nearest drawn pixel */
     int radius;
     image_color color;      /* the colour of the frame at `pixel` */
     pick_element *elements; /* the elements at `pixel`, the topmost first */

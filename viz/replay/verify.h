@@ -62,8 +62,8 @@ typedef struct verify_report {
 
 typedef struct verify_options {
     renderer_choice renderer; /* the renderer to open; the member `fill` is ignored */
-    uint64_t max_ticks;       /* a longer session is refused; 0: SESSION_MOST_PLAYED */
-    watcher watch;            /* reports the progress by ticks; its keep_going() is not called */
+    uint64_t max_ticks;       /* maximum number of ticks: a longer session is refused; 0: SESSION_MOST_PLAYED */
+    watcher watch;            /* receives the progress in ticks; keep_going() of the watcher is not called */
 } verify_options;
 
 /* Verify the recording in a folder. Returns false with an error if the recording cannot be read, played or drawn. */

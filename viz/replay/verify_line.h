@@ -17,11 +17,11 @@ typedef enum line_state {
     LINE_WHOLE,
     LINE_TORN,    /* the file ends in the middle of the line, before its newline */
     LINE_LONG,    /* the line is longer than the limit; the part beyond the limit is not read */
-    LINE_NONE,    /* no more lines: the end of the file */
+    LINE_NONE,    /* the end of the file: no line is left */
     LINE_TROUBLE, /* a read error, or out of memory */
 } line_state;
 
-/* Open ticks.jsonl in a folder. It must be a regular file. */
+/* Open the file ticks.jsonl in a folder. The file must be a regular file. */
 bool line_reader_open(line_reader *reader, const char *folder, octreel_error *error);
 void line_reader_close(line_reader *reader);
 
