@@ -1,20 +1,25 @@
 /* SPDX-License-Identifier: MIT */
 /* judge.c - judges the answer of a foreign index by the exact answer.
  *
- * The problem: an index may promise exact answers, answers that are exact for positions rounded to floats, or answers
- * within epsilon; and where several neighbours are equally far, any of them is right. So a comparison of two lists of
- * ids would report right answers as wrong. Some indexes also leave out the boundary of a region.
+ * The problem: comparing two lists of ids would report right answers as wrong. An index may promise exact answers,
+ * answers that are exact for positions rounded to floats, or answers within epsilon. If several neighbours are at the
+ * same distance, any of them is right. Some indexes leave out the boundary of a region.
  *
- * The idea: make two lists of points, the foreign answer and the exact one. Both have exact or rounded positions, as
- * the index promises. For regions the lists are compared as sets, sorted by id: a missing point is wrong, and an extra
- * point is wrong unless it lies within epsilon of the region. The query's bounds decide about points exactly on the
- * boundary, and exact arithmetic decides which points those are. For neighbours the distances are compared rank by
- * rank, so that ties need no rule. Squared distances in doubles decide if they differ by more than their error;
- * otherwise exact arithmetic decides (metric.h).
+ * The idea: make two lists of points, the foreign answer and the exact answer. The positions in both lists are exact
+ * or rounded, as the index promises.
  *
- * If the index promises floats, the exact answer is made again for rounded positions. Rounding moves a point by at most
- * a share of the world's largest coordinate. So all points in a region enlarged by this share are collected, and their
- * rounded positions decide. The cost is that of sorting both lists; for floats also that of one or more searches.
+ * For regions, the lists are compared as sets, sorted by id. A missing point is wrong. An extra point is wrong unless
+ * it lies within epsilon of the region. The bounds of the query, open or closed, decide about points exactly on the
+ * boundary. Exact arithmetic finds these points.
+ *
+ * For neighbours, the distances are compared rank by rank, so that ties need no rule. Squared distances in doubles
+ * decide if they differ by more than their error; otherwise exact arithmetic decides (metric.h).
+ *
+ * If the index promises floats, the exact answer is made again for rounded positions. Rounding moves a point by at
+ * most a fixed fraction of the world's largest coordinate. The region is enlarged by this distance. All points in the
+ * enlarged region are collected, and their rounded positions decide.
+ *
+ * Cost: a sort of both lists; for floats, also one or more searches.
  */
 #include "judge.h"
 #include "../exact/exact.h"

@@ -2,15 +2,19 @@
 /* wrong_nodes.c - finds foreign nodes that are provably wrong, either in themselves or because a query visited or
  * pruned them wrongly.
  *
- * The problem: an index may hold its points anywhere (in leaves, in inner nodes, in several nodes at once), it may list
- * them or not, its boxes may overlap, and its answers may be approximate. Rules of one index do not hold for another,
- * so this file reports only nodes that are wrong in every index.
+ * The problem: indexes differ. An index may store its points anywhere: in leaves, in inner nodes, or in several nodes
+ * at once. Its nodes may list their points or not, its boxes may overlap, and its answers may be approximate. A rule
+ * of one index does not hold for another, so this file reports only nodes that are wrong in every index.
  *
- * The idea: decide which nodes hold a point. A node holds the points that it lists. A leaf that lists nothing holds all
- * points in its box. By these rules a point is lost if no node holds it. A query that prunes a node loses the points
- * that are held only below pruned nodes; the nearest node that the query named, from the holder up, decides. The prune
- * is wrong only if even the best answer without the lost points is wrong (judge_without_lost_points), so a lucky prune
- * is never reported. The cost is that of sorting the listed ids, and one judgement for each query that pruned nodes.
+ * The idea: decide which nodes hold a point. A node holds the points that it lists. A leaf that lists nothing holds
+ * all points in its box. A point that no node holds is lost.
+ *
+ * A query that prunes nodes may lose points. A node that holds a point is excluded if, on the way from this node up to
+ * the root, the first node that the query named was pruned. If all nodes that hold the point are excluded, the query
+ * loses the point. The prune is wrong only if even the best answer without the lost points is wrong
+ * (judge_without_lost_points()). A prune that does no harm is therefore never reported.
+ *
+ * Cost: a sort of the listed ids, and one judgement for each query that pruned nodes.
  */
 #include "foreign.h"
 #include "octree/octree.h"
