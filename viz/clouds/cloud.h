@@ -1,36 +1,41 @@
 /* SPDX-License-Identifier: MIT */
 /* cloud.h - reads point-cloud files in double precision: `x y z` text, PLY, PCD, LAS and LAZ.
  *
- * Text: one point on each line, with its coordinates in the first three columns. Columns are separated by blanks and
+ * Text: each line holds one point. The first three columns are its coordinates. Columns are separated by blanks and
  * tabs, by commas, or by semicolons; a line uses one kind of separator only. Blank lines and comments (# and //) are
- * skipped. A first line of column names, which may be a comment, names the values in further columns. Without names,
- * the ending of the file's name may declare them: .xyzrgb r g b, .xyzn a normal, and .pts, if its first line is the
- * number of points, intensity, r g b or intensity r g b. In other files the columns x y z r g b and x y z intensity r g
- * b are recognised by their numbers. Either the colour channels in all lines are integers from 0 to 255, with the
- * largest above 127. Or they are fractions from 0 to 1, with the largest at least 0.5, and not every colour is a vector
- * of length 1, as a normal would be.
+ * skipped. The first line, which may be a comment, may hold the names of the columns.
+ *
+ * Text without column names: the ending of the file's name may declare further columns. In .xyzrgb they are r g b, in
+ * .xyzn a normal. In .pts, if the first line is the number of points, they are intensity, r g b, or intensity r g b.
+ * In other files, the columns x y z r g b and x y z intensity r g b are recognised by their numbers. The colour
+ * channels of all lines must be of one of two kinds: integers from 0 to 255 with a largest value above 127, or
+ * fractions from 0 to 1 with a largest value of at least 0.5. If they are fractions, not every colour may have length
+ * 1 as a vector, because normals do.
  *
  * PLY: ascii, binary_little_endian and binary_big_endian; x, y and z of the element "vertex", of any scalar type.
  *
  * PCD: versions 0.5 to 0.7; ascii, binary and binary_compressed; the fields x, y and z, of any type.
  *
  * LAS: versions 1.0 to 1.5, all point formats. A coordinate is integer * scale + offset in doubles, with the same bits
- * that laspy computes. Withheld (deleted) records are skipped. LAZ and COPC are compressed LAS. They are read with the
- * same bits if this was built with liblaszip (see cloud_can_read_laz()).
+ * that laspy computes. Withheld (deleted) records are skipped. LAZ and COPC are compressed LAS. A build with liblaszip
+ * reads them with the same bits (see cloud_can_read_laz()).
  *
- * Values of points are found by their names, in upper or lower case: red green blue, r g b or diffuse_red ...; PCD's
- * packed rgb and rgba; intensity; class, classification or label. CloudCompare's prefix "scalar_" is ignored. Colours
- * are stored with 8 bits a channel. The largest channel in the file decides whether the full scale of its channels is
- * 1, 255 or 65535, because files with 16-bit channels often hold 8-bit colours. Alpha is ignored.
+ * Names of values: values of points are found by their names, in upper or lower case. Colours are red green blue, r g
+ * b, diffuse_red and so on, or PCD's packed rgb and rgba. Other names are intensity, and class, classification or
+ * label. The prefix "scalar_" of CloudCompare is ignored. Alpha is ignored.
  *
- * A value is treated as missing if an intensity is not a finite float, a class is not an integer from 0 to 65535, or a
- * colour is outside 0 to 65535. LAS records have room for an intensity, and often for a colour, that the writer did not
- * have and set to zero: an intensity or a colour that is zero in all points is treated as missing, with a note. Class 0
- * is a class: never classified. A note names other values that are ignored, such as normals.
+ * Colours are stored with 8 bits a channel. The largest channel in the file decides whether the full scale is 1, 255
+ * or 65535, because files with 16-bit channels often hold 8-bit colours.
  *
- * The contents of a file decide its format. Only if the contents do not decide, the ending of its name does. A
- * truncated file is an error: no point is lost silently. If data that the header does not announce follows the last
- * point, such as a newline after a compressed block, it is ignored with a note.
+ * Missing values: a value is treated as missing if an intensity is not a finite float, a class is not an integer from
+ * 0 to 65535, or a colour is outside 0 to 65535. If the intensities or the colours in a LAS file are zero in all
+ * points, they are treated as missing, with a note: LAS records have room for them, and writers without such values
+ * store zeros. Class 0 is not missing: it means "never classified". Other values, such as normals, are ignored with a
+ * note.
+ *
+ * The format of a file is chosen by its contents. If the contents do not decide, the ending of the file's name does. A
+ * truncated file is an error, so no point is lost silently. Unexpected data after the last point, such as a newline
+ * after a compressed block, is ignored with a note.
  */
 #ifndef CLOUDS_CLOUD_H
 #define CLOUDS_CLOUD_H

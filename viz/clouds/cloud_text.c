@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /* cloud_text.c - reads points from text: one point on each line, with the coordinates in the first three columns.
  *
- * Text files have no specification. The rules here refuse files that could silently be read as other points: column
- * names that do not begin with x, y, z; decimal commas; mixed separators; and a first line that announces more points
- * than follow.
+ * Text files have no specification. The reader refuses files that could silently be read as other points: column names
+ * that do not begin with x, y, z; decimal commas; mixed separators; and a first line that announces more points than
+ * follow.
  *
- * The columns from the fourth on have the meaning of their names. Without names, the file's ending and the count of its
- * points may declare them (find_columns()). Otherwise three or four further columns are guessed to be colours, in
- * the case of four after an intensity. Every line must confirm the guess (settle_guessed_columns() gives the rules);
- * otherwise the columns are ignored. In both cases cloud.column_note says what was done.
+ * The names of the columns after the third say what these columns mean. Without names, the ending of the file's name
+ * may declare the meaning (find_columns()). Otherwise the meaning is guessed: three further columns are a colour, four
+ * are an intensity and a colour. Every line must confirm the guess (settle_guessed_columns() gives the rules); else
+ * the columns are ignored. The note cloud.column_note tells the user about a guess or ignored columns.
  */
 #include "cloud_format.h"
 #include "file.h"
