@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /* accept_whole.c - checks that a recording is complete before it is accepted.
  *
- * The problem: accepting a whole recording removes references without a frame. A recording may still be written, may
- * have been interrupted, or may have lost a file. Accepting it would silently remove references that are still valid.
+ * The problem: if a whole recording is accepted, each reference without a new frame is removed. The recording may
+ * still be written, may have been interrupted, or may have lost a file. Accepting such a recording would silently
+ * remove references that are still valid.
  *
- * The checks: (1) No process holds the lock of ticks.jsonl, or of ticks-*.jsonl in a chunk. (2) session.json and
- * ticks.jsonl exist. (3) Every tick that should have a frame has one, except in gaps. The ticks come from session.json,
- * and every interval-th tick should have a frame. (4) ticks.jsonl has one line for each tick. The pixels of frames are
- * not checked here, because the comparison reads them anyway.
+ * The checks: (1) No process holds the lock of ticks.jsonl, or of a chunk's tick log, ticks-*.jsonl. (2) session.json
+ * and ticks.jsonl exist. (3) Every tick that should have a frame has a frame, except in gaps. session.json gives the
+ * number of ticks, and every interval-th tick should have a frame. (4) ticks.jsonl has one line for each tick. The
+ * pixels of frames are not checked here, because the comparison reads them anyway.
  *
  * Cost: one file lookup for each frame and one pass over ticks.jsonl.
  */

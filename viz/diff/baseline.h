@@ -10,12 +10,12 @@
  *     k3 fedcba9876543210 frame_000000
  *     ...
  *
- * The format is made for git. Each line holds one fact, so that git can show and merge it. No line holds a count. An
- * acceptance must come before its digests; otherwise the order of lines does not matter. The writer sorts the lines.
- * The reader takes any valid order, so the result of a union merge (merge=union in .gitattributes) is a valid baseline.
+ * The format is made for git. Each line holds one fact, so that git can show and merge it. No line holds a count. The
+ * writer sorts the lines. The reader accepts the lines in any order in which each acceptance comes before its digests.
+ * The result of a union merge (merge=union in .gitattributes) is therefore a valid baseline.
  *
  * The two-character id of an acceptance is a hash of its date, size, kind and reason. Two branches therefore rarely
- * choose the same id for different acceptances; when they do, the reader reports an error. Date, size and reason are
+ * choose the same id for different acceptances; if they do, the reader reports an error. Date, size and reason are
  * stored once for all frames of an acceptance, and ".png" is left out: 1,000 frames with 3 variants each take 99 KB.
  *
  * The accepted digests of a frame are its variants. A frame matches a baseline when its digest equals any variant.
