@@ -5,14 +5,16 @@
  * instead reports that element 3 of a list and all following elements differ, because one inserted element shifts the
  * rest of the list.
  *
- * The idea: objects are compared member by member. Lists are compared as sets of elements that have an identity.
- * Elements with a key (points by id, edits by action and id, events by word) are sorted by key and merged, in O(n log
- * n); if a key occurs several times, its n-th element in one list is compared with its n-th element in the other.
- * Queries, shapes and answers have no key, so cause_pairs.h pairs the most similar elements. Elements without a partner
- * are reported as additional or missing.
+ * The idea: objects are compared member by member. Lists are compared as sets: each element of one list is compared
+ * with its partner in the other list. An element without a partner is reported as additional or missing.
  *
- * If all elements are equal but their order differs, the other order is one fact. A difference of values that are
- * compared as a whole, such as a box or a position, is one fact, too.
+ * Some elements have a key: points have an id, edits an action and an id, events a word. Both lists are sorted by key
+ * and merged, in O(n log n), so that elements with the same key are partners. If a key occurs several times, its n-th
+ * elements in both lists are partners. Queries, shapes and answers have no key, so cause_pairs.h pairs the most
+ * similar elements.
+ *
+ * If all elements are equal but their order differs, the different order is one fact. Two different values that are
+ * compared as a whole, such as boxes or positions, are one fact, too.
  */
 #include "cause_compare.h"
 #include "cause_pairs.h"

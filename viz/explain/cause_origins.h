@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: MIT */
-/* cause_origins.h - finds which differences between two sessions are responsible for each tick, so that frames with the
- * same cause form one group in a report. A "key" of a session is a key press of its player.
+/* cause_origins.h - finds which differences between two sessions cause the difference of each tick, so that frames
+ * with the same cause form one group in a report. A "key" of a session is a key press of its player.
  *
- * The problem: one different key changes hundreds of frames. They should be reported as one group. Frames that differ
- * because of another query at a later tick should be another group. Frames cannot be grouped by their pixels, because
- * each tick shows something else.
+ * The problem: one different key changes hundreds of frames, which should form one group. Frames that differ because
+ * of another query at a later tick should form another group. The pixels of frames cannot decide, because each tick
+ * shows another scene.
  *
  * The idea: while both sessions are played, store for each kind of difference the tick since which it is in effect. A
- * different key or edit takes effect at its tick; it stays in effect while the states of the two games differ. A
- * different query or shape affects only its own tick or, if the view shows heat, all later ticks, too. Whenever the set
- * of effective differences changes, a new stretch of ticks begins. The text of the set, such as "keys 14, queries
- * radius 15", identifies the group of every frame in the stretch.
+ * different key or edit is in effect from its tick on, while the states of the two games differ. A different query or
+ * shape is in effect only at its own tick. If the view shows heat, it is in effect at all later ticks, too. Whenever
+ * the set of kinds in effect changes, a new stretch of ticks begins. A text names this set, such as "keys 14, queries
+ * radius 15". All frames of the stretch form the group of this text.
  *
  * Cost: one binary search for each frame.
  */

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /* cause_pairs.c - pairs the elements of two lists that have no keys, most similar first.
  *
- * Equal elements are paired first: both lists are sorted by the JSON text of their elements. The remaining elements are
- * paired in descending order of similarity. The similarity of two elements is the number of values that they share at
- * the same path. Comparing every element with every other would cost O(n^2), and a list may hold thousands of queries.
- * Each element is therefore compared with only PAIR_CANDIDATES elements of the other list, around its own index.
+ * First, equal elements are paired: both lists are sorted by the JSON text of their elements. Then the remaining
+ * elements are paired in descending order of similarity. The similarity of two elements is the number of values that
+ * are equal in both at the same path.
+ *
+ * A list may hold thousands of queries, and comparing each element with each other element would cost O(n^2). Each
+ * element is therefore compared with only PAIR_CANDIDATES elements of the other list, at the indices around its own.
  */
 #include "cause_pairs.h"
 

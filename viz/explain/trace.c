@@ -1,15 +1,17 @@
 /* SPDX-License-Identifier: MIT */
 /* trace.c - finds the elements that are drawn at the pixels in which two frames differ.
  *
- * The problem: "312 pixels differ" does not help; "180 pixels of node 0/3/7" does. A PNG does not say which element
- * drew a pixel.
+ * The problem: "312 pixels differ" does not help a user; "180 pixels of node 0/3/7" does. But a PNG file does not say
+ * which element drew a pixel.
  *
  * The idea: rebuild the scenes of both frames and draw them once more, with element numbers in place of colours
- * (renderer_pick()). For each differing pixel, look up the element in each scene. The element that is drawn on top
- * caused the difference, so take the upper of the two. If a node is drawn in one scene only because an ancestor is
- * divided there, its pixels count for that ancestor: one change in the tree is reported once, not once for each
- * descendant. Pixels of equal elements are added up in a hash table and sorted by their number. Frames that do not show
- * the scene of their tick are not traced.
+ * (renderer_pick()). For each differing pixel, look up the element in each of the two scenes. The upper of the two
+ * elements is the one that caused the difference.
+ *
+ * A node may be drawn in only one scene because one of its ancestors is divided only there. Its pixels are then
+ * counted for this ancestor, so that one change in the tree is reported once and not once for each descendant. A hash
+ * table adds up the pixels of equal elements. The elements are then sorted by their number of pixels. Frames that do
+ * not show the scene of their tick are not traced.
  *
  * Cost: two drawings, and 8 bytes for each sample of a picture.
  */
