@@ -64,7 +64,8 @@ static bool is_moving(const double velocity[3])
     return velocity[0] != 0 || velocity[1] != 0 || velocity[2] != 0;
 }
 
-/* Add a body whose id is not in use. Its motion starts at its position at this tick. False when there is no memory. */
+/* Add a body whose id is not in use. The motion of the body starts now: at its position, at the tick `tick`. False when
+ * there is no memory. */
 static bool bodies_add(bodies *b, arena *memory, const octree_body *body, uint64_t tick)
 {
     if (!make_room_in_slots(b, memory, b->items.count + 1))
@@ -81,8 +82,8 @@ static bool bodies_add(bodies *b, arena *memory, const octree_body *body, uint64
     return true;
 }
 
-/* Empty a slot of the hash table and close the gap that it leaves. Each later entry of the run moves into the gap,
- * unless the gap lies before the slot of the entry's hash value. */
+/* Empty a slot of the hash table and close the gap that it leaves. Each entry that follows the gap moves into it,
+ * unless this would put the entry before the slot of its hash value. */
 static void clear_slot(bodies *b, size_t gap)
 {
     const size_t mask = b->slot_count - 1;
@@ -144,8 +145,8 @@ static double reflect_path(double origin, double velocity, double ticks, double 
     return position < min ? min : position > max ? max : position;
 }
 
-/* Compute position and velocity on one axis. The faces of the world reflect the body. When the body is at a face, its
- * velocity already points back into the world. */
+/* Compute the position and the velocity of a body on one axis. The faces of the world reflect the body. When the body
+ * is at a face, its velocity already points back into the world. */
 static void bounce_on_axis(const moving_body *body, const octree_box *world, double ticks, int axis, octree_body *now)
 {
     const double min = world->min[axis], max = world->max[axis];
@@ -473,7 +474,8 @@ bool game_list_movers(octree_game *game)
         if (!is_moving(body->velocity))
             continue;
         octree_body now = body_at_tick(body, &game->session->tree.world, game->tick.number);
-        /* Show the position that the tree stores. It differs from the computed one if a full leaf refused the move. */
+        /* Show the position that the tree stores. The stored position differs from the computed position if a full leaf
+         * refused the move. */
         memcpy(now.position, body->position, sizeof now.position);
         /* A body that is too fast to follow does not move. */
         if (is_moving(now.velocity) && !list_push(&game->memory, &game->movers, &now, sizeof now))

@@ -133,8 +133,8 @@ static bool refuse_player_step(octree_game *game, octree_status why, const doubl
            (!game->session->player.sweep || test_collision(game, game->tick.player));
 }
 
-/* Make a step whose end is inside the world and free of hits. A full leaf can still refuse it. False when there is no
- * memory. */
+/* Make a step whose end is inside the world and free of hits. A full leaf can still refuse the step. False when there
+ * is no memory. */
 static bool make_player_step(octree_game *game, const int64_t steps[3], const double to[3])
 {
     const uint64_t id = game->session->player.id;
@@ -147,8 +147,8 @@ static bool make_player_step(octree_game *game, const int64_t steps[3], const do
     return true;
 }
 
-/* Store the player's position after the tick, and its position before. If the player is a body, edits and motion have
- * already moved it. */
+/* Store the player's positions before and after the tick. If the player is a body, edits and motion have already moved
+ * the player. */
 static void update_player(octree_game *game)
 {
     octree_tick *tick = &game->tick;
@@ -369,7 +369,7 @@ static void begin_tick(octree_game *game, char key)
     foreign_begin_tick(&game->foreign);
 }
 
-/* Record the number of a tick's edits and the bounding box of their positions. */
+/* Record the number of edits in a tick, and the bounding box of the positions of the edits. */
 static void record_edits(octree_tick *tick, const octree_input *input)
 {
     octree_box *box = &tick->edited;

@@ -33,7 +33,8 @@ struct octree_game {
     octree *tree;
     arena memory;
     bodies bodies;
-    /* On each axis, the player's steps up minus its steps down; they determine the player's position. */
+    /* On each axis, the number of the player's steps up minus steps down. These numbers determine the player's
+     * position. */
     int64_t steps[3];
     double fastest; /* the largest initial speed of the session's bodies along one axis */
     bool quit;

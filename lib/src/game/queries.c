@@ -9,8 +9,8 @@
 /* ---- The queries of a tick ---------------------------------------------------------------------------------- */
 
 /* Judge the foreign answer and the foreign nodes of a query. The exact answer is the last one in game->answers.
- * `points` and `neighbors` are the lengths that the lists of results had before this answer. False when there is no
- * memory. */
+ * `points` and `neighbors` are the lengths of the lists of results before this answer was appended. False when there is
+ * no memory. */
 static bool judge_foreign_query(octree_game *game, const octree_query *query, const octree_search *how, size_t points,
                                 size_t neighbors)
 {

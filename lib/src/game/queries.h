@@ -10,8 +10,8 @@
  * visits in the tick. */
 octree_search game_search_options(octree_game *game, octree_cost *cost);
 
-/* game_ask_queries() asks `count` queries, which have been checked. game_ask_by_key() asks the query of the key n if n
- * is the player's key in this tick. Both return false when there is no memory. */
+/* game_ask_queries() asks `count` queries, which have been checked. If the player's key in this tick is n,
+ * game_ask_by_key() asks for the nearest point. Both return false when there is no memory. */
 bool game_ask_queries(octree_game *game, const octree_query *queries, size_t count);
 bool game_ask_by_key(octree_game *game);
 

@@ -89,7 +89,7 @@ octree_status octree_input_check(const octree_input *input)
 }
 
 /* Check the ticks of an array of items; each item begins with its tick. The ticks must ascend. If `distinct` is true,
- * no two may be equal. */
+ * no two ticks may be equal. */
 static octree_status check_order(const void *items, size_t size, size_t count, bool distinct)
 {
     if (!items && count)
@@ -164,8 +164,8 @@ octree_input session_input(const octree_session *s, uint64_t tick)
 
 /* ---- Loading ------------------------------------------------------------------------------------------------ */
 
-/* Store the points of all bodies whose velocity is finite. Bodies with other velocities become refusals. Returns the
- * number of points. */
+/* Store the points of all bodies whose velocity is finite. A body with an infinite or NaN velocity is refused. Returns
+ * the number of points. */
 static size_t collect_finite_bodies(octree_game *game, octree_point *points)
 {
     size_t count = 0;
@@ -218,8 +218,8 @@ octree_status game_load_bodies(octree_game *game)
 
 /* ---- The paper's session ------------------------------------------------------------------------------------ */
 
-/* The bodies of the paper. An id is the position in the paper's list. The sixth point of that list, (0, 0, 0), is the
- * player. Three points share one cell of depth 5, so tick 0 refuses one of them. */
+/* The bodies of the example in the paper. The id of a body is its number in the paper's list. The sixth point of that
+ * list, (0, 0, 0), is the player. Three points share one cell of depth 5, so tick 0 refuses one of these points. */
 static const octree_body paper_bodies[] = {
     {.id = 1, .position = {-50, -50, 100}},    {.id = 2, .position = {900, -900, -900}},
     {.id = 3, .position = {900, 900, 900}},    {.id = 4, .position = {-100, -100, 100}},

@@ -103,8 +103,8 @@ static void add_subtree(update *u, const node *n, octree_address address)
 
 /* ---- The whole tree ----------------------------------------------------------------------------------------- */
 
-/* Add a node and all its descendants, in pre-order. `whole` false: a subtree of at most SUBTREE_POINTS points is added
- * to the list of subtrees, instead of its single nodes. */
+/* Add a node and all its descendants, in pre-order. If `whole` is false, a subtree of at most SUBTREE_POINTS points is
+ * added to the list of subtrees, and its nodes are not added one by one. */
 static void add_nodes_below(update *u, octree_stats *stats, uint64_t *sum, const node *n, octree_address address,
                             bool whole)
 {

@@ -29,8 +29,8 @@ typedef struct tree_summary {
  * whole tree. */
 void tree_summary_record(tree_summary *s, arena *memory, const octree *tree, const double position[3]);
 
-/* Update the summary. False when there is no memory; then the next update walks the whole tree. Cost: O(subtrees +
- * nodes and points of the subtrees that changed). */
+/* Update the summary. Returns false when there is no memory; the next update then walks the whole tree. Cost:
+ * O(subtrees + nodes and points of the subtrees that changed). */
 bool tree_summary_update(tree_summary *s, arena *memory, const octree *tree);
 
 /* Append the nodes that became inner nodes in the last update to `splits`. Append the nodes that ceased to be inner
