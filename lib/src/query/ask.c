@@ -189,7 +189,8 @@ octree_status ask_query(query_run *run, const octree_query *query, const double 
         run->how.skip = query->skip;
         run->how.skip_id = query->skip_id;
     }
-    /* epsilon is the permitted error of the foreign answer. The exact answer that judges it has no error. */
+    /* epsilon is the permitted error of the foreign answer. The exact answer, with which the foreign answer is
+     * compared, has no error. */
     if (query_is_judged(query))
         run->how.epsilon = 0;
     else if (query->epsilon > 0)
@@ -205,8 +206,8 @@ octree_status ask_query(query_run *run, const octree_query *query, const double 
 
 /* ---- Outside a game ----------------------------------------------------------------------------------------- */
 
-/* Copy a list's items to a block of exactly their size, and release the list. Null if there are no items or no
- * memory. */
+/* Copy the items of a list to a memory block of exactly the needed size, and release the list. Returns null if there
+ * are no items or no memory. */
 static void *move_to_block(arena *memory, list *l, size_t item_size)
 {
     void *items = l->count ? arena_allocate(memory, l->count * item_size) : NULL;

@@ -54,7 +54,8 @@ static inline bool is_on_boundary(const octree_answer *asked, const double posit
     return query_rules_of(asked->kind)->compare(asked, position, 0) == 0;
 }
 
-/* Return true if the query has a foreign answer or pruned foreign nodes. Both are judged by the exact answer. */
+/* Return true if the query has a foreign answer or pruned foreign nodes. The exact answer then judges the foreign
+ * answer and these nodes. */
 static inline bool query_is_judged(const octree_query *query)
 {
     return query->answered || query->visits[OCTREE_NODE_PRUNED].count > 0;

@@ -182,7 +182,7 @@ static frame *open_path_node(search *s, const node *n, uint64_t code, const uint
     return f;
 }
 
-/* Search those octants of a node that are not on the path to the target's leaf. Usually all of them are out of
+/* Search those octants of a node that are not on the path to the target's leaf. Usually all these octants are out of
  * reach. */
 static void search_siblings(search *s, frame *f, unsigned depth)
 {
@@ -199,9 +199,9 @@ static void search_siblings(search *s, frame *f, unsigned depth)
         search_next_child(s);
 }
 
-/* Find the cells adjacent to the target's cell that the search will probably visit, and store their Morton codes. They
- * lie within a quarter of the cell's size from the target if k = 1, and within half of it if k > 1. Returns the number
- * of codes. */
+/* Find the cells adjacent to the target's cell that the search will probably visit, and store their Morton codes. Such
+ * a cell is at most a quarter of the cell size away from the target if k = 1, and at most half of the cell size if k >
+ * 1. Returns the number of codes. */
 static unsigned find_adjacent_codes(const uint32_t keys[3], unsigned depth, size_t k, uint64_t codes[3])
 {
     const uint32_t size = cell_size(depth), close = k > 1 ? size / 2 : size / 4;
@@ -246,11 +246,10 @@ static void find_nearest_keys(const octree *tree, const double target[3], uint32
     }
 }
 
-/* The number of nodes on the path, from the root down, whose splitting planes are all out of reach of the target.
- *
- * It is 20 minus the highest bit in which the keys of target - reach and target + reach differ on any axis. The reach
- * in keys is widened by the error of the keys plus two. The result is 0 if the keys are not reliable or the target is
- * outside the world. */
+/* Return the number of nodes on the path to the target's leaf, from the root down, whose splitting planes are all out
+ * of reach of the target. * The number is 20 minus the highest bit in which the keys of target - reach and target +
+ * reach differ on any axis. The reach in keys is widened by the error of the keys plus two. The result is 0 if the keys
+ * are not reliable or the target is outside the world. */
 static unsigned count_nodes_out_of_reach(const search *s, const uint32_t keys[3])
 {
     const double reach = sqrt(s->found.node_reach) / s->found.metric.scale;

@@ -102,7 +102,7 @@ static RARE bool is_nearer(const neighbor_heap *h, const octree_point *point, do
     return compare_neighbors(h, point, square, h->few.points[place], h->few.squares[place]) < 0;
 }
 
-/* Compare the neighbours that two keys belong to, exactly. */
+/* Compare the neighbours of two keys with exact arithmetic. */
 static int compare_keys(const neighbor_heap *h, double a, double b)
 {
     const unsigned place = find_slot_of_key(a);
@@ -142,8 +142,8 @@ static inline void insert_key(double *keys, size_t last, double key)
 #endif
 }
 
-/* The keys of the last neighbours may be too close to decide which is farthest. Move the one that is farthest by exact
- * comparison to the end. */
+/* The keys of the last neighbours may be too close to decide which neighbour is farthest. Move the key of the farthest
+ * neighbour, by exact comparison, to the end. */
 static RARE void move_farthest_to_end(const neighbor_heap *h, double *keys, size_t last)
 {
     size_t farthest = last;
@@ -290,7 +290,8 @@ void neighbor_heap_finish(neighbor_heap *h)
         const double distance = metric_distance(h->metric.target, h->items[i].point.position);
         const double before = i > 0 ? h->items[i - 1].distance : 0;
         ascend = ascend && distance >= before;
-        /* In EXACT mode the order is exact. A distance that was rounded below its predecessor is raised to it. */
+        /* In EXACT mode the order is exact. If rounding made a distance smaller than its predecessor, the distance is
+         * raised to the predecessor. */
         h->items[i].distance = h->how.mode == OCTREE_FAST ? distance : fmax(distance, before);
     }
     if (h->how.mode == OCTREE_FAST && !ascend)

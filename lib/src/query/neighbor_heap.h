@@ -39,8 +39,8 @@ typedef struct neighbor_heap {
     few_neighbors few; /* if k <= FEW_NEIGHBORS, holds the neighbours in place of `items` until the end of the search */
 } neighbor_heap;
 
-/* Start a search for the k nearest neighbours. The caller has set h->metric. A negative radius means that the distance
- * is not limited. `room` is the caller's array of k neighbours. */
+/* Start a search for the k nearest neighbours. The caller has set h->metric. If `radius` is negative, the distance is
+ * not limited. `room` is the caller's array of k neighbours. */
 void neighbor_heap_begin(neighbor_heap *h, const octree_search *how, double radius, octree_neighbor *room, size_t k);
 
 /* Return a limit for squares: a point with a greater square is not among the k nearest. If k = 1 and no point is

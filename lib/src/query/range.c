@@ -6,8 +6,8 @@
 
 #include <stdlib.h>
 
-/* The box with its faces moved out by epsilon. The result is rounded inwards, so that no point farther out than epsilon
- * counts as inside. */
+/* Return the box with its faces moved outwards by epsilon. The result is rounded inwards, so that no point farther out
+ * than epsilon counts as inside. */
 static octree_box widen_box(const octree_box *box, double epsilon)
 {
     octree_box wide;

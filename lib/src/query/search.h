@@ -43,7 +43,7 @@ static inline bool is_compared_as_double(octree_mode mode, double square)
 }
 
 /* Whether a point is within a radius. `square` is the scaled squared distance of the point, `radius_square` the scaled
- * squared radius. The caller has already excluded points that are certainly farther. */
+ * squared radius. The caller has already excluded points that are certainly outside the radius. */
 static inline bool is_within_ball(const metric *m, octree_mode mode, const octree_point *point, double square,
                                   double radius, double radius_square)
 {

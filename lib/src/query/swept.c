@@ -120,8 +120,8 @@ static bool hull_make(hull *h, const octree *tree, const sweep *box)
     return true;
 }
 
-/* The octants of a cell that may lie between all pairs of faces, and the octants that certainly do. `low` holds the
- * lowest keys of the cell. */
+/* The octants of a cell that may lie between all pairs of faces, and the octants that certainly lie between them. `low`
+ * holds the lowest keys of the cell. */
 static octant_masks hull_octants(const hull *h, const int32_t low[3], unsigned depth)
 {
     const double half = (double)cell_size(depth) / 2, quarter = half / 2;
