@@ -25,7 +25,7 @@ typedef struct film_options {
     uint64_t max_ticks;
     /* The number of processes that record; 0 and 1: only the calling process. The files are the same for any number.
      * Jobs are started by fork(), so the caller must not have opened a renderer or started threads. */
-    unsigned jobs; /* at most FILM_MOST_JOBS, and at most the number of frames */
+    unsigned jobs; /* number of processes: at most FILM_MOST_JOBS, and at most the number of frames */
     /* Remove the old recording in the folder once tick 0 of the new recording is filmed; not allowed for a chunk. */
     bool replace;
     bool resume;   /* complete the partial recording in the folder; correct frames that exist are kept */
@@ -47,7 +47,7 @@ typedef struct film_summary {
      * double. */
     uint64_t left_out;
     uint64_t over_budget; /* frames that lack elements because of the view's budget */
-    uint64_t below_lod;   /* frames that lack elements because these are smaller than the view's lod */
+    uint64_t below_lod;   /* frames that lack elements because the elements are smaller than the view's lod */
     /* The kinds of elements that were left out, as bits LEFT_OUT_* of scene.h: `beyond` because of the view's budget,
      * `small` because of its lod. */
     unsigned beyond, small;

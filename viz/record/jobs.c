@@ -147,7 +147,8 @@ static void begin_watch(job *self)
 static bool write_step(void *context, const film_step *step, octreel_error *error)
 {
     job *self = context;
-    wait_for_session(self); /* the starter reads no message before it has sent the digest */
+    /* The digest must have arrived first: the starter reads no message before it has sent the digest. */
+    wait_for_session(self);
     return write_message(self->pipe, (message){.step = *step}, step->line, step->size) ||
            error_set(error, "the process that collects the ticks has ended");
 }

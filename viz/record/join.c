@@ -37,7 +37,7 @@ typedef struct joining {
     uint64_t session_digest; /* digest of session.json */
     chunk *chunks;           /* the chunks, sorted by their first tick */
     size_t count;
-    file_writer ticks; /* the new ticks.jsonl */
+    file_writer ticks; /* writes the new file ticks.jsonl */
     char *line;        /* the current line of a chunk */
     size_t line_room;
 } joining;

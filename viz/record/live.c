@@ -80,7 +80,7 @@ static bool open_session(live_recording *live, octreel_error *error)
     live->path = path_join(live->folder, "session.json.live");
     if (!live->path)
         return error_no_memory(error);
-    unlink(live->path); /* remove what is at the path first: it may be an old pipe or link */
+    unlink(live->path); /* first remove an old file at this path, which may be a pipe or a link */
     live->stream = fopen(live->path, "w+bx");
     return live->stream || report_write_failure(live, error);
 }

@@ -140,8 +140,9 @@ typedef struct tick_rest {
     uint64_t scene; /* the scene digest; valid if `has_frame` is true */
 } tick_rest;
 
-/* Find the part of a line of ticks.jsonl that repetitions have in common (tick_rest). Returns false if tick_write() did
- * not write the line; such a line is never treated as a repetition. */
+/* Find the part of a line of ticks.jsonl that is the same in a tick and its repetitions: all members except "tick",
+ * "frame" and "scene". Returns false if tick_write() did not write the line; such a line is never treated as a
+ * repetition. */
 static bool find_rest(const char *line, size_t size, uint64_t tick, tick_rest *rest)
 {
     char begin[40], name[FRAME_NAME];

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The state of the writing of a page. */
+/* The state of writing a page. */
 typedef struct playing {
     const film_options *options;
     film_summary *summary;

@@ -24,7 +24,7 @@ bool recording_open_picture(const recording *r, playback *p, octreel_error *erro
     return playback_open_picture(p, &target, error);
 }
 
-/* The data with which a recording begins, before its first tick. */
+/* The data that are known when a recording begins, before its first tick. */
 typedef struct beginning {
     const view *view;
     renderer_info info; /* the renderer; set only if there are frames */
