@@ -129,8 +129,8 @@ static bool count_in_tick(audit_kind *kind, uint64_t tick, const octree_judgemen
     return true;
 }
 
-/* True if the answer is wrong only in points on the boundary of the query: with other bounds (open or closed) it would
- * be right. */
+/* True if the answer is wrong only in points on the boundary of the query: with other bounds (open or closed) the
+ * answer would be right. */
 static bool is_wrong_only_on_boundary(const octree_judgement *made)
 {
     return made->on_boundary && made->wrong == made->on_boundary && !(made->missing_count && made->extra_count);

@@ -49,7 +49,7 @@ typedef struct audit_kind {
     /* Number of points in the exact answers; number of these points that the foreign answers lack. */
     uint64_t expected, missing;
     uint64_t extra;
-    /* Number of wrong answers by kind; an answer with several errors counts under its first. */
+    /* Number of wrong answers by kind; an answer with several errors counts under its first error. */
     uint64_t wrong_by_kind[OCTREE_WRONG_KINDS];
     uint64_t on_boundary; /* wrong answers that would be right with other bounds of the query (open or closed) */
     uint64_t beyond;      /* wrong answers that violate the limits when judged alone */

@@ -24,10 +24,10 @@ typedef struct inspection {
     size_t out_of_range[POINT_VALUE_KINDS];
 } inspection;
 
-/* Insert every point of a cloud into a new tree. The cloud's values are moved into the result and its positions are
- * freed. `watch` may be null. Its progress() is called after each portion of points with the number of points inserted
- * so far. Cost: O(count). Memory in addition to the positions and the tree: about 12 bytes per point, or 40 bytes under
- * OCTREE_REFUSE. */
+/* Insert every point of a cloud into a new tree. The values of the cloud are moved into the result, and the positions
+ * of the cloud are freed. `watch` may be null. progress() of the watcher is called after each portion of points with
+ * the number of points inserted so far. Cost: O(count). Memory in addition to the positions and the tree: about 12
+ * bytes per point, or 40 bytes under OCTREE_REFUSE. */
 bool inspect_build(cloud *c, const octree_def *def, const watcher *watch, inspection *result, octreel_error *error);
 void inspect_release(inspection *i);
 
@@ -41,8 +41,9 @@ bool inspect_find_node(const inspection *i, const char *address, octree_node *no
 /* Print one node: its box and, if it is a leaf, its points. The text form lists only the first LIST_LINES points. */
 void inspect_print_node(const octree_node *node, const char *name, bool json, FILE *out);
 
-/* Functions that print one item: inspect_print_name() the name of the cloud on a line of its own, the others numbers
- * with a space before each number, a point on a line, and a point as a JSON object. `distance` may be null. */
+/* Functions that print one item each. inspect_print_name() prints the name of the cloud on a separate line.
+ * inspect_print_numbers() prints numbers with a space before each. The last two functions print a point, on a line or
+ * as a JSON object. `distance` may be null. */
 void inspect_print_name(const char *name, FILE *out);
 void inspect_print_numbers(const double *values, size_t count, FILE *out);
 void inspect_print_point(const octree_point *point, const double *distance, FILE *out);
@@ -52,7 +53,7 @@ void inspect_write_point(json_writer *w, const octree_point *point, const double
 bool inspect_count_classes(inspection *i);
 
 /* Print how many points have colours, intensities and classes, as text or as a JSON member. Print nothing if no point
- * has any. */
+ * has such a value. */
 void inspect_print_values(const inspection *i, FILE *out);
 void inspect_write_values(const inspection *i, json_writer *w);
 

@@ -23,7 +23,7 @@ static bool is_ball(octree_query_kind kind)
 }
 
 /* Find the distances of the `count` points in a ball. A radius query returns no distances, so the `count` nearest
- * neighbours of the ball's center are found: they are the same points. */
+ * neighbours of the ball's center are found: these neighbours are the same points. */
 static octree_status find_distances(const octree *tree, const octree_query *query, size_t count, octree_answer *nearest)
 {
     octree_query by_distance = *query;

@@ -11,7 +11,8 @@ enum { CLASSES = UINT16_MAX + 1, CLASSES_LISTED = 16 };
 
 /* The summary of the values of all points. */
 typedef struct value_summary {
-    /* Counts[k]: number of points that have a value of kind k (colour, intensity or class). */
+    /* For each kind of value: counts[k] is the number of points that have a value of kind k (colour, intensity or
+     * class). */
     size_t counts[POINT_VALUE_KINDS];
     float least, most; /* the smallest and the largest intensity of all points */
 } value_summary;
