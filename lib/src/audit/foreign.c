@@ -16,7 +16,7 @@ const char *octree_node_visit_name(octree_node_visit visit)
 }
 
 #define DEPTH_UNKNOWN UINT_MAX
-#define DEPTH_ON_PATH (UINT_MAX - 1) /* not known yet: find_depths() is on its way through the node */
+#define DEPTH_ON_PATH (UINT_MAX - 1) /* stands for an unknown depth while find_depths() walks the path */
 
 /* ---- Checks ------------------------------------------------------------------------------------------------- */
 

@@ -56,9 +56,9 @@ typedef struct foreign {
      * times */
     list visits;
     list unlisted;   /* a list of unlisted_point: the points that no node lists, sorted by id */
-    size_t standing; /* the first elements of `wrong` were found without queries; the number of these elements */
+    size_t standing; /* the number of elements at the start of `wrong` that were found without queries */
     size_t standing_counts[OCTREE_WRONG_NODE_KINDS];
-    uint64_t query;   /* the number of queries recorded so far; in the marks it identifies the current query */
+    uint64_t query;   /* the number of queries recorded so far; this number identifies the current query in the marks */
     uint64_t version; /* the version of the tree with which the nodes were last checked */
     bool checked;
 } foreign;
@@ -75,7 +75,7 @@ size_t foreign_find_node(const foreign *f, uint64_t id);
  * follow. */
 size_t foreign_first_holding(const foreign *f, uint64_t point);
 
-/* Whether a position lies in the box of a node. Both are compared with the precision of the node. */
+/* Whether a position lies in the box of a node. Position and box are compared with the precision of the node. */
 bool foreign_node_contains(const octree_foreign_node *node, const double position[3]);
 
 /* Begin a tick: clear everything that the queries of the last tick recorded about nodes. */

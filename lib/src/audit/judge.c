@@ -33,7 +33,7 @@ typedef struct judge_state {
     octree_answer asked; /* the members of the query; they are rounded to floats if the foreign index promises floats */
     bool rounds;
     metric metric;
-    list *collected; /* the list to which a search appends the points that it finds */
+    list *collected; /* the list to which a search appends the points that the search finds */
     size_t boundary; /* the number of points on the region's boundary that a search found */
     bool failed;     /* true: the memory ran out */
 } judge_state;
@@ -45,8 +45,8 @@ static bool finds_neighbors(const judge_state *s)
 
 /* ---- Positions ---------------------------------------------------------------------------------------------- */
 
-/* Begin to judge a query. After this call, *s must not move in memory, because its judged points point to its
- * target. */
+/* Begin to judge a query. After this call, *s must not move in memory, because the judged points hold pointers to
+ * the target in *s. */
 static void begin_judging(judge_state *s, judge *j, const judged_query *about, octree_judgement *made)
 {
     const octree *tree = about->points->tree;

@@ -41,7 +41,7 @@ typedef struct judge {
 
 void judge_release(judge *j);
 
-/* A query and the exact answer to it. */
+/* A query, and the exact answer to this query. */
 typedef struct judged_query {
     const audited_points *points;
     const octree_query *query;

@@ -303,7 +303,7 @@ bool foreign_check_nodes(foreign *f, const audited_points *points)
 
 /* ---- Queries ------------------------------------------------------------------------------------------------ */
 
-/* A query that is being recorded, with the foreign nodes that it names. */
+/* A query that is being recorded, and the foreign nodes that the query names. */
 typedef struct node_query {
     foreign *foreign;
     const audited_points *points;
