@@ -32,7 +32,7 @@ void cloud_count_skipped(const cloud_file *file, const char *why)
     file->out->why_skipped = why;
 }
 
-/* Stores the values of the point in a row. The rows of skipped points before it get missing values. */
+/* Stores the values of the point in a row. The rows of skipped points before this row get missing values. */
 static bool add_values(cloud_file *file, size_t row, const double *numbers)
 {
     point_values *values = &file->out->values;
@@ -255,7 +255,8 @@ void cloud_note_trailing_lines(cloud_file *file)
 uint64_t cloud_read_bits(unsigned size, bool big_endian, const unsigned char *bytes)
 {
     uint64_t bits = 0;
-    if (size == 4 && !big_endian) /* the most frequent case comes first: compilers turn it into one load */
+    /* the most frequent case has its own code, because compilers turn this code into one load */
+    if (size == 4 && !big_endian)
         return bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 | (uint32_t)bytes[3] << 24;
     for (unsigned i = 0; i < size; i++)
         bits = bits << 8 | bytes[big_endian ? i : size - 1 - i];

@@ -88,7 +88,7 @@ void cloud_discard_zeros(cloud_file *file);
 /* Discards the values that were read so far. Points that are added later have no values. */
 void cloud_discard_values(cloud_file *file);
 
-/* Completes the values. Call this function after the last point was added. */
+/* Completes the values of all points. Call this function after the last point was added. */
 void cloud_finish_values(cloud_file *file);
 
 /* Reserves memory for `count` points. The caller has checked that the file contains so many points. Returns false if

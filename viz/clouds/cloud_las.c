@@ -19,13 +19,13 @@ static const char signature[] = {'L', 'A', 'S', 'F'};
 
 /* Byte offsets in the header. */
 enum {
-    AT_VERSION = 24, /* major version, then minor version */
+    AT_VERSION = 24, /* the offset of the major version; the minor version is the next byte */
     AT_HEADER_SIZE = 94,
     AT_POINTS = 96,
     AT_FORMAT = 104,
     AT_LENGTH = 105,
     AT_COUNT = 107,
-    AT_FACTORS = 131,      /* the scales of x, y and z, then their offsets */
+    AT_FACTORS = 131,      /* the offset of six doubles: the scales of x, y and z, then the offsets of x, y and z */
     AT_WAVEFORMS = 227,    /* the file offset of waveform data; in the header since version 1.3 */
     AT_RECORDS = 235,      /* the file offset of extended variable length records; in the header since version 1.4 */
     AT_RECORD_COUNT = 243, /* the number of extended variable length records; in the header since version 1.4 */
@@ -52,7 +52,7 @@ typedef struct las_reader {
     bool compressed;
     unsigned withheld; /* the bit in a record's flags that marks the record as withheld */
     uint64_t first, length, count;
-    double factors[6]; /* the scales of x, y and z, then their offsets */
+    double factors[6]; /* the scales of x, y and z, then the offsets of x, y and z */
 } las_reader;
 
 static bool is_las(cloud_file *file)

@@ -192,7 +192,7 @@ static bool read_header_line(pcd_reader *reader, cloud_span word, cloud_span res
     return cloud_fail_at_word(reader->file, word, "does not belong in a PCD header");
 }
 
-/* Read the next header line that is not a comment. Split it into its first word and the rest of the line. */
+/* Read the next header line that is not a comment. Split the line into its first word and the rest. */
 static bool read_next_header_line(cloud_file *file, cloud_span *word, cloud_span *rest)
 {
     while (cloud_read_nonblank_line(file, rest))

@@ -34,7 +34,7 @@ typedef struct ply_reader {
     const ply_element *vertex; /* the element "vertex", which holds the points; null until the header declares it */
     unsigned full_color;       /* the assumed full scale of colours: 1 if they are floats, 255 if they are integers */
     bool has_all_points;       /* true: all points were read, so an error after the points becomes a note */
-    bool is_truncated;         /* true: the file ends too early */
+    bool is_truncated;         /* true: the file ends before its last element */
 } ply_reader;
 
 static bool is_ply(cloud_file *file)
@@ -176,7 +176,7 @@ static bool check_header(const ply_reader *reader)
     return true;
 }
 
-/* Read the header from its second line on. */
+/* Read the header, beginning at its second line. */
 static bool read_header(ply_reader *reader)
 {
     cloud_span line, keyword;
@@ -193,7 +193,7 @@ static bool read_header(ply_reader *reader)
 
 /* ---- Ascii data --------------------------------------------------------------------------------------------- */
 
-/* Read the words of one property and remove them from the line. */
+/* Read the words of one property from a line, and remove these words from the line. */
 static bool read_property_words(ply_reader *reader, const ply_property *property, cloud_span *line,
                                 double numbers[CLOUD_CHANNELS])
 {

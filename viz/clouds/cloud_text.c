@@ -372,8 +372,8 @@ static bool parse_point(cloud_file *file, cloud_span line, bool named, text_colu
     return cloud_add_point(file, numbers);
 }
 
-/* Returns whether a comment contains the column names, as CloudCompare writes them. If it does, sets *line to the
- * names. */
+/* CloudCompare writes the column names in a comment. Returns whether a comment contains column names. If so, sets
+ * *line to the names. */
 static bool is_comment_with_column_names(cloud_span *line)
 {
     cloud_span rest = *line, column;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* cloud_values.c - finds the colours, intensities and classes of a cloud by their names, and converts them. */
+/* cloud_values.c - finds the colours, intensities and classes of a cloud by the names of its columns or fields, and
+ * converts their numbers. */
 #include "cloud_format.h"
 #include "number.h"
 

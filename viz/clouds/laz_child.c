@@ -25,7 +25,8 @@ static _Noreturn void run_child(const laz_child *child, const int pipe_ends[2], 
     const int nowhere = open("/dev/null", O_WRONLY);
     if (nowhere >= 0)
         dup2(nowhere, STDERR_FILENO);
-    close(pipe_ends[0]); /* the child closes its read end, so that it gets SIGPIPE when the parent stops reading */
+    /* the child closes its read end of the pipe, so that the child gets SIGPIPE when the parent stops reading */
+    close(pipe_ends[0]);
     FILE *records = fdopen(pipe_ends[1], "wb");
     const bool done = records && child->produce(child->context, records, why) && fflush(records) == 0;
     fflush(why);
