@@ -49,7 +49,7 @@ static bool check_options(const accepting *a, octreel_error *error)
                      o->reference, diff_kind_name(a->reference.kind));
 }
 
-/* Return a side without frames. It stands for a reference that does not exist yet. */
+/* Return a side without frames, for a reference that does not exist yet. */
 static diff_side empty_side(const char *path, diff_kind kind, bool no_frames)
 {
     return (diff_side){.path = path, .source = path, .kind = kind, .background = IMAGE_WHITE, .no_frames = no_frames};

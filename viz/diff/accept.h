@@ -9,7 +9,7 @@
 #include <stdio.h>
 
 typedef struct accept_options {
-    const char *reference; /* a PNG, a folder, a recording or a baseline; created if it does not exist */
+    const char *reference; /* the reference: a PNG, a folder, a recording or a baseline; created if it does not exist */
     const char *frames;    /* the new frames: a PNG, a folder or a recording */
     bool flat;             /* true: the subfolders of a folder are not searched for frames */
     /* The names of the frames to accept. If the list is empty, all frames are accepted, and each reference without a

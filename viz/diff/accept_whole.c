@@ -5,7 +5,7 @@
  * still be written, may have been interrupted, or may have lost a file. Accepting such a recording would silently
  * remove references that are still valid.
  *
- * The checks: (1) No process holds the lock of ticks.jsonl, or of a chunk's tick log, ticks-*.jsonl. (2) session.json
+ * The checks: (1) No process holds the lock of ticks.jsonl, or of a chunk's tick log, ticks_*.jsonl. (2) session.json
  * and ticks.jsonl exist. (3) Every tick that should have a frame has a frame, except in gaps. session.json gives the
  * number of ticks, and every interval-th tick should have a frame. (4) ticks.jsonl has one line for each tick. The
  * pixels of frames are not checked here, because the comparison reads them anyway.
@@ -26,7 +26,7 @@
 #include <string.h>
 
 /* Refuse a recording that is still being written, because its later frames would not be accepted. A chunk of a
- * recording has its own tick log, ticks-*.jsonl. */
+ * recording has its own tick log, ticks_*.jsonl. */
 bool accept_check_ended(const diff_side *side, octreel_error *error)
 {
     octreel_error ignored;

@@ -28,7 +28,8 @@ bool accept_check_whole(const diff_side *side, octreel_error *error);
 /* Copy the pictures into the picture store, if one was given, and write the baseline. */
 bool accept_digests(accepting *a, octreel_error *error);
 
-/* Replace the pictures of the reference. If a whole recording is accepted, replace its other files, too. */
+/* Replace the pictures of the reference. If a whole recording is accepted, also replace the other files of the
+ * reference. */
 bool accept_pictures(accepting *a, octreel_error *error);
 
 #endif

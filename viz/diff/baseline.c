@@ -98,7 +98,7 @@ static bool is_same_acceptance(const acceptance *a, const acceptance *b)
            strcmp(a->reason, b->reason) == 0;
 }
 
-/* Append a copy of an acceptance. The copy owns its reason. */
+/* Append a copy of an acceptance. The copy owns a copy of the reason. */
 static bool append_acceptance(diff_side *side, const acceptance *from, octreel_error *error)
 {
     if (!array_grow(&side->acceptances, side->acceptance_count + 1, &side->acceptance_room, sizeof *side->acceptances))
@@ -164,7 +164,7 @@ static bool is_side_length(int length)
     return length > 0 && length <= IMAGE_MAX_SIDE;
 }
 
-/* Read an acceptance. `line` is the part of its line after "accepted ". */
+/* Read an acceptance from its line in a baseline. `line` begins after the word "accepted ". */
 static bool read_acceptance(diff_side *side, char *line, size_t number, octreel_error *error)
 {
     acceptance a = {.id = ""};
@@ -316,7 +316,7 @@ bool baseline_read(diff_side *side, octreel_error *error)
 
 /* ---- Frames and their variants ------------------------------------------------------------------------------- */
 
-/* If the frame already has this variant, nothing is added: a union merge by git may repeat the line of a variant. */
+/* A union merge by git may repeat the line of a variant. If the frame already has this variant, nothing is added. */
 bool baseline_add_variant(diff_frame *frame, const frame_digest *digest)
 {
     for (size_t i = 0; i < frame->variant_count; i++)

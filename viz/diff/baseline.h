@@ -58,7 +58,8 @@ bool baseline_add_acceptance(diff_side *side, const acceptance_note *note, frame
 bool baseline_add_frame(diff_side *side, const char *name, const frame_digest *variants, size_t count,
                         octreel_error *error);
 
-/* Append a variant to a frame, unless the frame already has it. Return false if memory runs out. */
+/* Append a variant to a frame. If the frame already has this variant, nothing is added. Return false if memory runs
+ * out. */
 bool baseline_add_variant(diff_frame *frame, const frame_digest *digest);
 
 /* Write the baseline, without acceptances that no digest uses. Return false if a frame's name contains a control

@@ -45,7 +45,7 @@ typedef struct diff_options {
     diff_mask *mask;        /* the callback that masks ignored layers; null: no layer is ignored */
     void *mask_context;
     const char *layers; /* the names of the ignored layers, separated by commas */
-    const char *store;  /* the picture store of the reference; then the reference must be a baseline; null: no store */
+    const char *store;  /* the picture store of the reference, which must be a baseline; null: no picture store */
 } diff_options;
 
 /* Return options without a tolerance and with a white background. */

@@ -11,7 +11,8 @@
 
 typedef struct listed_frame {
     const char *name;
-    size_t line; /* the line of the name in its file; 0: the name is from the command line */
+    /* the number of the line that holds the name in the list's file; 0: the name is from the command line */
+    size_t line;
 } listed_frame;
 
 /* A list of frame names. A zeroed list is empty. */

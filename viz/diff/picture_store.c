@@ -23,7 +23,7 @@ static char *make_picture_path(const char *store, const frame_digest *digest)
     return path;
 }
 
-/* Return whether a file is a picture with this digest. If it is not, the error says why. */
+/* Return whether a file is a picture with this digest. If the file is not such a picture, the error says why. */
 static bool is_picture(const char *path, const frame_digest *digest, image_color background, octreel_error *error)
 {
     frame_digest found = {.kind = digest->kind};

@@ -56,8 +56,8 @@ typedef struct diff_side {
 /* Which folders are not searched for frames. */
 typedef struct diff_search {
     bool flat; /* true: no subfolder is searched */
-    /* paths of folders that are not searched, nor are their subfolders; for example the folder of the other side;
-     * null: no path; not owned */
+    /* paths of folders whose files and subfolders are skipped, such as the folder of the other side; null: no path;
+     * not owned */
     const char *left_out[2];
 } diff_search;
 
@@ -79,7 +79,7 @@ void diff_side_sort_frames(diff_side *side);
 #define EVIDENCE_MARKER "evidence.txt"
 #define EVIDENCE_MARKER_BEGINNING "octreel evidence 1\n"
 
-/* Return whether a folder contains EVIDENCE_MARKER, so that it is a folder of evidence. */
+/* Return whether a folder is a folder of evidence: it contains the file EVIDENCE_MARKER. */
 bool diff_is_evidence_folder(const char *folder);
 
 /* Return "picture", "folder", "recording" or "baseline". */
