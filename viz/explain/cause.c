@@ -14,9 +14,9 @@
 typedef struct playing {
     octree_game *games[2];
     bool same_session;    /* true: both sessions are equal, so all their ticks are equal */
-    bool same_rules;      /* both trees have the same options, so equal contents have equal digests */
+    bool same_rules;      /* true: the trees have the same options, so trees with equal contents have equal digests */
     uint64_t versions[2]; /* octree_version() of each tree when the trees were last compared */
-    bool unlike;          /* the result of the last comparison of the trees: true if they differed */
+    bool unlike;          /* true: the trees differed when they were last compared */
     bool other_heat; /* true: the view shows heat, and an earlier tick differed, so the heat of this tick may differ */
     bool shows_heat;
     const cause_watcher *watcher;

@@ -32,13 +32,13 @@ typedef struct cause {
     size_t count, room;
     cause_span wrong[WRONG_CHANGES];
     uint64_t compared;    /* the number of ticks that both sessions have */
-    cause_span differing; /* the ticks that are in both sessions and differ */
+    cause_span differing; /* the span of the ticks that both sessions have and that differ between them */
     uint64_t drawn;       /* the first tick whose frames differ; CAUSE_NO_TICK if no frames differ */
 } cause;
 
 /* Settings and callbacks of cause_find(). */
 typedef struct cause_watcher {
-    size_t first; /* the number of differing ticks, from the first one on, that are reported in detail */
+    size_t first; /* this number of differing ticks, beginning with the first differing tick, is reported in detail */
 
     /* Returns whether a tick is reported in detail although it is not among the `first` ticks. May be null. */
     bool (*wants)(void *context, uint64_t tick);

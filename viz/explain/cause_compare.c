@@ -25,7 +25,7 @@
 
 static void compare_values(const cause_place *place, json_t *a, json_t *b);
 
-/* Add a fact with the values `a` of the reference and `b` of the frames. A null pointer means that this side has no
+/* Add a fact: the value `a` of the reference and the value `b` of the frames. A null pointer stands for a missing
  * value. */
 static void add_fact(const cause_place *place, cause_change change, uint64_t id, json_t *a, json_t *b)
 {
@@ -53,10 +53,10 @@ static bool is_same(const cause_place *place, const json_t *a, const json_t *b)
 /* ---- Lists whose elements have a key ------------------------------------------------------------------------- */
 
 typedef struct keyed {
-    const char *word; /* the text of an element that is a text; the name of the only member of an object, such as
-                         "insert"; else "" */
-    uint64_t id;      /* CAUSE_NO_ID if the element has no id */
-    size_t place;     /* the element's index in its list */
+    /* a key: the text of a text element, or the name of an object's only member, such as "insert"; else "" */
+    const char *word;
+    uint64_t id;  /* CAUSE_NO_ID if the element has no id */
+    size_t place; /* the index of the element in its list */
     json_t *element;
 } keyed;
 
@@ -140,7 +140,8 @@ static bool is_result_member(const char *key)
     return false;
 }
 
-/* Return the query of an answer: an object with its kind and its parameters. The caller releases it. */
+/* Return the query of an answer: a new object with the kind and the parameters of the query. The caller releases the
+ * object. */
 static json_t *query_of(json_t *answer)
 {
     const char *kind = cause_kind_of(answer), *key;
@@ -150,7 +151,8 @@ static json_t *query_of(json_t *answer)
     return json_pack("{so}", kind, asked);
 }
 
-/* Return a session's query without the foreign index's answer and visited nodes. The caller releases it. */
+/* Return a copy of a session's query without the answer and the visited nodes of the foreign index. The caller
+ * releases the copy. */
 static json_t *query_without_answer(json_t *query)
 {
     json_t *asked = json_copy(query);

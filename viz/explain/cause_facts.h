@@ -52,7 +52,7 @@ typedef struct cause_group {
 
 /* A list of facts in groups. A zeroed list is empty. */
 typedef struct cause_facts {
-    cause_group *groups; /* in the order in which they were found */
+    cause_group *groups; /* the groups, in the order in which their first facts were found; owned */
     size_t count, room;
     bool out_of_memory;    /* true: memory ran out, so the list is incomplete */
     cause_origins origins; /* the origins of all facts that have a tick */

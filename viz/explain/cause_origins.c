@@ -31,8 +31,8 @@ static size_t find_kind(cause_origins *o, const char *name)
     return o->kind_count++;
 }
 
-/* Return whether a difference at this path affects only its own tick. (If the view shows heat, later ticks differ in
- * heat, too.) */
+/* Return whether a difference at this path affects only the tick at which it occurs. An effect on the heat of later
+ * ticks is ignored. */
 static bool is_momentary(const char *where)
 {
     return strncmp(where, "queries", 7) == 0 || strncmp(where, "shapes", 6) == 0;

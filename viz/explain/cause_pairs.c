@@ -14,19 +14,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Each element of one list is compared with this number of elements of the other list, at the indices around its
- * own. */
+/* The number of candidates: elements of one list with which an element of the other list is compared. The indices of
+ * the candidates lie around the index of the element. */
 #define PAIR_CANDIDATES ((size_t)16)
 
 typedef struct entry {
     json_t *element;
     char *text;   /* the JSON text of the element */
-    size_t place; /* the element's index in its list */
+    size_t place; /* the index of the element in its list */
     bool paired;
 } entry;
 
 typedef struct entries {
-    entry *all;   /* one entry for each element, in the order of the list */
+    entry *all;   /* one entry for each element of the list, in the order of the list; owned */
     entry **left; /* all entries, sorted by text; later only the entries without a partner */
     size_t count, left_count;
 } entries;

@@ -114,8 +114,8 @@ cause_rule cause_rule_of(const char *where)
     return row ? row->rule : CAUSE_BY_TYPE;
 }
 
-/* Members of answers (positions, distances) and counts of wrong foreign nodes are minor if they have no row of their
- * own. */
+/* A place without a row of its own is minor if it is a member of an answer (positions, distances) or a count of
+ * wrong foreign nodes. */
 cause_row cause_row_of(const cause_group *group)
 {
     const cause_row *row = find_row(group->where);

@@ -87,7 +87,7 @@ static bool are_both_sampled(const octree_session *a, const octree_session *b)
     return a->sampled.known && b->sampled.known && !have_same_bodies(a, b);
 }
 
-/* Return whether a difference between the generators was found. It explains why the bodies differ. */
+/* Return whether a difference between the generators was found. Such a difference explains why the bodies differ. */
 static bool has_different_sample(const cause_facts *facts)
 {
     for (size_t i = 0; i < facts->count; i++)

@@ -139,7 +139,7 @@ static json_t *read_line(const octree_game *a, const octree_game *b, const char 
 {
     json_error_t error;
     json_t *line = json_parse(text, strlen(text), JSON_DECODE_INT_AS_REAL, &error);
-    json_object_del(line, "tree"); /* its counts follow from nodes and points, which are compared one by one */
+    json_object_del(line, "tree"); /* the counts in "tree" follow from compared nodes and points */
     drop_reported_nodes(a, b, json_object_get(line, "splits"));
     drop_reported_nodes(a, b, json_object_get(line, "merges"));
     return line;

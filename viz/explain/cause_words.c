@@ -42,7 +42,7 @@ static bool is_box(const json_t *value)
     return json_object_size(value) == 2 && json_object_get(value, "min");
 }
 
-/* Print a box as its two corners. Print any other object as its members with their names. */
+/* Print a box as its two corners. Print any other object as a list of its members, each with its name. */
 static void print_object(FILE *out, json_t *object)
 {
     const char *key;
@@ -172,7 +172,8 @@ static void print_fact(FILE *out, const cause_row *p, const cause_group *group, 
                                              [CAUSE_MORE] = "one more ",
                                              [CAUSE_LESS] = "one ",
                                              [CAUSE_ORDER] = "another order of the "};
-    if (strcmp(group->where, "answers") == 0 && group->change != CAUSE_ORDER) { /* only one recording has the query */
+    /* here only one recording has the query of the answer */
+    if (strcmp(group->where, "answers") == 0 && group->change != CAUSE_ORDER) {
         fprintf(out, "%s%s", group->query,
                 group->change == CAUSE_MORE ? " asked only in the frames" : " asked only in the reference");
         return;
@@ -264,7 +265,7 @@ static void print_unnamed_verb(FILE *out, const cause_row *p, const cause_group 
     print_values(out, p, group, first);
 }
 
-/* Return whether a fact has a subject, an id or a word. Facts with subjects can share one clause. */
+/* Return whether a fact has a subject: the id of a point, or a word. Facts with subjects can share one clause. */
 static bool has_subject(const cause_fact *fact)
 {
     const json_t *value = fact->b ? fact->b : fact->a;

@@ -128,7 +128,7 @@ static bool play_both_sessions(explanation *e, const diff_result *result, uint64
 
 /* ---- The headline -------------------------------------------------------------------------------------------- */
 
-/* Print the warnings about both sides. Return whether there are any. */
+/* Print the warnings about both sides. Return whether any warning was printed. */
 static bool print_warnings(FILE *out, const explanation *e)
 {
     bool any = false;

@@ -282,7 +282,7 @@ void trace_print(FILE *out, const trace *t)
     uint64_t printed = 0;
     char text[TRACE_TEXT];
     fprintf(out, "%" PRIu64 " pixel%s: ", t->pixels, plural_ending(t->pixels));
-    for (int is_text = 0; is_text < 2; is_text++) /* text is printed last, since it differs in most frames */
+    for (int is_text = 0; is_text < 2; is_text++) /* text is printed last, because text differs in most frames */
         for (size_t i = 0; i < most; i++) {
             if ((t->parts[i].layer == LAYER_TEXT) != is_text)
                 continue;
