@@ -139,7 +139,8 @@ static glyph_part find_largest_rectangle_at(const bitmap *b, int x, int y)
     return best;
 }
 
-/* Find the largest rectangle of set pixels, clear its pixels and return it. Its width is 0 if no pixel is set. */
+/* Find the largest rectangle of set pixels, clear its pixels and return the rectangle. If no pixel is set, the
+ * rectangle has the width 0. */
 static glyph_part remove_largest_rectangle(bitmap *b)
 {
     glyph_part best = {0};
