@@ -47,8 +47,7 @@ typedef struct file_kind_row {
 
 extern const file_kind_row file_kind_rows[];
 
-/* The format that an output file's name requests by its ending. NAME_OPEN: the name has no ending, or an unknown
- * one. */
+/* The format that the ending of an output file's name requests. NAME_OPEN: the ending is missing or unknown. */
 typedef enum output_kind { NAME_OPEN, NAME_PNG, NAME_PICTURE, NAME_FILM, NAME_FILE } output_kind;
 output_kind output_kind_of_name(const char *path);
 

@@ -25,7 +25,7 @@ static bool create_folder(const char *path, status_reader *read_status, octreel_
                                                 S_ISLNK(status.st_mode) ? "link" : "file");
 }
 
-/* Creates all folders on a path: one for each slash at or after `from`. */
+/* Creates the parent folders of `path`: the folder before each slash at or after `from`. */
 static bool create_parents(char *path, char *from, status_reader *read_status, octreel_error *error)
 {
     bool ok = true;

@@ -18,8 +18,8 @@ typedef struct recorded {
     uint64_t every;
 } recorded;
 
-/* The members of recording.json that are not view options. The first two are written before the view options, the
- * others after them. */
+/* The members of recording.json that are not view options. The first two members are written before the view
+ * options, all other members after them. */
 static const json_member fixed_members[] = {
     {"octreel", &json_constant, .required = true, .about = "recording"},
     {"version", &json_version, .required = true, .max = RECORDING_VERSION, .about = "recording"},

@@ -244,7 +244,8 @@ static bool append_header_list(json_reader *r, int list, bool before)
     return true;
 }
 
-/* The foreign nodes of the header are inserted before those of single ticks, because they apply from tick 0 on. */
+/* The foreign nodes of the header are inserted before the foreign nodes of single ticks, because those of the header
+ * apply from tick 0 on. */
 bool session_append_header_lists(json_reader *r)
 {
     return append_header_list(r, SESSION_QUERIES, false) && append_header_list(r, SESSION_SHAPES, false) &&
@@ -360,7 +361,7 @@ bool session_write(const octree_session *session, const point_values *values, FI
         unwritten[i] = get_session_list(session, i);
     session_write_header(session, values, out);
     for (uint64_t tick; (tick = find_next_tick(unwritten)) != OCTREE_EVERY_TICK;) {
-        octree_session now = {.keys = NULL}; /* a session with only the items of this tick */
+        octree_session now = {.keys = NULL}; /* a session that has only the items of this tick */
         for (int i = 0; i < SESSION_LISTS; i++) {
             json_counted_array *list = &unwritten[i];
             size_t count = 0;

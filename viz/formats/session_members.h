@@ -48,7 +48,7 @@ typedef struct session_values {
     size_t column_count;
 } session_values;
 
-/* The state while a session is read. It is the context of the json_reader. */
+/* The state while a session is read. A pointer to this state is the context of the json_reader. */
 typedef struct session_loader {
     /* the folder at which relative paths of point files start; null: point files and samples are refused */
     const char *folder;
@@ -150,7 +150,8 @@ void session_release_values(session_values *values);
 /* Checks that all keys (key presses of the player) are known to a game. Otherwise returns false with an error. */
 bool session_check_keys(const char *keys, octreel_error *error);
 
-/* Appends an uninitialized item to a list and returns it. Returns null with an error if memory runs out. */
+/* Appends an uninitialized item to a list and returns a pointer to the item. Returns null with an error if memory
+ * runs out. */
 void *session_append_item(json_reader *r, const json_place *at, session_list *list, size_t item_size);
 
 #endif

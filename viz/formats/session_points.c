@@ -161,7 +161,7 @@ static bool check_files_allowed(json_reader *r, const json_place *at)
            json_fail(r, at, "the session of a recording must list its points; files and samples are not allowed");
 }
 
-/* Reads the point file into s->points, unless it was already read to compute the world. */
+/* Reads the point file into s->points. If the file was already read to compute the world, does nothing. */
 static bool load_point_file(json_reader *r, const json_t *value, const json_place *at)
 {
     session_loader *s = r->context;

@@ -56,7 +56,7 @@ typedef struct session_stream_tick {
     octree_input input; /* the input without the key */
 } session_stream_tick;
 
-/* Waits for the next object and returns its tick. */
+/* Waits for the next object of the stream and returns the tick of this object. */
 session_stream_state session_stream_read_tick(session_stream *s, session_stream_tick *tick, octreel_error *error);
 
 /* Returns the number of ticks of the session. Call this after the end of the stream. */

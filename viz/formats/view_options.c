@@ -24,7 +24,7 @@ static const char *layer_description(int n)
     return n < LAYER_COUNT ? layer_rows[n].help : NULL;
 }
 
-/* The values of view_fit that a user can choose. FIT_BOX is not among them: camera_fit_points() sets it. */
+/* The values of view_fit that a user can choose. A user cannot choose FIT_BOX: camera_fit_points() sets it. */
 static const char *const fits[][2] = {
     [FIT_WORLD] = {"world", "the whole world, the default of record"},
     [FIT_POINTS] = {"points", "the points shown at tick 0; this is the default of inspect"},
