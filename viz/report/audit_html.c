@@ -18,7 +18,7 @@
 
 /* ---- Links -------------------------------------------------------------------------------------------------- */
 
-/* The page, and the recording to which its links lead. */
+/* The HTML page, and the recording to which the links of the page lead. */
 typedef struct page {
     FILE *out;
     const audit_verdict *verdict;
@@ -130,7 +130,7 @@ static bool begin_viewer_link(const page *p, uint64_t tick, const char *before)
 
 enum { WIDTH = 960, HEIGHT = 150, LEFT = 70, RIGHT = 20, TOP = 12, FOOT = 26 };
 
-/* A chart of one value, the recall or the ratio, over the ticks. */
+/* A chart of one value of the audit over the ticks: the recall, or the ratio of distances. */
 typedef struct chart {
     const audit_kind *kind;
     bool ratio; /* true: the value is the ratio of distances; false: the recall */
@@ -311,8 +311,8 @@ static void write_kind(const page *p, int of)
     fputs(kind->worst_count ? "</ol>\n</section>\n" : "</section>\n", p->out);
 }
 
-/* Print the verdict, the path and the limits. If there is no recording, also print that the page has no links to
- * frames. */
+/* Print the verdict, the path and the limits. If the audited path is a session and not a recording, also print that
+ * the page has no links to frames. */
 static void write_head(const page *p)
 {
     const audit_verdict *v = p->verdict;

@@ -13,7 +13,8 @@ static void write_line(FILE *out, const audit_verdict *v, int kind)
         audit_print_nodes(out, &v->report->nodes);
 }
 
-/* Write a test case. If it fails, its message is one line, and the text of its failure element has all details. */
+/* Write a test case. If the case fails, the message of its failure element is one line, and the text of this element
+ * has all details. */
 static void write_case(FILE *out, const audit_verdict *v, int kind, bool passes)
 {
     junit_begin_case(out, v->path, kind < OCTREE_QUERY_KINDS ? octree_query_name((octree_query_kind)kind) : "nodes");

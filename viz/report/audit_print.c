@@ -17,7 +17,8 @@ const char *audit_ratio_text(double ratio, char text[AUDIT_RATIO_TEXT])
     return text;
 }
 
-/* Print a share with six digits. If the share is just below 1, print as many digits as are needed to tell it from 1. */
+/* Print a share, a number from 0 to 1, with six digits. A share just below 1 is printed with as many digits as
+ * distinguish it from 1. */
 static const char *share_text(double share, char text[NUMBER_TEXT])
 {
     int digits = 6;
@@ -242,7 +243,7 @@ static void write_points(json_writer *w, const char *key, const octree_point *po
     json_write_end_array(w);
 }
 
-/* Write a wrong answer as a JSON object. Its member c->answer is JSON text already and is copied. */
+/* Write a wrong answer as a JSON object. c->answer is already JSON text, so it is copied. */
 static void write_case(json_writer *w, const audit_case *c, bool neighbors)
 {
     json_write_begin_object(w);

@@ -46,7 +46,7 @@ void audit_print_all(FILE *out, const audit_verdict *verdict);
 void audit_print_kind(FILE *out, const audit_verdict *verdict, int kind);
 void audit_print_nodes(FILE *out, const audit_nodes *nodes);
 
-/* Print the limits, between the texts `before` and `after`. Print nothing if there are no limits. */
+/* Print the text `before`, the limits and the text `after`. If no limits are set, print nothing. */
 void audit_print_limits(FILE *out, const char *before, const audit_limits *limits, const char *after);
 
 /* Print one part of the line of audit_print_nodes(). The first function prints its beginning, "nodes: 3 wrong in 2

@@ -114,7 +114,7 @@ static void draw_picture(image *sheet, int left, int top, const image *picture, 
 
 /* ---- Rows ---------------------------------------------------------------------------------------------------- */
 
-/* Draw one picture of a row. If the picture is unreadable, the cell stays empty; the other reports print the error. */
+/* Draw one picture of a row. If the picture cannot be read, its cell stays empty; the other reports print the error. */
 static void draw_cell(image *sheet, const diff_report *report, size_t pair, evidence_picture kind, int left, int top)
 {
     octreel_error ignored;
@@ -141,7 +141,8 @@ static void draw_row(image *sheet, const diff_report *report, const frame_group 
 static void draw_sheet(image *sheet, const diff_report *report, size_t failing)
 {
     const char *headline = report->why->headline;
-    char line[LETTERS + 2]; /* room for one character too many, so that draw_text() sees that the text is cut */
+    /* one character more than a line shows, so that draw_text() notices a text that must be cut */
+    char line[LETTERS + 2];
     size_t row = 0;
     snprintf(line, sizeof line, "%s%s%s", report->groups->verdict, headline ? ": " : "", headline ? headline : "");
     draw_text(sheet, GAP, GAP, LETTERS, line, text_color);

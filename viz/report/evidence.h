@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* evidence.h - the folder that diff --output writes. It holds expected, actual and difference pictures, and
- * report.html. */
+/* evidence.h - the folder of evidence, which diff --output writes. The folder holds expected, actual and difference
+ * pictures, and report.html. */
 #ifndef REPORT_EVIDENCE_H
 #define REPORT_EVIDENCE_H
 

@@ -66,7 +66,7 @@ static const char *cut_next_text(const char **at)
     return text;
 }
 
-/* Print all sentences into one block of memory, each terminated by a zero byte. */
+/* Print all sentences of the groups into one block of memory. A zero byte ends each sentence. */
 static bool print_sentences(frame_groups *g, const diff_result *result, const explanation *why)
 {
     text_stream s;

@@ -31,7 +31,8 @@ static void write_message(FILE *out, const diff_report *report, size_t i)
         write_xml(out, ". Alike: ", group->others);
 }
 
-/* Some readers show the message attribute of a failure and others show its text, so both contain the message. */
+/* Write a failure element. The message is written twice, as attribute and as text, because some readers of JUnit XML
+ * show only the attribute and others only the text. */
 static void write_failure(FILE *out, const diff_report *report, size_t i)
 {
     const diff_finding finding = report->result->pairs[i].finding;
