@@ -38,17 +38,19 @@ typedef struct query_rules {
 
     /* Compare a position with the region of a query, widened by a distance `slack` >= 0. Returns -1 if the position is
      * inside, 0 on the boundary, 1 outside. The comparison is exact, whatever the sizes of the world and the region;
-     * only if slack > 0 may the boundary be rounded outwards. The pointer is null if the result is neighbours. */
+     * only if slack > 0 may the boundary be rounded outwards. The function pointer is null for query kinds whose result
+     * is neighbours. */
     int (*compare)(const octree_answer *asked, const double position[3], double slack);
 
-    /* A closed box that contains the region and all positions within `slack` >= 0 of it. The pointer is null if the
-     * result is neighbours. */
+    /* A closed box that contains the region and all positions within `slack` >= 0 of it. The function pointer is null
+     * for query kinds whose result is neighbours. */
     octree_box (*bound)(const octree_answer *asked, double slack);
 } query_rules;
 
 const query_rules *query_rules_of(octree_query_kind kind);
 
-/* Whether a position is exactly on the boundary of a region. The result of the kind must be points. */
+/* Return true if a position is exactly on the boundary of a query's region. The query's result must be points, not
+ * neighbours. */
 static inline bool is_on_boundary(const octree_answer *asked, const double position[3])
 {
     return query_rules_of(asked->kind)->compare(asked, position, 0) == 0;

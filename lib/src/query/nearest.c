@@ -46,8 +46,8 @@ typedef struct search {
     frame frames[OCTREE_MAX_DEPTH]; /* frames[d] is the frame of the path's node of depth d */
 } search;
 
-/* Swap two values, and the labels that belong to them, if the values are out of order. Without branches, because they
- * would be unpredictable. */
+/* Swap two values, and the labels that belong to them, if the values are out of order. The code has no branches,
+ * because branches would be unpredictable. */
 static inline void sort_two_labeled(double *a, double *b, uint8_t *of_a, uint8_t *of_b)
 {
     const double lesser = *b < *a ? *b : *a, greater = *b < *a ? *a : *b;
@@ -247,9 +247,11 @@ static void find_nearest_keys(const octree *tree, const double target[3], uint32
 }
 
 /* Return the number of nodes on the path to the target's leaf, from the root down, whose splitting planes are all out
- * of reach of the target. * The number is 20 minus the highest bit in which the keys of target - reach and target +
- * reach differ on any axis. The reach in keys is widened by the error of the keys plus two. The result is 0 if the keys
- * are not reliable or the target is outside the world. */
+ * of reach of the target.
+ *
+ * The number is 20 minus the highest bit in which the keys of target - reach and target + reach differ on any axis. The
+ * reach in keys is widened by the error of the keys plus two. The result is 0 if the keys are not reliable or the
+ * target is outside the world. */
 static unsigned count_nodes_out_of_reach(const search *s, const uint32_t keys[3])
 {
     const double reach = sqrt(s->found.node_reach) / s->found.metric.scale;
