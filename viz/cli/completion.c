@@ -224,8 +224,8 @@ typedef struct script {
 
 static void put_template(const script *s, const char *template);
 
-/* Writes a text that is quoted by '. A backslash is written before each character that is special to the shell. A
- * quote in the text becomes '\'', which all three shells understand. */
+/* Writes a text that is quoted by '. A backslash is written before each character that is special to the shell. A quote
+ * character in the text becomes the characters '\'', which all three shells understand. */
 static void put_quoted(const script *s, const char *text, size_t length)
 {
     for (size_t i = 0; i < length; i++)

@@ -13,8 +13,9 @@ typedef struct output_file {
     const char *folder; /* the folder that the option names; null: the option names a file, or was not given */
 } output_file;
 
-/* Checks the outputs before anything is written. Always refused are two outputs that are the same file, and two that
- * go to standard output; with `json`, the JSON report is such an output. Unless `force` is true, also refused are
+/* Checks the outputs of a command before anything is written. Two outputs that are the same file are always refused.
+ * Two outputs that go to standard output are always refused, too; with `json`, the JSON report is such an output.
+ * Unless `force` is true, these outputs are also refused:
  * - a file that is an input or lies in an input folder and is read there;
  * - a file of a recording, even if it does not exist yet;
  * - a baseline, a session, a point cloud or a frame;

@@ -37,11 +37,13 @@ void progress_end(progress *p);
 /* Returns the number of seconds since progress_start(). */
 double progress_seconds(const progress *p);
 
-/* Signals that stop a task between two of its steps. After defer_stop_signals(), SIGHUP, SIGINT and SIGTERM are only
- * noted, unless they are ignored. Between steps the task calls has_no_stop_signal(), which returns false if one was
- * noted; as a callback it has a context, which it does not use. deliver_stop_signal() then ends the program as the
- * sender expects. A task that does not stop within five seconds, for example because nobody reads its output, is ended
- * by the signal. No system call is interrupted. Children made by fork() note signals of their own. */
+/* Signals that stop a task between two of its steps.
+ *
+ * After defer_stop_signals(), SIGHUP, SIGINT and SIGTERM are only recorded; a signal that was ignored stays ignored.
+ * Between two steps the task calls has_no_stop_signal(), which returns false if a signal was recorded. Its parameter is
+ * not used; with it, the function can be a callback. deliver_stop_signal() then ends the program as the sender of the
+ * signal expects. If a task does not stop within five seconds, for example because nobody reads its output, the signal
+ * ends the program. No system call is interrupted. Children made by fork() record their own signals. */
 void defer_stop_signals(void);
 bool has_no_stop_signal(void *context);
 void deliver_stop_signal(void);
