@@ -23,8 +23,9 @@ typedef struct film_options {
     uint64_t first, last;
     /* Maximum number of ticks: a longer session is refused; 0: SESSION_MOST_PLAYED; ignored by live recordings. */
     uint64_t max_ticks;
-    /* The number of processes that record; 0 and 1: only the calling process. The files are the same for any number.
-     * Jobs are started by fork(), so the caller must not have opened a renderer or started threads. */
+    /* The number of processes that record; 0 and 1: only the calling process. The written files are the same for any
+     * number of processes. Jobs are started by fork(), so the caller must not have opened a renderer or started
+     * threads. */
     unsigned jobs; /* number of processes: at most FILM_MOST_JOBS, and at most the number of frames */
     /* Remove the old recording in the folder once tick 0 of the new recording is filmed; not allowed for a chunk. */
     bool replace;

@@ -51,8 +51,9 @@ static film_stream_end film_stream_tick(streaming *s, const session_stream_tick 
     return live_add_unplayed(s->live, tick->number, &tick->input, s->error) ? how : FILM_STREAM_BROKEN;
 }
 
-/* Record the ticks after the last JSON object of the stream. They exist because the player has key presses for them, or
- * because the header's number of ticks includes them. Their number is known only at the end of the stream. */
+/* Record the ticks after the last JSON object of the stream. Such a tick exists if the player has a key press for it,
+ * or if the number of ticks in the header includes it. The number of these ticks is known only at the end of the
+ * stream. */
 static film_stream_end film_remaining_ticks(streaming *s)
 {
     octree_session session = *session_stream_first_session(s->from);

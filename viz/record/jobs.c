@@ -121,7 +121,7 @@ static bool job_keeps_going(void *context)
 }
 
 /* The thread of a job that waits until the starter dies and then ends the job, because nobody needs its current frame.
- * If the starter only stops the job, its end of the socket stays open and the job finishes its frame. */
+ * If the starter only stops the job, the starter's end of the socket stays open and the job finishes its frame. */
 static void *watch_starter(void *context)
 {
     const job *self = context;
@@ -159,11 +159,12 @@ static _Noreturn void run_job(job *self, const recording *r, playback *p, const 
 {
     octreel_error error;
     const watcher watch = {.keep_going = job_keeps_going, .context = self};
-    /* Llvmpipe, the software GL, must not start threads: other jobs use the other cores. */
+    /* The software GL (llvmpipe) must not start threads: other jobs use the other cores. */
     setenv("LP_NUM_THREADS", "0", 0);
     draw_context_set_report(NULL); /* the starter reports the GL context, so the job must not */
     begin_watch(self);
-    /* P->learn_session waits for the digest; it is called only after the first frame is drawn. */
+    /* learn_session() waits for the digest of session.json. The playback calls this function only after its first frame
+     * is drawn. */
     p->learn_session = learn_session;
     p->learn_context = self;
     const bool ok = recording_open_picture(r, p, &error) && playback_run(p, share, write_step, self, &watch, &error);

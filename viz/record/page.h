@@ -35,7 +35,8 @@ typedef struct page_writer {
 /* Write a page. Call page_begin() with the text of recording.json, then page_add_tick() for each line of ticks.jsonl,
  * then page_end() with the text of session.json, and page_release() after a failure too. In error messages `path` is
  * the source of the text. Returns false with an error if the text is not JSON. Write errors are left to the caller, who
- * checks the stream. A tick that repeats the tick before it takes 20 bytes, or none if it has no frame. */
+ * checks the stream. A tick that repeats the tick before it takes 20 bytes of the page, or no bytes if the tick has no
+ * frame. */
 bool page_begin(page_writer *w, FILE *page, const char *path, const char *recording, size_t size, octreel_error *error);
 bool page_add_tick(page_writer *w, const char *path, const char *line, size_t size, octreel_error *error);
 void page_end(page_writer *w, const char *session, size_t size);

@@ -117,8 +117,8 @@ bool playback_check_last(playback *p, octreel_error *error)
     return same;
 }
 
-/* Check the last drawn frame if its number is one that is_checked() selects. The first frame that a process draws is
- * always checked. */
+/* Check the last drawn frame if is_checked() selects this frame. The first frame that a process draws is always
+ * checked. */
 static bool check_frame(playback *p, uint64_t tick, octreel_error *error)
 {
     const film_share *share = &p->share;

@@ -112,8 +112,8 @@ bool playback_check_last(playback *p, octreel_error *error);
  * false. */
 typedef bool film_sink(void *context, const film_step *step, octreel_error *error);
 
-/* Play to the end of a share and film its ticks. `watch` may be null; its keep_going() is called after each tick, its
- * progress() is not called. If keep_going() returns false, the run ends early and returns true. */
+/* Play to the end of a share and film its ticks. `watch` may be null. keep_going() of the watcher is called after each
+ * tick; progress() is not called. If keep_going() returns false, the run ends early and returns true. */
 bool playback_run(playback *p, const film_share *share, film_sink *sink, void *context, const watcher *watch,
                   octreel_error *error);
 
