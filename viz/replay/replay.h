@@ -35,8 +35,8 @@ void replay_close(replay *r);
  * with an error on failure, and also if the session has no such tick. */
 bool replay_up_to(replay *r, uint64_t tick, octreel_error *error);
 
-/* Returns a renderer for the scenes of the recording. The first call opens it; replay_close() closes it. Returns null
- * with an error on failure. */
+/* Returns a renderer for the scenes of the recording. The first call opens the renderer; replay_close() closes the
+ * renderer. Returns null with an error on failure. */
 renderer *replay_renderer(replay *r, const renderer_choice *choice, octreel_error *error);
 
 #endif
