@@ -130,6 +130,10 @@ static void folders_that_cannot_be_listed_are_no_inputs(void **state)
     file_write_text(report.path, "old");
     assert_int_equal(chmod(own->name, 0777) + chmod(report.path, 0666) + chmod(lost.path, 0), 0);
     const bool root = geteuid() == 0;
+#ifdef __SANITIZE_ADDRESS__
+    if (root)
+        skip(); /* a program with another effective user does not read ASAN_OPTIONS */
+#endif
     if (root && seteuid(NOBODY) != 0)
         skip(); /* root can list everything, and this container has no other user */
     command_result flat =
