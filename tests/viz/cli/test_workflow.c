@@ -251,8 +251,8 @@ static void actions_of_others_are_pinned_by_commit(void **state)
 {
     (void)state;
     command_result lines =
-        run_script("cd %s && grep -rn 'uses: ' README.md .github viz/cli", shell_quote(OCTREEL_ROOT).text);
-    command_result unpinned = run_script("cd %s && grep -rn 'uses: ' README.md .github viz/cli | "
+        run_script("cd %s && grep -rn '\\buses: ' README.md .github viz/cli", shell_quote(OCTREEL_ROOT).text);
+    command_result unpinned = run_script("cd %s && grep -rn '\\buses: ' README.md .github viz/cli | "
                                          "grep -vE 'uses: (\\./|OWNER/octreel/|.*@[0-9a-f]{40} # v[0-9.]+$)'",
                                          shell_quote(OCTREEL_ROOT).text);
     assert_contains(lines.out, "actions/checkout@");
