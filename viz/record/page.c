@@ -165,39 +165,37 @@ static void write_repeated(page_writer *w)
     w->repeated = 0;
 }
 
-/* If the tick repeats the last tick, write it as a repetition and return true. */
-static bool write_repetition(page_writer *w, const char *line, size_t size)
+/* If a tick repeats the last tick, write it as a repetition and return true. */
+static bool write_repetition(page_writer *w, const tick_rest *rest)
 {
-    tick_rest last, rest;
     char digest[DIGEST_TEXT];
-    if (!w->last || !find_rest(w->last, w->last_size, w->last_tick, &last) || !find_rest(line, size, w->ticks, &rest) ||
-        rest.size != last.size || memcmp(rest.text, last.text, rest.size) != 0)
+    if (!w->rest || rest->size != w->rest_size || memcmp(rest->text, w->rest, rest->size) != 0)
         return false;
-    w->repeated += !rest.has_frame;
-    if (!rest.has_frame)
+    w->repeated += !rest->has_frame;
+    if (!rest->has_frame)
         return true;
     write_repeated(w);
-    fprintf(w->out, "\"%s\"\n", digest_print(rest.scene, digest));
+    fprintf(w->out, "\"%s\"\n", digest_print(rest->scene, digest));
     return true;
 }
 
-static bool keep_last(page_writer *w, const char *line, size_t size)
+/* Keep what later ticks may repeat. `rest` is null if no tick can repeat this one. */
+static bool keep_rest(page_writer *w, const tick_rest *rest)
 {
-    char *copy = realloc(w->last, size + 1);
-    if (!copy)
-        return false;
-    w->last = memcpy(copy, line, size);
-    w->last[size] = 0;
-    w->last_size = size;
-    w->last_tick = w->ticks;
-    return true;
+    free(w->rest);
+    w->rest_size = rest ? rest->size : 0;
+    w->rest = rest ? malloc(rest->size + 1) : NULL;
+    if (w->rest)
+        memcpy(w->rest, rest->text, rest->size);
+    return w->rest || !rest;
 }
 
-static bool write_tick(page_writer *w, const char *path, const char *line, size_t size, octreel_error *error)
+static bool write_tick(page_writer *w, const char *path, const char *line, size_t size, const tick_rest *rest,
+                       octreel_error *error)
 {
     write_repeated(w);
     return write_json_text(line, size, w->out, path, w->ticks + 1, error) &&
-           (keep_last(w, line, size) || error_no_memory(error));
+           (keep_rest(w, rest) || error_no_memory(error));
 }
 
 /* ---- A page ------------------------------------------------------------------------------------------------- */
@@ -216,7 +214,10 @@ bool page_begin(page_writer *w, FILE *page, const char *path, const char *record
 
 bool page_add_tick(page_writer *w, const char *path, const char *line, size_t size, octreel_error *error)
 {
-    const bool ok = write_repetition(w, line, size) || write_tick(w, path, line, size, error);
+    tick_rest rest;
+    const bool repeatable = find_rest(line, size, w->ticks, &rest);
+    const bool ok =
+        (repeatable && write_repetition(w, &rest)) || write_tick(w, path, line, size, repeatable ? &rest : NULL, error);
     w->ticks++;
     return ok;
 }
@@ -242,7 +243,7 @@ void page_end(page_writer *w, const char *session, size_t size)
 
 void page_release(page_writer *w)
 {
-    free(w->last);
+    free(w->rest);
     *w = (page_writer){0};
 }
 

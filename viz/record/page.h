@@ -25,11 +25,9 @@ bool page_plays(void);
 typedef struct page_writer {
     FILE *out;
     uint64_t ticks; /* number of ticks added so far */
-    /* The last tick that was written as a whole line: its line of ticks.jsonl and its number. `repeated` counts the
-     * ticks without a frame that repeat this tick and are not yet written. */
-    char *last;
-    size_t last_size;
-    uint64_t last_tick, repeated;
+    char *rest;     /* the part of the last whole line that a repetition shares; null if no tick can repeat it; owned */
+    size_t rest_size;
+    uint64_t repeated; /* number of ticks without a frame that repeat this line and are not yet written */
 } page_writer;
 
 /* Write a page. Call page_begin() with the text of recording.json, then page_add_tick() for each line of ticks.jsonl,
