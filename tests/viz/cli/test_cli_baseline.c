@@ -272,10 +272,11 @@ static void tolerance_applies_to_every_variant(void **state)
 /* Let the process open `count` more files. Returns the former limit. */
 static struct rlimit limit_open_files(int count)
 {
-    struct rlimit before, limit;
+    struct rlimit before;
     const int lowest = open("/dev/null", O_RDONLY);
-    assert_true(lowest >= 0 && close(lowest) == 0 && getrlimit(RLIMIT_NOFILE, &before) == 0);
-    limit = before;
+    assert_true(lowest >= 0 && close(lowest) == 0);
+    assert_int_equal(getrlimit(RLIMIT_NOFILE, &before), 0);
+    struct rlimit limit = before;
     limit.rlim_cur = (rlim_t)(lowest + count);
     assert_int_equal(setrlimit(RLIMIT_NOFILE, &limit), 0);
     return before;
