@@ -45,7 +45,11 @@ static bool write_script(play *p, uint64_t frames, const char *script)
         return fail(p, "%s: the path is too long", p->page);
     FILE *file = fopen(path, "wb");
     if (file)
-        fprintf(file, "const FRAMES = %" PRIu64 ";\n(async () => {\n%s})();\n", frames, script);
+        fprintf(
+            file,
+            "const FRAMES = %" PRIu64 ";\n(async () => {\n"
+            "while (typeof octreel === \"undefined\")\n    await new Promise(done => setTimeout(done, 1));\n%s})();\n",
+            frames, script);
     return (file && fclose(file) == 0) || fail(p, "%s: %s", path, strerror(errno));
 }
 

@@ -87,19 +87,24 @@ static void decode(char *text)
     *to = '\0';
 }
 
-/* Write "driven.js" beside the page: all scripts, one after the other. */
+/* Write "driven.js" beside the page: all scripts, one after the other. They run when the page has unpacked and run its
+ * own scripts. */
 static void write_driving_script(const char *folder, const char *const scripts[])
 {
     FILE *file = fopen(place_below(folder, "driven.js").path, "w");
     assert_non_null(file);
     /* While a timer is due the browser's clock goes on by its steps. Without one it would run to its end at once where
      * the page waits for what has no clock, as for a compiler or a file. */
-    fputs("setInterval(() => {}, 1);\n", file);
+    fputs("setInterval(() => {}, 1);\n(async () => {\n"
+          "while (document.getElementById(\"scripts\") && typeof octreel === \"undefined\")\n"
+          "    await new Promise(done => setTimeout(done, 1));\n",
+          file);
     for (size_t i = 0; scripts[i] != NULL; i++) {
         char *text = file_read(scripts[i], NULL);
         fputs(text, file);
         free(text);
     }
+    fputs("})();\n", file);
     assert_int_equal(fclose(file), 0);
 }
 

@@ -8,6 +8,8 @@
 const BEFORE = "<script>var faults = []; history.replaceState = () => {}; requestAnimationFrame = setTimeout;" +
     "addEventListener('error', event => faults.push(event.message)); var viewer = () => octreel; MORE<\/script>";
 
+const isShown = element => element !== null && !element.closest("[hidden]");
+
 async function open(text, more)
 {
     const frame = document.createElement("iframe");
@@ -15,11 +17,10 @@ async function open(text, more)
     const loaded = new Promise(done => frame.addEventListener("load", done));
     document.body.append(frame);
     await loaded;
-    await new Promise(done => setTimeout(done, 10));
+    for (let i = 0; i < 50 && !isShown(frame.contentDocument.getElementById("viewer")); i++)
+        await new Promise(done => setTimeout(done, 10));
     return frame.contentWindow;
 }
-
-const isShown = element => element !== null && !element.closest("[hidden]");
 
 async function sayPage({name, text, more = ""})
 {

@@ -26,30 +26,14 @@ const moduleText = () => document.getElementById("module")?.textContent.trim();
 /* Whether the page contains the module and the browser can run it. */
 function hasModule()
 {
-    return Boolean(moduleText()) && typeof WebAssembly === "object" && typeof DecompressionStream === "function";
-}
-
-/* Decode a text that module/pack_module encoded: Z85 with some digits replaced. */
-function unpackLetters(text)
-{
-    const digits = new Map([..."0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ.-:+=^!/*?,_>()[]{}~%$#"]
-        .map((letter, digit) => [letter, digit]));
-    const words = new DataView(new ArrayBuffer(Math.floor(text.length / 5) * 4));
-    for (let at = 0; at < words.byteLength; at += 4) {
-        let word = 0;
-        for (const letter of text.substr(1 + at / 4 * 5, 5))
-            word = word * 85 + digits.get(letter);
-        words.setUint32(at, word);
-    }
-    return new Uint8Array(words.buffer, 0, words.byteLength - text[0]);
+    return Boolean(moduleText()) && typeof WebAssembly === "object";
 }
 
 /* Compile the module that the page contains. */
 async function compileModule()
 {
     try {
-        const unpacked = new Blob([unpackLetters(moduleText())]).stream().pipeThrough(new DecompressionStream("gzip"));
-        return await WebAssembly.compile(await new Response(unpacked).arrayBuffer());
+        return await WebAssembly.compile(await unpack(moduleText()).arrayBuffer());
     } catch (error) {
         throw new Error(`the WebAssembly module in this page is damaged (${error.message}); record or copy the page ` +
                         "again");

@@ -14,8 +14,8 @@ const ADDRESS_DELAY = 200;
 const NO_FRAMES = "This recording has no frames.";
 const NO_MODULE = "This recording has no frames, and this page cannot draw them: octreel was built without " +
     "WebAssembly. To get frames, run octreel record session.json.";
-const NO_BROWSER = "This recording has no frames, and this browser lacks WebAssembly or DecompressionStream to " +
-    "draw them. Use a newer browser, or run octreel record session.json.";
+const NO_BROWSER = "This recording has no frames, and this browser lacks WebAssembly to draw them. Use a newer " +
+    "browser, or run octreel record session.json.";
 
 const byId = id => document.getElementById(id);
 

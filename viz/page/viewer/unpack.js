@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: MIT */
+/* unpack.js - unpacks the compressed parts of a page, and runs the page's scripts. The content security policy allows
+ * the unpacked text by its hash. */
+"use strict";
+
+/* Decode a text that module/pack_module encoded: Z85 with some digits replaced. */
+function unpackLetters(text)
+{
+    const digits = new Map([..."0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ.-:+=^!/*?,_>()[]{}~%$#"]
+        .map((letter, digit) => [letter, digit]));
+    const words = new DataView(new ArrayBuffer(Math.floor(text.length / 5) * 4));
+    for (let at = 0; at < words.byteLength; at += 4) {
+        let word = 0;
+        for (const letter of text.substr(1 + at / 4 * 5, 5))
+            word = word * 85 + digits.get(letter);
+        words.setUint32(at, word);
+    }
+    return new Uint8Array(words.buffer, 0, words.byteLength - text[0]);
+}
+
+/* Decompress a text that module/pack_module encoded. Returns a Response, whose bytes or text can be awaited. */
+function unpack(letters)
+{
+    return new Response(new Blob([unpackLetters(letters)]).stream().pipeThrough(new DecompressionStream("gzip")));
+}
+
+async function runScripts()
+{
+    const message = document.getElementById("message"), script = document.createElement("script");
+    if (typeof DecompressionStream !== "function") {
+        message.textContent = "This browser lacks DecompressionStream, which the page needs. Use a newer browser. The " +
+            "frames are PNG files beside the page, and ticks.jsonl holds what happened at each tick.";
+        return;
+    }
+    script.textContent = await unpack(document.getElementById("scripts").textContent).text();
+    document.body.append(script);
+}
+
+runScripts();
