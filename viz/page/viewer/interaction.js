@@ -105,7 +105,6 @@ class Interaction {
         this.showView();
         this.showBranch();
         byId("view").hidden = byId("asking").hidden = false;
-        byId("live-start").hidden = true;
         /* If there are no recorded frames, the page started to play by itself. */
         byId("hint").hidden = recording.hasFrames;
         byId("caption").hidden = true;
@@ -192,7 +191,7 @@ class Interaction {
         this.live = this.starting = undefined;
         for (const hidden of ["view", "asking", "live-end", "save", "branch", "picked", "ahead"])
             byId(hidden).hidden = true;
-        byId("live-start").hidden = byId("hint").hidden = false;
+        byId("hint").hidden = false;
         this.showStatus("");
         this.viewer.stage.shown = -1;
         this.viewer.follow(this.recorded);
@@ -339,6 +338,7 @@ class Interaction {
         const list = element("ol"), rest = texts.splice(FEW);
         list.append(...texts);
         root.hidden = false;
+        setOpen("sheet", true);
         const heading = pixel ? `At (${pixel.join(", ")}), ${color}` : "Nothing is drawn here";
         root.replaceChildren(element("h2", heading), list);
         if (rest.length === 0)
@@ -355,8 +355,6 @@ class Interaction {
     {
         const {stage} = this;
         byId("live-bar").hidden = false;
-        document.body.classList.add("plays");
-        byId("live-start").addEventListener("click", () => this.start());
         byId("live-end").addEventListener("click", () => this.goBack());
         byId("save").addEventListener("click", () => this.save());
         const held = new Set(); /* ids of the pointers that are down: a click may end before the module has started */

@@ -101,6 +101,12 @@ class Viewer {
         this.show();
     }
 
+    foldTimeline(folded)
+    {
+        foldTimeline(folded);
+        this.timeline.draw();
+    }
+
     clearFilter()
     {
         this.filter = 0;
@@ -275,7 +281,6 @@ const PLAYING_KEYS = [
     [["Shift+PageUp"], "Shift Page Up", "zoom in (or scroll)", viewer => viewer.interaction.zoom(1.25)],
     [["Shift+PageDown"], "Shift Page Down", "zoom out", viewer => viewer.interaction.zoom(0.8)],
     [["c"], "c", "identify what is in the middle of the view (or click anywhere)", viewer => viewer.interaction.pick()],
-    [["Escape"], "Esc", "back to the recording or session", viewer => viewer.interaction.goBack()],
 ];
 
 /* The keys of the page. Each row has the key's names in KeyboardEvent, its name in the help, its help text, and its
@@ -296,6 +301,10 @@ const KEYS = [
         [[String(i + 1)], String(i + 1), `select or deselect ${name}`, viewer => viewer.toggle(1 << i)]),
     [["0"], "0", "clear the selection", viewer => viewer.clearFilter()],
     ...(hasModule() ? PLAYING_KEYS : []),
+    [["i"], "i", "open or close the facts of the tick", () => setOpen("sheet", !isOpen("sheet"))],
+    [["t"], "t", "open or fold the timeline", viewer => viewer.foldTimeline(!isFolded())],
+    [["Escape"], "Esc", "close the facts or the view; then back to the recording or session",
+     viewer => closeSheet() || viewer.interaction.goBack()],
     [["?"], "?", "show these keys", () => byId("help").showModal()],
 ];
 
@@ -312,6 +321,8 @@ function isHandled(event)
     const control = event.target.closest?.("button, select, a, input, dialog");
     if (event.ctrlKey || event.altKey || event.metaKey || byId("help").open)
         return true;
+    if (event.key === "Escape")
+        return false;
     if (!control || control.type === "range")
         return false;
     return control.matches("input, select, dialog") || [" ", "Enter"].includes(event.key);
@@ -346,6 +357,7 @@ function listenToControls(viewer)
     byId("tick").addEventListener("change", event => typeTick(viewer, event.target.valueAsNumber));
     byId("tick").addEventListener("keydown", event => event.key === "Enter" && event.target.blur());
     byId("help-open").addEventListener("click", () => actionOf("?")(viewer));
+    byId("fold").addEventListener("click", () => actionOf("t")(viewer));
     addEventListener("hashchange", () => viewer.readAddress());
 }
 
@@ -371,7 +383,6 @@ function describeRecording(recording)
     const parts = [counted(recording.length, "tick"), frames && counted(frames, "frame"), `${width} × ${height}`, camera];
     byId("about").append(element("strong", name), " ", parts.filter(Boolean).join(" · "));
     document.title = name ? `${name} – Octreel` : "Octreel recording";
-    byId("stage").style.setProperty("--ratio", width / height || 16 / 9);
 }
 
 function fillControls()
@@ -395,6 +406,7 @@ function openRecording()
     }
     byId("message").hidden = true;
     byId("viewer").hidden = false;
+    arrange();
     describeRecording(recording);
     fillControls();
     const viewer = new Viewer(recording);
