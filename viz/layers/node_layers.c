@@ -298,8 +298,8 @@ static octree_walk_order add_node(const octree_node *node, void *context)
 static kept_tree *get_kept_tree(const tree_walk *w, const layer_source *in)
 {
     scene *s = w->scene;
-    if (!in->game || in->values || filter_is_set(&w->filter) || view_paints_points(&s->view) ||
-        !shows_octreel_nodes(in) || shows_foreign_nodes(in) || (!s->kept && octree_count(in->tree) < KEPT_FEWEST))
+    if (!in->game || filter_is_set(&w->filter) || view_paints_points(&s->view) || !shows_octreel_nodes(in) ||
+        shows_foreign_nodes(in) || (!s->kept && octree_count(in->tree) < KEPT_FEWEST))
         return NULL;
     s->kept = s->kept ? s->kept : calloc(1, sizeof *s->kept);
     return s->kept;
