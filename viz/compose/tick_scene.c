@@ -78,9 +78,19 @@ static void add_closeup(scene *s, const layer_source *in, const double place[3],
     s->out_of_memory |= s->closeup->out_of_memory;
 }
 
+/* Check the tree, unless it was checked before. */
+static void check_tree(layer_source *in, tick_check *check)
+{
+    if (!check->done)
+        check->broken = octree_check(in->tree, &check->where);
+    check->done = true;
+    in->broken = check->broken;
+    in->broken_at = check->where;
+}
+
 /* Build the scene of a tick, or of a tree without a game. With DIAGRAM_ONLY only the diagram and the text column are
  * added. */
-static bool build_scene(scene *s, layer_source *in, const double player[3], closeup_course course)
+static bool build_scene(scene *s, layer_source *in, const double player[3], closeup_course course, tick_check *check)
 {
     const view *v = in->view;
     scene_clear(s);
@@ -93,7 +103,7 @@ static bool build_scene(scene *s, layer_source *in, const double player[3], clos
     s->has_closeup = times > 0;
     s->camera = camera_make(v, layout_camera_area(s, &in->world), &in->world, player, in->tick ? in->tick->number : 0);
     if (view_shows_layer(v, LAYER_BROKEN))
-        in->broken = octree_check(in->tree, &in->broken_at);
+        check_tree(in, check);
     if (s->has_closeup)
         add_closeup(s, in, course.place, times);
     s->has_closeup = s->has_closeup && !s->out_of_memory;
@@ -123,6 +133,7 @@ void tick_history_release(tick_history *h)
 bool tick_history_add(tick_history *h, const view *v, const octree_game *game)
 {
     const layer_source in = make_source(v, game);
+    h->check.done = false;
     if (in.tick->gap)
         return true;
     closeup_follow(&h->closeup, &in);
@@ -130,13 +141,13 @@ bool tick_history_add(tick_history *h, const view *v, const octree_game *game)
            (!(v->layers & VIEW_HEAT_LAYERS) || heat_add_tick(&h->heat, game));
 }
 
-bool tick_scene_build(scene *s, const view *v, const octree_game *game, const tick_history *h,
-                      const point_values *values)
+bool tick_scene_build(scene *s, const view *v, const octree_game *game, tick_history *h, const point_values *values)
 {
     layer_source in = make_source(v, game);
+    tick_check check = {0};
     in.heat = h ? &h->heat : NULL;
     in.values = values;
-    return build_scene(s, &in, in.tick->player, h ? h->closeup : (closeup_course){0});
+    return build_scene(s, &in, in.tick->player, h ? h->closeup : (closeup_course){0}, h ? &h->check : &check);
 }
 
 bool tree_scene_build(scene *s, const view *v, const octree *tree, const tree_subject *subject)
@@ -151,5 +162,5 @@ bool tree_scene_build(scene *s, const view *v, const octree *tree, const tree_su
                        .requested = subject->node};
     double center[3]; /* the position that the camera looks at; in a game it is the player's position */
     scene_box_middle(v->fit == FIT_BOX ? &v->focus : &in.world, center);
-    return build_scene(s, &in, center, (closeup_course){0});
+    return build_scene(s, &in, center, (closeup_course){0}, &(tick_check){0});
 }

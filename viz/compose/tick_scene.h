@@ -13,11 +13,19 @@
 /* The panel shows the key presses of this many ticks before and after its own tick. */
 enum { KEYS_BEHIND = 5, KEYS_AHEAD = 6 };
 
+/* The result of octree_check() for the tree of a tick. */
+typedef struct tick_check {
+    bool done;
+    const char *broken; /* a sentence about the first violated invariant; null: no invariant is violated */
+    octree_address where;
+} tick_check;
+
 /* What a scene needs from all ticks up to its own tick. All members are 0 before tick 0. */
 typedef struct tick_history {
     heat heat; /* number of visits and points of leaves so far; empty if the view shows no heat layer */
     closeup_course closeup;
     node_changes changes; /* empty unless changes.tracked is set at tick 0 */
+    tick_check check;     /* of the last tick, whose scene may be built for many cameras, but checked only once */
 } tick_history;
 
 void tick_history_release(tick_history *h);
@@ -27,8 +35,7 @@ bool tick_history_add(tick_history *h, const view *v, const octree_game *game);
 
 /* Build the scene of the last tick of a game. `h` is the history up to that tick or up to the previous tick; if `h` is
  * null, the heat layers have no elements. `values` may be null. Return false if memory runs out. */
-bool tick_scene_build(scene *s, const view *v, const octree_game *game, const tick_history *h,
-                      const point_values *values);
+bool tick_scene_build(scene *s, const view *v, const octree_game *game, tick_history *h, const point_values *values);
 
 /* What a scene of a tree shows in addition to the tree's nodes and points. */
 typedef struct tree_subject {

@@ -256,8 +256,7 @@ static void break_game(const octree_game *game)
 }
 
 /* One frame is of the tree alone, and of a node in it. */
-static bool build_scene(scene *s, const golden_frame *frame, const view *v, const octree_game *game,
-                        const tick_history *h)
+static bool build_scene(scene *s, const golden_frame *frame, const view *v, const octree_game *game, tick_history *h)
 {
     octree_address asked;
     octree_node node;

@@ -107,7 +107,7 @@ void build_tick(scene *s, const view *v, const octree_game *game)
 
 void build_hot_tick(scene *s, const view *v, const octree_game *game, const heat *h)
 {
-    const tick_history history = {.heat = h ? *h : (heat){0}};
+    tick_history history = {.heat = h ? *h : (heat){0}};
     assert_true(tick_scene_build(s, v, game, &history, NULL));
     assert_int_equal(s->refused, 0);
 }

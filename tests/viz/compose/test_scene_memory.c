@@ -25,7 +25,7 @@ static tick_history follow(golden_play *play, uint64_t tick)
     return h;
 }
 
-static bool make_scene(const golden_play *play, const tick_history *h, long count, bool *made, uint64_t *digest)
+static bool make_scene(const golden_play *play, tick_history *h, long count, bool *made, uint64_t *digest)
 {
     scene s = {0};
     fail_allocations_after(count);
