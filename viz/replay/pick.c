@@ -12,6 +12,7 @@
  * one replay to the tick and one or two drawings. */
 #include "pick.h"
 #include "frame_file.h"
+#include "foreign_nodes.h"
 #include "layer.h"
 #include "json_write.h"
 #include "octree/octree.h"
@@ -22,6 +23,7 @@
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* ---- The frame and its recording ---------------------------------------------------------------------------- */
 
@@ -351,6 +353,17 @@ static void write_point(json_writer *w, const octree_point *point)
     json_write_end_object(w);
 }
 
+static void write_subject(json_writer *w, const pick_element *e)
+{
+    if (e->subject.has_node)
+        write_node(w, e);
+    if (e->subject.foreign)
+        write_foreign_node(w, e->subject.foreign);
+    if (e->subject.has_point)
+        write_point(w, &e->subject.point);
+    json_write_text_member(w, "text", element_text(e));
+}
+
 static void write_element(json_writer *w, const pick_element *e)
 {
     json_write_begin_object(w);
@@ -362,13 +375,7 @@ static void write_element(json_writer *w, const pick_element *e)
         json_write_bool_member(w, "gap", true);
     if (e->in_closeup)
         json_write_bool_member(w, "closeup", true);
-    if (e->subject.has_node)
-        write_node(w, e);
-    if (e->subject.foreign)
-        write_foreign_node(w, e->subject.foreign);
-    if (e->subject.has_point)
-        write_point(w, &e->subject.point);
-    json_write_text_member(w, "text", element_text(e));
+    write_subject(w, e);
     json_write_end_object(w);
 }
 
@@ -401,4 +408,103 @@ void pick_print_json(FILE *out, const pick *p)
 void pick_print(FILE *out, const pick *p, bool json)
 {
     (json ? pick_print_json : print_text)(out, p);
+}
+
+/* ---- An element by its name ---------------------------------------------------------------------------------- */
+
+/* Returns the text behind `word` and a blank if the name begins with them, or null. */
+static const char *name_after(const char *name, const char *word)
+{
+    const size_t length = strlen(word);
+    return strncmp(name, word, length) == 0 && name[length] == ' ' ? name + length + 1 : NULL;
+}
+
+static bool parse_id(const char *text, uint64_t *id)
+{
+    char *end;
+    *id = text ? strtoull(text, &end, 10) : 0;
+    return text && *text >= '0' && *text <= '9' && *end == 0;
+}
+
+/* Describe the element that a name means. If there is none, the description stays empty. */
+static void describe_named(element_subject *subject, const char *name, const playback *from)
+{
+    description d = {from->game, octree_game_tick(from->game), &from->history.heat, subject, 0};
+    const char *node = name_after(name, "node");
+    octree_address address;
+    octree_point point;
+    uint64_t id;
+    if (node && octree_address_parse(node, &address))
+        describe_node(&d, "", address);
+    else if (parse_id(name_after(name, "foreign"), &id) && id < OCTREE_NODE_ID_LIMIT)
+        describe_node(&d, "", foreign_element(id));
+    else if (parse_id(name_after(name, "point"), &id) && octree_game_find(from->game, id, &point))
+        describe_point(&d, "", id, point.position);
+}
+
+/* Write the children of an inner node, or the first ids of a leaf. */
+static void write_contents(json_writer *w, const octree_node *node)
+{
+    char path[OCTREE_ADDRESS_TEXT];
+    json_begin_array_member(w, node->leaf ? "holds" : "children");
+    for (size_t i = 0; node->leaf && node->points && i < node->count && i < PICK_HELD; i++)
+        json_write_integer(w, node->points[i].id);
+    for (unsigned octant = 0; !node->leaf && octant < 8; octant++)
+        if (node->octants >> octant & 1)
+            json_write_string(w, octree_address_format(node->address << 3 | octant, path));
+    json_write_end_array(w);
+}
+
+/* Write the address of the leaf in which a point lies. Cost: O(depth). */
+static void write_leaf(json_writer *w, const octree *tree, const double at[3])
+{
+    const octree_box world = octree_definition(tree).world;
+    char path[OCTREE_ADDRESS_TEXT];
+    octree_node node = {.leaf = true};
+    octree_address address = OCTREE_ROOT;
+    while (octree_node_at(tree, address, &node) == OCTREE_OK && !node.leaf) {
+        const octree_box last = octree_cell_box(&world, address << 3 | 7); /* its lower corner is on the three planes */
+        address = address << 3 | (at[0] >= last.min[0] ? 4u : 0u) | (at[1] >= last.min[1] ? 2u : 0u) |
+                  (at[2] >= last.min[2] ? 1u : 0u);
+    }
+    json_write_text_member(w, "leaf", octree_address_format(address, path));
+}
+
+static void write_values(json_writer *w, const point_value *value)
+{
+    char color[COLOR_TEXT];
+    if (value->has[POINT_COLOR]) {
+        snprintf(color, sizeof color, "#%02x%02x%02x", value->color[0], value->color[1], value->color[2]);
+        json_write_text_member(w, "color", color);
+    }
+    if (value->has[POINT_INTENSITY])
+        json_write_number_member(w, "intensity", (double)value->intensity);
+    if (value->has[POINT_CLASS])
+        json_write_integer_member(w, "class", value->class);
+}
+
+bool pick_print_named(FILE *out, const char *name, const playback *from, octreel_error *error)
+{
+    json_writer writer = {.out = out}, *w = &writer;
+    pick_element e = {.kind = SCENE_BOX};
+    const pick none = {0};
+    describe_named(&e.subject, name, from);
+    if (!e.subject.has_node && !e.subject.foreign && !e.subject.has_point)
+        return error_set(error, "this tick has no %s", name);
+    const bool ok = explain_node(&none, &e, from, error);
+    if (ok) {
+        json_write_begin_object(w);
+        write_subject(w, &e);
+        if (e.subject.has_node && !e.subject.gone)
+            write_contents(w, &e.subject.node);
+        if (e.subject.has_point) {
+            const point_value value = point_values_get(from->values, e.subject.point.id);
+            write_leaf(w, octree_game_tree(from->game), e.subject.point.position);
+            write_values(w, &value);
+        }
+        json_write_end_object(w);
+    }
+    node_reason_release(&e.reason);
+    free(e.explained);
+    return ok;
 }

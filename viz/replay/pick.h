@@ -67,4 +67,11 @@ void pick_print(FILE *out, const pick *p, bool json);
  * for text. */
 void pick_print_json(FILE *out, const pick *p);
 
+/* Print one element of the playback's tick as a JSON object, like an element of a pick. `name` is "node 0/3",
+ * "foreign 12" (a foreign node) or "point 7". A node of Octreel's tree also has the members "children" and "holds" (the
+ * ids of a leaf's points, cut after PICK_HELD ids); a point also has "leaf", and the values that the session gives it.
+ * Returns false with an error if the tick has no such element. */
+#define PICK_HELD 100
+bool pick_print_named(FILE *out, const char *name, const playback *from, octreel_error *error);
+
 #endif

@@ -404,27 +404,24 @@ bool web_ask(size_t size)
     return report_error_text();
 }
 
-typedef struct point_search {
-    uint64_t id;
-    const octree_point *found;
-} point_search;
-
-static octree_walk_order find_point(const octree_node *node, void *context)
-{
-    point_search *s = context;
-    for (size_t i = 0; node->leaf && i < node->count; i++)
-        if (node->points[i].id == s->id)
-            s->found = &node->points[i];
-    return s->found ? OCTREE_WALK_STOP : OCTREE_WALK_ON;
-}
-
-/* Returns the position of the point with this id as three doubles, or null if there is no such point. Cost: O(number of
- * points). */
+/* Returns the position of the point with this id as three doubles, or null if there is no such point. */
 const double *web_point(double id)
 {
-    point_search s = {.id = (uint64_t)id};
-    octree_walk(octree_game_tree(page.playback.game), find_point, &s);
-    return s.found ? s.found->position : NULL;
+    static octree_point found;
+    return octree_game_find(page.playback.game, (uint64_t)id, &found) ? found.position : NULL;
+}
+
+static bool write_named(FILE *out)
+{
+    return pick_print_named(out, page.room, &page.playback, &page.error);
+}
+
+/* Make web_text() return a node or a point of the current tick as JSON. The input buffer holds `size` bytes of its name
+ * (see pick_print_named() in pick.h). */
+bool web_describe(size_t size)
+{
+    page.room[size] = 0;
+    return set_text(write_named);
 }
 
 /* ---- The player's key presses ---------------------------------------------------------------------------------- */

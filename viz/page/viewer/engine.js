@@ -173,6 +173,12 @@ class Engine {
         return at ? [...new Float64Array(this.wasm.memory.buffer, at, 3)] : null;
     }
 
+    /* An element of the tick by its name: "node 0/3", "foreign 12" or "point 7". Null if there is no such element. */
+    describe(name)
+    {
+        return this.wasm.web_describe(...this.writeInput(name)) ? JSON.parse(this.text()) : null;
+    }
+
     /* Answer queries at the current tick. The queries have the form of a session file. */
     ask(queries)
     {
