@@ -20,6 +20,28 @@ function sayPicks()
     }
 }
 
+/* Sentences of a tick that the page plays, and elements that are selected by their names. */
+async function sayTold()
+{
+    const textsOf = (root, what) => [...root.querySelectorAll(what)].map(({textContent}) => textContent).join(" | ");
+    for (const tick of [6, 225, 226]) {
+        octreel.goTo(tick);
+        await until(() => !interaction.busy && player().engine.tick === tick, `tick ${tick}`);
+        say(`told ${tick}`, textsOf(byId("facts-of-tick"), ".happened"));
+    }
+    for (const name of ["node root", "node 7/7/7/0", "node 3/4", "point 6", "point 10", "foreign 3"]) {
+        await octreel.inspector.select(name);
+        say(`told ${name}`, textsOf(byId("picked"), "h2, p, dd"));
+        say(`marked ${name}`, JSON.stringify(interaction.live.placeOfSubject()));
+    }
+    await octreel.inspector.select("node 7/7/7/0");
+    byId("picked").querySelector('[data-select="point 8"]').click();
+    await until(() => byId("picked").textContent.startsWith("Point 8"), "point 8");
+    byId("picked").querySelector('[data-select^="node"]').click();
+    await until(() => byId("picked").textContent.startsWith("Leaf"), "its leaf");
+    say("followed links", textsOf(byId("picked"), "h2"));
+}
+
 /* Queries are answered by the library, and disappear with the tick. */
 async function sayAnswers()
 {
@@ -164,6 +186,9 @@ async function drive()
     await player().goTo(219);
     player().engine.draw();
     sayPicks();
+    await sayTold();
+    octreel.goTo(219);
+    await until(() => !interaction.busy && player().engine.tick === 219, "tick 219");
     await sayAnswers();
     await sayTakenOver();
     await sayRandom();

@@ -36,24 +36,18 @@ function slideTo(tick)
     slider.dispatchEvent(new Event("input"));
 }
 
-/* A fact without its decoration: the sign of an event, the meaning of a key. */
-function reading(fact)
-{
-    const badges = [...fact.querySelectorAll(".badge")];
-    if (badges.length > 0)
-        return badges.map(badge => badge.dataset.event).join(", ");
-    /* What is shown with fewer digits has all of them in its tooltip. */
-    const exact = fact.querySelector(":scope > span[title]");
-    return exact ? exact.title : (fact.querySelector("kbd") ?? fact).textContent;
-}
-
+/* Report the facts of every tick: as JSON, as sentences, and in the curves. */
 function sayFacts()
 {
+    const raw = document.querySelector(".raw"), textsOf = selector =>
+        [...document.querySelectorAll(selector)].map(({textContent}) => textContent).join(" | ");
+    raw.open = true;
+    raw.dispatchEvent(new Event("toggle"));
     for (let tick = 0; tick <= Number(document.getElementById("slider").max); tick++) {
         slideTo(tick);
-        for (const fact of document.querySelectorAll("[data-fact]"))
-            if (!fact.querySelector("dl"))
-                say(`${tick} ${fact.dataset.fact}`, reading(fact));
+        say(`${tick} raw`, JSON.stringify(JSON.parse(raw.querySelector("pre").textContent)));
+        say(`${tick} told`, textsOf(".happened"));
+        say(`${tick} sections`, textsOf(".told"));
         for (const value of document.querySelectorAll("#timeline .curve + output"))
             say(`${tick} curve ${value.dataset.lane}`, value.textContent);
     }

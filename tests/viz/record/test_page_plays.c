@@ -86,6 +86,40 @@ static void click_names_the_element_that_pick_names(void **state)
     assert_int_equal(picks, 40);
 }
 
+static void inspector_tells_positions_and_counts_of_a_played_tick(void **state)
+{
+    const driven *d = need_page(state);
+    assert_reported_value(d->said, "told 6",
+                          "✕Key s (−y): collided with point 1 at (-50, -50, 100); step to (-50, -50, 100) taken back");
+    assert_reported_value(
+        d->said, "told 225",
+        "→Key a (−x): the player moved to (850, 850, 850) | ⊞Node 7/7/7/0 split into 2 nodes: 3 points for capacity 2");
+    assert_reported_value(d->said, "told 226",
+                          "→Key w (+y): the player moved to (850, 900, 850) | ⊟Node 7/7/7/0 merged into one leaf of 2 "
+                          "points; capacity 2");
+}
+
+static void links_select_nodes_and_points(void **state)
+{
+    static const char *const rows[][2] = {
+        {"told node root", "Node root | Inner node at depth 0: 11 points in and below it | It is split: 11 points are "
+                           "more than the capacity of a leaf, 2 | 1, 3, 4 and 7"},
+        {"told node 7/7/7/0", "Leaf 7/7/7/0 | Leaf at depth 4: 2 points of at most 2 | Point 6 left at this tick | It "
+                              "merged at tick 226, with 2 points | 7/7/7 | 7 and 8"},
+        {"told node 3/4", "Node 3/4 | An empty cell: no node is here | 3"},
+        {"told point 6", "Point 6 | (850, 900, 850) | 0 from the player | 7/7/7/2"},
+        {"told point 10", "Point 10 | This tick has no such element"},
+        {"told foreign 3", "Foreign node 3 | This tick has no such element"},
+        {"marked node root", "[0,0,0]"},
+        {"marked point 6", "[850,900,850]"},
+        {"marked point 10", "null"},
+        {"followed links", "Leaf 7/7/7/0"},
+    };
+    const driven *d = need_page(state);
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+        assert_reported_value(d->said, rows[i][0], rows[i][1]);
+}
+
 static void queries_on_the_page_have_the_answers_of_the_library(void **state)
 {
     const driven *d = need_page(state);
@@ -216,6 +250,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(page_plays_the_ticks_of_the_recording_in_any_order),
         cmocka_unit_test(click_names_the_element_that_pick_names),
+        cmocka_unit_test(inspector_tells_positions_and_counts_of_a_played_tick),
+        cmocka_unit_test(links_select_nodes_and_points),
         cmocka_unit_test(queries_on_the_page_have_the_answers_of_the_library),
         cmocka_unit_test(session_played_on_the_page_records_the_same),
         cmocka_unit_test(random_gestures_change_no_tick_and_raise_no_error),

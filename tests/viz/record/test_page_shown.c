@@ -79,45 +79,6 @@ static void assert_shown(const char *what, const char *shown, const json_t *valu
         fail_msg("%s: \"%s\" is shown", what, shown);
 }
 
-/* The entries are separated by ", ". */
-static void assert_entries_shown(const char *what, char *shown, const json_t *list)
-{
-    for (size_t i = 0; i < json_array_size(list); i++) {
-        char *comma = strstr(shown, ", ");
-        if ((comma != NULL) != (i + 1 < json_array_size(list)))
-            fail_msg("%s: other entries than in ticks.jsonl", what);
-        if (comma != NULL)
-            *comma = '\0';
-        assert_shown(what, shown, json_array_get(list, i));
-        shown = comma != NULL ? comma + 2 : shown;
-    }
-}
-
-/* The test fails unless the next reports are all parts of a value in ticks.jsonl, in order. */
-static void assert_facts_said(char **at, const char *what, const json_t *value)
-{
-    char inner[160];
-    if (json_is_object(value)) {
-        const char *name;
-        json_t *member;
-        json_object_foreach((json_t *)(uintptr_t)value, name, member)
-        {
-            snprintf(inner, sizeof inner, "%s%s%s", what, strchr(what, ' ')[1] == '\0' ? "" : ".", name);
-            assert_facts_said(at, inner, member);
-        }
-    } else if (json_is_array(value) && json_is_object(json_array_get(value, 0))) {
-        for (size_t i = 0; i < json_array_size(value); i++) {
-            snprintf(inner, sizeof inner, "%s.%zu", what, i);
-            assert_facts_said(at, inner, json_array_get(value, i));
-        }
-    } else if (json_is_array(value) && json_array_size(value) > 0) {
-        assert_entries_shown(what, take_value(at, what), value);
-    } else {
-        char *shown = take_value(at, what);
-        assert_shown(what, shown, json_is_array(value) ? json_null() : value);
-    }
-}
-
 static void assert_tick_said(const char *line, size_t number, void *context)
 {
     static const struct {
@@ -128,8 +89,15 @@ static void assert_tick_said(const char *line, size_t number, void *context)
                   {"visits", "visits", "visited"}};
     char what[64];
     json_t *tick = json_read(line);
-    snprintf(what, sizeof what, "%zu ", number);
-    assert_facts_said(context, what, tick);
+    snprintf(what, sizeof what, "%zu raw", number);
+    json_t *raw = json_read(take_value(context, what));
+    if (!json_equal(raw, tick))
+        fail_msg("tick %zu: the page shows other JSON than %s", number, line);
+    json_decref(raw);
+    for (size_t i = 0; i < 2; i++) {
+        snprintf(what, sizeof what, "%zu %s", number, (const char *const[]){"told", "sections"}[i]);
+        take_value(context, what);
+    }
     for (size_t i = 0; i < sizeof curves / sizeof curves[0]; i++) {
         snprintf(what, sizeof what, "%zu curve %s", number, curves[i].name);
         assert_shown(what, take_value(context, what),
@@ -145,6 +113,32 @@ static void page_shows_the_facts_of_every_tick(void **state)
     char *said = strdup(d->said), *at = said + 1;
     assert_int_equal(for_each_line(place_in(d->folder, "film").path, assert_tick_said, &at), LAST + 1);
     free(said);
+}
+
+/* What the inspector says about ticks of the default session. */
+static void page_tells_each_kind_of_event_in_a_sentence(void **state)
+{
+    static const char *const rows[][2] = {
+        {"0 told", "✕Collided with point 5; the player at (0, 0, 0) made no step | ■Point 10 at (750, 750, 800) "
+                   "refused: its leaf is full and cannot split further"},
+        {"6 told", "✕Key s (−y): collided with point 1; step to (-50, -50, 100) taken back"},
+        {"7 told", "Key n (nearest neighbour): the player is at (-50, 0, 100)"},
+        {"7 sections", "Query: Nearest to (-50, 0, 100)1 point found; 4 nodes visited (2 leaves), 4 points compared, 2 "
+                       "nodes prunedpointdistanceposition150(-50, -50, 100) | Tree11 points in 7 leaves; 12 nodes, "
+                       "deepest at depth 5Collision test: 3 nodes visited (2 leaves), 4 points compared, 2 nodes "
+                       "prunedvisited4pruned2with hits1all nodes12"},
+        {"74 told", "⊘Key a (−x): step refused: it would leave the world; the player stays at (-1000, -1000, -1000)"},
+        {"214 told", "■Key e (+z): step to (800, 750, 750) taken back: its leaf is full and cannot split further"},
+        {"225 told",
+         "→Key a (−x): the player moved to (850, 850, 850) | ⊞Node 7/7/7/0 split: more points than its capacity, 2"},
+        {"226 told",
+         "→Key w (+y): the player moved to (850, 900, 850) | ⊟Node 7/7/7/0 merged into one leaf; capacity 2"},
+        {"22 told",
+         "→Key f (−z): the player moved to (-250, -200, -50) | ⊟3 nodes merged: 1, 1/6 and 1/6/6; capacity 2"},
+    };
+    skip_without_browser();
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+        assert_said(*state, rows[i][0], rows[i][1]);
 }
 
 /* ---- Steps -------------------------------------------------------------------------------------------------- */
@@ -291,7 +285,7 @@ static void tick_without_a_frame_shows_the_previous_frame_and_says_so(void **sta
     assert_filmed(&session, &options);
     char *page = browser_open(d->folder, place_below(film.path, "index.html").path, "t=43&filter=collided,full");
     assert_has(page, "data-tick=\"43\"");
-    assert_has(page, "<dd data-fact=\"tick\">43</dd>");
+    assert_has(page, "data-fact=\"tick\">43<");
     assert_has(page, "Tick 43 has no frame; this is the frame of tick 40.");
     assert_has(page, "src=\"frame_000040.png\"");
     assert_has(page, "11 ticks with collided or full");
@@ -316,22 +310,90 @@ static void page_tolerates_unexpected_members(void **state)
 {
     skip_without_browser();
     const driven *d = *state;
-    char ticks[1024] = "{\"tick\": 0, \"key\": \"</script><script>document.title = 'mine'</script>\", \"hits\": [0";
+    char ticks[2048] =
+        "{\"tick\": 0, \"key\": \"</script><script>document.title = 'mine'</script>\", \"player\": [1, 2, 3],"
+        "\"events\": [\"</b>teleported\"], \"lengths\": [0";
     for (int i = 1; i < PAGE_LIST + 8; i++)
         snprintf(ticks + strlen(ticks), sizeof ticks - strlen(ticks), ", %d", i);
-    strcat(ticks, "], \"unheard_of\": {\"weight\": -0.5, \"long\": [17.299999999999997], \"of\": [true, \"x\"]}, "
-                  "\"frame\": \"frame_000000.png\"}\n");
-    char *page = browser_open(d->folder, recording_by_hand(d, "a #%41?b", ticks).path, "t=0");
+    strcat(
+        ticks,
+        "], \"unheard_of\": {\"weight\": -0.5, \"long\": [17.299999999999997], \"of\": [true, \"x\"]}, "
+        "\"answers\": [{\"frustum\": {\"corner\": [7, 8, 9], \"ids\": [3], \"cost\": {\"nodes\": 1, \"cache\": 77}}}],"
+        "\"tree\": {\"points\": 1, \"nodes\": 1, \"leaves\": 1, \"depth\": 0, \"holes\": 55}, "
+        "\"frame\": \"frame_000000.png\"}\n"
+        "{\"tick\": 1, \"events\": [], \"hits\": 5, \"answers\": \"<i>none\"}\n");
+    const place film = recording_by_hand(d, "a #%41?b", ticks);
+    char *page = browser_open(d->folder, film.path, "t=0");
     assert_has(page, "<title>a #%41?b \xe2\x80\x93 Octreel</title>");
-    assert_has(page, "&lt;/script&gt;&lt;script&gt;document.title");
+    assert_has(page, "Key <kbd>&lt;/script&gt;&lt;script&gt;document.title");
+    assert_has(page, "Event: &lt;/b&gt;teleported</p>");
     assert_has(page, "30, 31<p class=\"more\">\xe2\x80\xa6 and 8 more, in ticks.jsonl</p></details></dd>");
     assert_has(page, "8, 9<details><summary>30 more</summary>10, 11, ");
     assert_has(page, "<span class=\"count\">40</span>");
     assert_has(page, "<dd data-fact=\"unheard_of.weight\">-0.5</dd>");
     assert_has(page, "long\"><span title=\"17.299999999999997\">17.3</span></dd>");
     assert_has(page, "<dd data-fact=\"unheard_of.of\">true, x</dd>");
+    assert_has(page, "Query: frustum</p>");
+    assert_has(page, "<dd data-fact=\"answers.0.frustum.corner\">7, 8, 9</dd>");
+    assert_has(page, "<dd data-fact=\"answers.0.frustum.cost.cache\">77</dd>");
+    assert_has(page, "<dd data-fact=\"tree.holes\">55</dd>");
     assert_has(page, "frame_000000.png is missing beside this page");
     free(page);
+    page = browser_open(d->folder, film.path, "t=1"); /* members of other types are shown as rows */
+    assert_has(page, "<dd data-fact=\"hits\">5</dd>");
+    assert_has(page, "<dd data-fact=\"answers\">&lt;i&gt;none</dd>");
+    free(page);
+}
+
+/* The text of the page without its elements; the caller frees it. */
+static char *text_of(const driven *d, const char *page, const char *hash)
+{
+    char *text = browser_open(d->folder, page, hash), *to = text;
+    for (const char *from = strstr(text, "id=\"facts-of-tick\""); *from; from++) {
+        if (*from == '<')
+            from = strchr(from, '>');
+        else
+            *to++ = *from;
+    }
+    *to = '\0';
+    return text;
+}
+
+static void wrong_answers_and_foreign_nodes_are_told_first(void **state)
+{
+    skip_without_browser();
+    const driven *d = *state;
+    const place film = recording_by_hand(
+        d, "wrong",
+        "{\"tick\": 0, \"key\": \"w\", \"player\": [0, 5, 0], \"events\": [\"moved\", \"wrong\"], \"attempt\": [0, 5, "
+        "0],"
+        "\"answers\": [{\"nearest\": {\"target\": [1, 2, 3], \"id\": null, \"judged\": {\"answer\": [], \"wrong\": "
+        "\"none\","
+        "\"expected\": 0, \"ratio\": 1}}}, {\"radius\": {\"center\": [1, 2, 3], \"radius\": 5, \"ids\": [3, 4], "
+        "\"judged\":"
+        "{\"answer\": [4, 22], \"wrong\": \"missing\", \"expected\": 2, \"missing\": [3], \"extra\": [22]}}}, "
+        "{\"knearest\": {"
+        "\"target\": [0, 0, 0], \"k\": 2, \"neighbors\": [], \"judged\": {\"answer\": [9], \"wrong\": \"duplicate\","
+        "\"wrong_id\": 9, \"expected\": 2, \"ratio\": 1.5}}}], \"foreign_nodes\": {\"count\": 5, \"leaves\": 3, "
+        "\"depth\": 2,"
+        "\"visited\": 2, \"pruned\": 1, \"hit\": 1, \"wrong\": {\"count\": 3, \"outside_parent\": 1, \"lost_point\": 2,"
+        "\"first\": [{\"wrong\": \"outside_parent\", \"node\": 3}, {\"wrong\": \"lost_point\", \"point\": 8}]}}}\n");
+    char *text = text_of(d, film.path, "t=0");
+    assert_has(text, "Tick 0\xe2\x89\xa0Wrong answer to \xe2\x80\x9cWithin 5 of (1, 2, 3)\xe2\x80\x9d: missing point "
+                     "3; extra point 22"
+                     "\xe2\x89\xa0Wrong answer to \xe2\x80\x9c"
+                     "2 nearest to (0, 0, 0)\xe2\x80\x9d: it names point 9 twice"
+                     "\xe2\x89\xa0"
+                     "foreign node 3: its box leaves the box of its parent"
+                     "\xe2\x89\xa0"
+                     "Foreign nodes: a point is in no node (point 8)"
+                     "\xe2\x89\xa0"
+                     "1 more wrong foreign node"
+                     "\xe2\x86\x92Key w (+y): the player moved to (0, 5, 0)Query: Within 5 of (1, 2, 3)");
+    assert_has(text, "Wrong foreign answer, 2 points of 2 expected: 4 and 22");
+    assert_has(text, "Right foreign answer, 0 points of 0 expected: ");
+    assert_has(text, "Foreign nodes5 nodes, 3 leaves, deepest at depth 2; 3 wrong");
+    free(text);
 }
 
 static void recording_without_ticks_says_so(void **state)
@@ -366,6 +428,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(page_shows_the_facts_of_every_tick),
+        cmocka_unit_test(page_tells_each_kind_of_event_in_a_sentence),
         cmocka_unit_test(keys_step_through_the_ticks),
         cmocka_unit_test(pointer_and_typing_choose_a_tick),
         cmocka_unit_test(page_shows_the_frame_of_the_tick),
@@ -377,6 +440,7 @@ int main(void)
         cmocka_unit_test(page_stays_small_and_free_of_errors),
         cmocka_unit_test(tick_without_a_frame_shows_the_previous_frame_and_says_so),
         cmocka_unit_test(page_tolerates_unexpected_members),
+        cmocka_unit_test(wrong_answers_and_foreign_nodes_are_told_first),
         cmocka_unit_test(recording_without_ticks_says_so),
         cmocka_unit_test(curves_of_two_trees_are_distinguishable),
     };

@@ -6,7 +6,6 @@
 const LONG_WAIT = 100; /* ms; if the user waits longer, a progress bar is shown */
 const LARGE = 1 << 20; /* characters; before a longer session is read, a progress bar is shown */
 const MOST_FILE = 256 << 20; /* the maximum size of a session file in bytes */
-const FEW = 4; /* the number of elements at a pixel that are shown before "and n more" */
 
 /* A view for a session that comes without a view: the recording's view, without the options that depend on the
  * recording's world. */
@@ -174,6 +173,7 @@ class Interaction {
             do {
                 await this.player.goTo(this.wanted);
                 await this.live?.draw();
+                this.viewer.inspector.follow();
             } while (this.isLive && this.player.engine.tick !== this.wanted);
         } catch (error) {
             this.showStatus(error.message);
@@ -314,7 +314,7 @@ class Interaction {
         } catch (error) {
             this.showStatus(error.message.replace(/^the query:\d+: queries\[0\]\.?/, "query: "));
         }
-        showTick(byId("facts-of-tick"), JSON.parse(engine.facts()));
+        this.viewer.inspector.show(JSON.parse(engine.facts()));
         return this.live.draw();
     }
 
@@ -330,23 +330,12 @@ class Interaction {
         this.showBackButton();
     }
 
-    showPick({pixel, color, elements}, place)
+    showPick(pick, place)
     {
         const {min, max} = this.player.engine.world();
         this.form.setPlace(place, Math.max(...max.map((high, i) => high - min[i])));
-        const root = byId("picked"), texts = elements.map(({text, closeup}) => element("li", closeup ? `${text} (in the close-up)` : text));
-        const list = element("ol"), rest = texts.splice(FEW);
-        list.append(...texts);
-        root.hidden = false;
         setOpen("sheet", true);
-        const heading = pixel ? `At (${pixel.join(", ")}), ${color}` : "Nothing is drawn here";
-        root.replaceChildren(element("h2", heading), list);
-        if (rest.length === 0)
-            return;
-        const more = element("details", element("summary", `and ${rest.length} more`));
-        more.append(element("ol", "", {start: FEW + 1}));
-        more.lastChild.append(...rest);
-        root.append(more);
+        this.viewer.inspector.showPick(pick, this.live.subject);
     }
 
     /* ---- Gestures ----------------------------------------------------------------------------------------------- */

@@ -33,7 +33,7 @@ class Live {
         this.recorded = player.engine.view;
         this.canvas = element("canvas", "", {class: "live", role: "img"});
         this.marks = element("canvas", "", {class: "marks", "aria-hidden": "true"});
-        this.subject = null; /* the marked element, as {node} or {point}; null: no element */
+        this.subject = null; /* the marked element, as {node}, {program_node} or {point}; null: no element */
         this.pointers = new Map();
     }
 
@@ -235,7 +235,8 @@ class Live {
         if (x < 0 || y < 0 || x >= width || y >= height)
             return;
         const pick = this.engine.pick(x, y, PICK_RADIUS);
-        this.subject = pick.elements.find(found => found.point) ?? pick.elements.find(found => found.node) ?? null;
+        this.subject = ["point", "node", "program_node"].map(kind => pick.elements.find(found => found[kind]))
+            .find(found => found) ?? null;
         this.picked(pick, this.placeOfSubject() ?? this.placeAt([x, y]));
         this.mark();
     }
@@ -251,12 +252,17 @@ class Live {
         return this.zoom(factor, ...this.camera.middle);
     }
 
+    get boxOfSubject()
+    {
+        return (this.subject?.node ?? this.subject?.program_node)?.box;
+    }
+
     /* The position of the marked element. For a node this is the center of its box. Null if no element is marked. */
     placeOfSubject()
     {
         if (this.subject?.point)
             return this.engine.point(this.subject.point.id) ?? this.subject.point.position;
-        const box = this.subject?.node?.box;
+        const box = this.boxOfSubject;
         return box ? box.min.map((low, i) => (low + box.max[i]) / 2) : null;
     }
 
@@ -279,8 +285,8 @@ class Live {
         context.beginPath();
         if (point)
             this.tracePoint(context, point);
-        else if (this.subject?.node)
-            this.traceBox(context, this.subject.node.box);
+        else if (this.boxOfSubject)
+            this.traceBox(context, this.boxOfSubject);
         context.stroke();
     }
 

@@ -28,6 +28,7 @@ class Viewer {
         this.playing = false;
         this.stage = new Frames(byId("stage"), tick => recording.tick(tick).frame);
         this.timeline = new Timeline(recording, {goTo: tick => this.goTo(tick), toggle: bit => this.toggle(bit)});
+        this.inspector = new Inspector(this);
         this.interaction = new Interaction(this);
     }
 
@@ -180,7 +181,7 @@ class Viewer {
         byId("slider").value = byId("tick").value = this.tick;
         byId("slider").setAttribute("aria-valuetext", `tick ${this.tick} of ${this.last}`);
         document.body.dataset.tick = this.tick;
-        showTick(byId("facts-of-tick"), tick);
+        this.inspector.show(tick);
         this.timeline.mark(this.tick);
         this.showFrame();
         this.showFilter();

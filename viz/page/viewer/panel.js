@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-/* panel.js - the facts of one tick beside its frame: all members of the tick's line of ticks.jsonl, in the same order.
- * The name of a fact is the member's name with spaces in place of underscores, so a new member needs no change here. */
+/* panel.js - elements, numbers and lists as text, and rows for members of ticks.jsonl that the inspector does not tell
+ * in words. The name of a row is the member's name with spaces in place of underscores. */
 "use strict";
 
 const KEY_MEANINGS = {
+    __proto__: null,
     w: "+y", s: "−y", d: "+x", a: "−x", e: "+z", f: "−z", n: "nearest neighbour", ".": "wait", q: "end",
 };
 
-/* Lists that are shown without a count beside their names: a position is a single thing, and events are few. */
-const NOT_COUNTED = new Set(["player", "attempt", "position", "target", "min", "max", "center", "events"]);
+/* Lists that are shown without a count beside their names, because a position is a single thing. */
+const NOT_COUNTED = new Set(["player", "attempt", "position", "target", "min", "max", "center"]);
 
 const ABSENT = "–";
 
@@ -99,35 +100,8 @@ function showObject(object, path)
     return list;
 }
 
-function showEvents(names)
-{
-    if (names.length === 0)
-        return [absent()];
-    return names.map(name => {
-        const sign = EVENTS.find(([known]) => known === name)?.[1] ?? "•";
-        const badge = element("span", name, {class: "badge", "data-event": name});
-        badge.prepend(element("span", sign, {class: "sign", "aria-hidden": "true"}));
-        return badge;
-    });
-}
-
-function showKey(key)
-{
-    const meaning = KEY_MEANINGS[key];
-    return key === null ? [absent()] : [element("kbd", key), ...(meaning ? [element("small", meaning)] : [])];
-}
-
-const SHOWN_AS = {
-    events: showEvents,
-    key: showKey,
-    /* A link to the frame's file, in the same folder as the page. */
-    frame: name => [element("a", name, {href: `./${name}`, target: "_blank"})],
-};
-
 function showValue(value, path)
 {
-    if (SHOWN_AS[path])
-        return SHOWN_AS[path](value);
     if (Array.isArray(value))
         return showList(value, path);
     return isPlain(value) ? [showPlain([value])] : [showObject(value, path)];
@@ -151,11 +125,4 @@ function showFact(name, value, path)
     const row = element("div", showTerm(name, value), {class: nested ? "fact nested" : "fact"});
     row.append(description);
     return row;
-}
-
-function showTick(panel, tick)
-{
-    panel.replaceChildren();
-    for (const [name, value] of Object.entries(tick))
-        panel.append(showFact(name, value, name));
 }
