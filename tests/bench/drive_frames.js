@@ -62,6 +62,19 @@ async function timeScrubbing()
     return longest;
 }
 
+/* Milliseconds per frame while the view turns at a size of the picture, with all work of the browser. */
+async function timeTurning(size)
+{
+    const {live} = interaction, frames = Math.min(FRAMES, 120);
+    await live.look({size});
+    const start = performance.now();
+    for (let i = 0; i < frames; i++) {
+        live.turnStep(1, 0);
+        await live.draw();
+    }
+    return (performance.now() - start) / frames;
+}
+
 /* The browser's count of JavaScript memory includes buffers, but not the memories of modules. */
 function countMemory()
 {
@@ -74,10 +87,11 @@ async function measure()
 {
     await loadAgain();
     if (!await interaction.start())
-        return `left out: ${document.getElementById("told").textContent}`;
+        return `left out: ${document.getElementById("status").textContent}`;
     const first = performance.now();
-    const frame = await timeFrames(), draw = await timeDrawing(), scrub = await timeScrubbing();
-    return `first ${first} frame ${frame} draw ${draw} scrub ${scrub} bytes ${countMemory()} `;
+    const frame = await timeFrames(), draw = await timeDrawing(), scrub = await timeScrubbing(), bytes = countMemory();
+    const turn = [await timeTurning(SIZES[0]), await timeTurning(SIZES[1])];
+    return `first ${first} frame ${frame} draw ${draw} scrub ${scrub} turn ${turn.join(" ")} bytes ${bytes} `;
 }
 
 console.log(`octreel-bench: ${await measure().catch(error => `left out: ${error.message}`)}`);

@@ -8,15 +8,94 @@
 #include <stdlib.h>
 #include <string.h>
 
+const int page_sizes[PAGE_SIZES][2] = {{1280, 720}, {2560, 1440}};
+
 const filmed_scene filmed_scenes[FILMED_SCENES] = {
-    {"S", "the default session, still camera", 0, CAMERA_ISO, 2, 250000, 25, 0, 300, 200, 1, 10, 60, 253, 400, 0, 0},
-    {"M", "2,000 clustered points, orbiting camera", 2000, CAMERA_ORBIT, 2, 250000, 25, 0, 300, 200, 1, 10, 60, 10000,
-     0, 100, 100},
-    {"L", "100,000 points, orbiting camera, nothing left out", 100000, CAMERA_ORBIT, 0, 0, 20, 0, 300, 200, 2, 15, 15,
-     0, 0, 0, 0},
-    {"L-lod2", "the same with --lod 2", 100000, CAMERA_ORBIT, 2, 250000, 28, 0, 300, 200, 2, 15, 0, 0, 0, 0, 0},
-    {"1M-lod2", "1,000,000 points, orbiting camera, --lod 2", 1000000, CAMERA_ORBIT, 2, 250000, 0, 25, 1000, 0, 10, 20,
-     0, 0, 0, 0, 0},
+    {.name = "S",
+     .about = "the default session, still camera",
+     .camera = CAMERA_ISO,
+     .lod = 2,
+     .budget = 250000,
+     .least_times = 25,
+     .first_ms = 300,
+     .mib = 200,
+     .shorter = 1,
+     .naive_shorter = 10,
+     .page_fps = 60,
+     .turn_fps = 60,
+     .page_first_ms = 300,
+     .page_mib = 300,
+     .page_ticks = 253,
+     .page_kb = 400},
+    {.name = "M",
+     .about = "2,000 clustered points, orbiting camera",
+     .points = 2000,
+     .camera = CAMERA_ORBIT,
+     .lod = 2,
+     .budget = 250000,
+     .least_times = 25,
+     .first_ms = 300,
+     .mib = 200,
+     .shorter = 1,
+     .naive_shorter = 10,
+     .page_fps = 60,
+     .turn_fps = 60,
+     .page_first_ms = 300,
+     .page_mib = 300,
+     .page_ticks = 10000,
+     .scrub_ms = 100,
+     .asked = 100},
+    {.name = "L",
+     .about = "100,000 points, orbiting camera, nothing left out",
+     .points = 100000,
+     .camera = CAMERA_ORBIT,
+     .least_times = 20,
+     .first_ms = 300,
+     .mib = 200,
+     .shorter = 2,
+     .naive_shorter = 15,
+     .page_fps = 15,
+     .turn_fps = 60,
+     .page_first_ms = 300,
+     .page_mib = 300},
+    {.name = "L-lod2",
+     .about = "the same with --lod 2",
+     .points = 100000,
+     .camera = CAMERA_ORBIT,
+     .lod = 2,
+     .budget = 250000,
+     .least_times = 28,
+     .first_ms = 300,
+     .mib = 200,
+     .shorter = 2,
+     .naive_shorter = 15},
+    {.name = "moving",
+     .about = "100,000 moving points, --lod 2",
+     .points = 100000,
+     .moving = true,
+     .camera = CAMERA_ISO,
+     .lod = 2,
+     .budget = 250000,
+     .least_times = 3,
+     .mib = 200,
+     .shorter = 10,
+     .naive_shorter = 3,
+     .page_fps = 5,
+     .turn_fps = 60,
+     .page_mib = 300},
+    {.name = "1M-lod2",
+     .about = "1,000,000 points, orbiting camera, --lod 2",
+     .points = 1000000,
+     .camera = CAMERA_ORBIT,
+     .lod = 2,
+     .budget = 250000,
+     .least_fps = 25,
+     .first_ms = 1000,
+     .shorter = 10,
+     .naive_shorter = 20,
+     .page_fps = 10,
+     .turn_fps = 15,
+     .page_first_ms = 3000},
 };
 
 view filmed_view(const filmed_scene *scene)
@@ -48,8 +127,9 @@ static char *repeat_keys(const char *keys, uint64_t count)
     return repeated;
 }
 
-static bool scatter(filmed_session *made, size_t count)
+static bool scatter(filmed_session *made, size_t count, bool moving)
 {
+    uint64_t random = 1;
     double(*positions)[3] = malloc(count * sizeof *positions);
     made->bodies = calloc(count, sizeof *made->bodies);
     const bool ok = positions && made->bodies &&
@@ -57,6 +137,8 @@ static bool scatter(filmed_session *made, size_t count)
     for (size_t i = 0; ok && i < count; i++) {
         made->bodies[i].id = i + 1;
         memcpy(made->bodies[i].position, positions[i], sizeof positions[i]);
+        for (int axis = 0; moving && axis < 3; axis++)
+            made->bodies[i].velocity[axis] = (double)(octree_random(&random) % 601) / 100 - 3;
     }
     free(positions);
     return ok;
@@ -153,7 +235,7 @@ bool filmed_session_make(filmed_session *made, const filmed_scene *scene, uint64
         made->session = (octree_session){.tree = octree_def_default(), .player = {.step = 5, .box_size = 3}};
         made->session.tree.leaf_capacity = 8;
         made->session.tree.full_leaf = OCTREE_GROW;
-        ok = ok && scatter(made, scene->points);
+        ok = ok && scatter(made, scene->points, scene->moving);
         made->session.bodies = made->bodies;
         made->session.body_count = scene->points;
     }

@@ -9,28 +9,32 @@
 typedef struct filmed_scene {
     const char *name, *about;
     size_t points; /* clustered, capacity 8; 0 is the default session */
+    bool moving;   /* every point has a velocity */
     view_camera camera;
-    double lod;          /* pixels */
-    uint64_t budget;     /* boxes and points per frame; 0: any number */
-    double least_times;  /* goal for frames per second, as a multiple of the naive renderer's; 0: none */
-    double least_fps;    /* goal for frames per second */
-    double first_ms;     /* goal for the first frame; 0: none */
-    double mib;          /* goal for memory; 0: none */
-    int shorter;         /* divides the number of recorded frames */
-    int naive_shorter;   /* divides it once more for the naive renderer */
-    double page_fps;     /* goal of its page for frames per second; 0: its page is not measured */
-    uint64_t page_ticks; /* ticks of the page's session; 0: as many as frames are drawn */
-    double page_kb;      /* goal for the page's size; 0: none */
-    double scrub_ms;     /* goal for going to any tick; 0: none */
+    double lod;           /* pixels */
+    uint64_t budget;      /* boxes and points per frame; 0: any number */
+    double least_times;   /* goal for frames per second, as a multiple of the naive renderer's; 0: none */
+    double least_fps;     /* goal for frames per second */
+    double first_ms;      /* goal for the first frame; 0: none */
+    double mib;           /* goal for memory; 0: none */
+    int shorter;          /* divides the number of recorded frames */
+    int naive_shorter;    /* divides it once more for the naive renderer */
+    double page_fps;      /* goal of its page for frames per second, tick after tick; 0: its page is not measured */
+    double turn_fps;      /* the same while the view turns, for each of page_sizes */
+    double page_first_ms; /* goal for the first picture of the page; 0: none */
+    double page_mib;      /* goal for the memory of the page; 0: none */
+    uint64_t page_ticks;  /* ticks of the page's session; 0: as many as frames are drawn */
+    double page_kb;       /* goal for the page's size; 0: none */
+    double scrub_ms;      /* goal for going to any tick; 0: none */
     size_t asked; /* it is also recorded with this number of queries per tick, with and without answers; 0: it is not */
 } filmed_scene;
 
-#define FILMED_SCENES 5
-extern const filmed_scene filmed_scenes[FILMED_SCENES];
+/* The sizes of the picture at which the view of a page turns. */
+#define PAGE_SIZES 2
+extern const int page_sizes[PAGE_SIZES][2];
 
-/* The goal for the first frame of every page. */
-#define GOAL_FIRST_MS 300.0
-#define GOAL_PAGE_MIB 300.0
+#define FILMED_SCENES 6
+extern const filmed_scene filmed_scenes[FILMED_SCENES];
 
 /* The goal for the additional time of comparing answers, as a share of a frame without queries. */
 #define GOAL_CHECKED 1.03 /* a frame of a checked recording, as a multiple of one without checks */

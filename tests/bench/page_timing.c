@@ -16,7 +16,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-enum { NOT_FOUND = 127 };
+enum { TIMED_OUT = 124, NOT_FOUND = 127 };
+
+#define MOST_SECONDS "300"
 
 typedef struct play {
     const char *browser;
@@ -47,9 +49,9 @@ static bool write_script(play *p, uint64_t frames, const char *script)
     if (file)
         fprintf(
             file,
-            "const FRAMES = %" PRIu64 ";\n(async () => {\n"
+            "const FRAMES = %" PRIu64 ", SIZES = [[%d, %d], [%d, %d]];\n(async () => {\n"
             "while (typeof octreel === \"undefined\")\n    await new Promise(done => setTimeout(done, 1));\n%s})();\n",
-            frames, script);
+            frames, page_sizes[0][0], page_sizes[0][1], page_sizes[1][0], page_sizes[1][1], script);
     return (file && fclose(file) == 0) || fail(p, "%s: %s", path, strerror(errno));
 }
 
@@ -86,24 +88,28 @@ static pid_t start_browser(const play *p, int said)
     if (child != 0)
         return child;
     if (dup2(said, STDERR_FILENO) >= 0 && freopen("/dev/null", "r", stdin) && freopen("/dev/null", "w", stdout))
-        execlp("timeout", "timeout", "120", p->browser, "--headless", "--no-sandbox", "--disable-gpu",
-               "--disable-extensions", "--no-first-run", "--disable-background-networking",
+        execlp("timeout", "timeout", MOST_SECONDS, p->browser, "--headless", "--no-sandbox", "--disable-gpu",
+               "--disable-dev-shm-usage", "--disable-extensions", "--no-first-run", "--disable-background-networking",
                "--disable-component-update", "--host-resolver-rules=MAP * ~NOTFOUND", "--window-size=1920,1200",
                "--disable-frame-rate-limit", "--disable-gpu-vsync", "--enable-precise-memory-info",
                "--enable-logging=stderr", p->profile, p->page, (char *)NULL);
     _exit(NOT_FOUND);
 }
 
-/* The rest of the line that the script says; the caller frees `line`. Null where the browser ends before. */
+/* Returns the rest of the line that the script prints. If the browser ends before, returns null, and `line` is the last
+ * line that it printed. The caller frees `line`. */
 static const char *hear(FILE *said, char **line)
 {
-    static const char sign[] = "\"octreel-bench: ";
-    size_t room = 0;
-    while (getline(line, &room, said) > 0) {
-        const char *found = strstr(*line, sign);
+    static const char sign[] = "octreel-bench: ";
+    char *next = NULL;
+    for (size_t room = 0; getline(&next, &room, said) > 0; next = NULL, room = 0) {
+        free(*line);
+        *line = next;
+        const char *found = strstr(next, sign);
         if (found)
             return found + sizeof sign - 1;
     }
+    free(next);
     return NULL;
 }
 
@@ -113,8 +119,9 @@ static bool read_times(play *p, const char *told, page_times *times)
     double bytes;
     if (strncmp(told, left_out, sizeof left_out - 1) == 0)
         return fail(p, "%.*s", (int)strcspn(told, "\"\n") - (int)sizeof left_out + 1, told + sizeof left_out - 1);
-    if (sscanf(told, "first %lf frame %lf draw %lf scrub %lf bytes %lf", &times->first_ms, &times->frame_ms,
-               &times->draw_ms, &times->scrub_ms, &bytes) != 5)
+    if (sscanf(told, "first %lf frame %lf draw %lf scrub %lf turn %lf %lf bytes %lf", &times->first_ms,
+               &times->frame_ms, &times->draw_ms, &times->scrub_ms, &times->turn_ms[0], &times->turn_ms[1],
+               &bytes) != 7)
         return fail(p, "it says \"%.100s\"", told);
     times->mib = bytes / (1 << 20);
     return true;
@@ -132,6 +139,18 @@ static int end_browser(pid_t browser, FILE *said)
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
+/* State why the browser printed no times: timeout(1) ends with 124 if it stopped the browser. */
+static void fail_without_times(play *p, int status, const char *last)
+{
+    if (status == NOT_FOUND)
+        fail(p, "there is no %s", p->browser);
+    else if (status == TIMED_OUT)
+        fail(p, "%s needed more than %s s", p->browser, MOST_SECONDS);
+    else
+        fail(p, "%s ended with status %d before the page had played; its last words: %.*s", p->browser, status,
+             last ? (int)strcspn(last, "\n") : 4, last ? last : "none");
+}
+
 static bool run_browser(play *p, page_times *times)
 {
     int ends[2];
@@ -147,10 +166,10 @@ static bool run_browser(play *p, page_times *times)
     const bool ok = told && read_times(p, told, times);
     const int status = end_browser(browser, said);
     fclose(said);
+    if (!told)
+        fail_without_times(p, status, line);
     free(line);
-    if (!told && status == NOT_FOUND)
-        return fail(p, "there is no %s", p->browser);
-    return ok || told || fail(p, "%s ended without having played", p->browser);
+    return ok;
 }
 
 /* The browser takes paths from anywhere, and one from the root cannot be an option. */

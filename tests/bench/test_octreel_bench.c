@@ -113,8 +113,32 @@ static void page_is_measured_beside_the_recorder(void **state)
     strtok(run.out, "\n");
     strtok(NULL, "\n");
     strtok(NULL, "\n");
-    assert_figures(strtok(NULL, "\n"), "page", positive, sizeof positive / sizeof positive[0]);
+    const char *line = strtok(NULL, "\n");
+    assert_figures(line, "page", positive, sizeof positive / sizeof positive[0]);
+    json_t *told = json_read(line), *turning = json_object_get(told, "turn_fps");
+    assert_int_equal(json_array_size(turning), 2);
+    for (size_t i = 0; i < 2; i++)
+        assert_true(json_number_value(json_array_get(turning, i)) > 0);
+    json_decref(told);
     assert_int_equal(rmdir(odd.path), 0);
+    command_release(&run);
+}
+
+static void failing_browser_is_reported_with_its_last_words(void **state)
+{
+    temp_folder *folder = *state;
+    const place browser = place_in(folder, "browser");
+    FILE *file = fopen(browser.path, "w");
+    assert_non_null(file);
+    fputs("#!/bin/sh\necho no memory >&2\nexit 7\n", file);
+    assert_int_equal(fclose(file), 0);
+    assert_int_equal(chmod(browser.path, 0700), 0);
+    if (!page_plays())
+        skip();
+    command_result run = run_script("%s --page " FILM_A_FEW "--folder %s --browser ./%s",
+                                    shell_quote(OCTREEL_BENCH).text, folder->name, browser.path);
+    assert_int_equal(run.status, 0);
+    assert_non_null(strstr(run.err, "ended with status 7 before the page had played; its last words: no memory\n"));
     command_release(&run);
 }
 
@@ -150,6 +174,8 @@ int main(void)
         cmocka_unit_test(table_compares_every_figure_with_its_goal),
         cmocka_unit_test(queries_are_measured_with_and_without_answers),
         cmocka_unit_test_setup_teardown(page_is_measured_beside_the_recorder, temp_folder_make, nested_folder_remove),
+        cmocka_unit_test_setup_teardown(failing_browser_is_reported_with_its_last_words, temp_folder_make,
+                                        temp_folder_remove),
         cmocka_unit_test_setup_teardown(bench_removes_its_frames, temp_folder_make, temp_folder_remove),
         cmocka_unit_test(unknown_arguments_are_refused_with_a_sentence),
     };
