@@ -11,6 +11,9 @@
  * the picture has, the last rows are replaced by a line that counts them. A picture without room for the column shows
  * only the most important lines, in its corner.
  *
+ * In a page the column is HTML text: if the view has its text apart, the pen writes the same rows as JSON, uncut, and a
+ * rule may follow a rule or end the rows.
+ *
  * This layer is added last, because it counts the elements that the other layers left out (scene_tally). */
 #include "foreign_nodes.h"
 #include "judgement.h"
@@ -82,7 +85,7 @@ static void write_box_rows(pen *p, const char *name, const octree_box *box)
     snprintf(heading, sizeof heading, "%*s %*s", WORLD_NUMBER, "from", WORLD_NUMBER, "to");
     write_text(p, 0, ROLE_FAINT, "%s", name);
     write_right_aligned(p, ROLE_FAINT, heading);
-    p->y += p->scene->text.line;
+    p->y += p->text.line;
     for (int i = 0; i < 3; i++) {
         const char axis[2] = {(char)('x' + i), 0};
         write_row(p, axis, "", "%*s %*s", WORLD_NUMBER, format_number_within(box->min[i], WORLD_NUMBER, from),
@@ -264,6 +267,12 @@ static void write_tick_title(pen *p, const layer_source *in, const char *title)
     char text[SCENE_TEXT] = "";
     if (key && (has_keys(in) || key == 'n'))
         snprintf(text, sizeof text, "%c %s", key, key_meaning(key));
+    if (p->rows) {
+        write_title_text(p, ROLE_TEXT, title);
+        if (*text)
+            write_row(p, "key", "", "%s", text);
+        return;
+    }
     write_title(p, title, strlen(text));
     if (*text) {
         write_right_aligned(p, ROLE_FAINT, "key");
@@ -347,7 +356,10 @@ static void write_view_limits(pen *p)
 {
     const scene_tally *tally = &p->scene->tally;
     const int before = p->y;
-    write_gap(p);
+    if (p->rows)
+        write_rule(p);
+    else
+        write_gap(p);
     const int begin = p->y;
     p->value = ROLE_WARNING;
     write_folded_depths(p, tally);
@@ -361,7 +373,7 @@ static void write_view_limits(pen *p)
         write_row(p, "labels", "", "%zu of %zu fit", tally->labels, tally->nodes);
     const int end = p->y;
     p->y = before;
-    if (end != begin) {
+    if (!p->rows && end != begin) {
         write_rule(p);
         p->y = end;
     }
@@ -387,7 +399,7 @@ static void cut_rows_beyond_panel(pen *p)
               line = s->text.line; /* `last`: the greatest y at which a row may begin, in pixels */
     size_t kept = 0, rows = 0;
     double at = -1, first = 0;
-    if (p->y - line <= last)
+    if (p->rows || p->y - line <= last)
         return;
     for (size_t i = 0; i < s->labels.count; i++) {
         const scene_label label = s->labels.items[i];
@@ -410,7 +422,7 @@ static void cut_rows_beyond_panel(pen *p)
  * that the rows below stay where they are. */
 static void write_player(pen *p, const layer_source *in)
 {
-    const int end = p->y + 3 * p->scene->text.line;
+    const int end = p->y + 3 * p->text.line;
     if (in->session->player.kind == OCTREE_PLAYER_NONE && !in->tick->has_player)
         return;
     if (in->tick->has_player)
@@ -473,7 +485,8 @@ static void add_corner_lines(scene *s, const layer_source *in, const char *title
 static void add_column(scene *s, const layer_source *in, const char *title)
 {
     pen p = pen_in_column(s);
-    fill_rectangle(&p, -p.left, -p.y, layout_panel_width(&s->view), s->view.height, ROLE_PANEL);
+    if (!p.rows)
+        fill_rectangle(&p, -p.left, -p.y, layout_panel_width(&s->view), s->view.height, ROLE_PANEL);
     if (in->tick) {
         write_tick_title(&p, in, title);
         write_tick_rows(&p, in);
@@ -496,7 +509,9 @@ static void add_panel(scene *s, const layer_source *in, view_layer layer)
     else
         snprintf(title, sizeof title, "%s", in->title);
     make_printable(title);
-    if (layout_panel_width(&s->view) == 0)
+    if (s->view.text_apart && !s->rows)
+        return;
+    if (!s->view.text_apart && layout_panel_width(&s->view) == 0)
         add_corner_lines(s, in, title);
     else
         add_column(s, in, title);

@@ -153,7 +153,7 @@ static const int8_t signs[][SIGN_PARTS][4] = {
 /* Fill a rectangle of a sign. All numbers are in dots. */
 static void fill_dots(pen *p, int x, int y, int width, int height, unsigned role)
 {
-    const int letter = p->scene->text.height, dot = letter < 24 ? 1 : letter / 12;
+    const int letter = p->text.height, dot = letter < 24 ? 1 : letter / 12;
     fill_rectangle(p, x * dot, (letter - SIGN_HEIGHT * dot) / 2 + y * dot, width * dot, height * dot, role);
 }
 
@@ -165,8 +165,8 @@ static void fill_sign(pen *p, const legend_line *line)
         for (int i = 0; i < 4; i++) /* draw four cells of a chessboard */
             fill_dots(p, 5 + i % 2 * 4, i / 2 * 4, 4, 4, i % 3 ? ROLE_WORLD : ROLE_POINT);
     } else if (line->sign == SIGN_SWATCH) {
-        const int side = p->scene->text.height / 2;
-        fill_rectangle_in_color(p, SWATCH * side / 12 - side / 2, p->scene->text.height / 4, side, side, line->color);
+        const int side = p->text.height / 2;
+        fill_rectangle_in_color(p, SWATCH * side / 12 - side / 2, p->text.height / 4, side, side, line->color);
     } else if (line->sign == SIGN_CROSS) {
         for (int i = -4; i <= 4; i++)
             for (int side = -1; side <= (i ? 1 : -1); side += 2)
@@ -201,25 +201,35 @@ void legend_add_scale(legend *l, legend_scale scale)
     legend_add(l, SIGN_NONE, "");
 }
 
+/* Write a line at the position of the pen, or as a row. */
+static void write_legend_line(pen *p, const legend_line *line)
+{
+    if (p->rows)
+        begin_sign(p);
+    fill_sign(p, line);
+    if (p->rows)
+        end_sign(p, line->text);
+    else if (*line->text)
+        write_text(p, LEGEND_WORDS, ROLE_FAINT, "%s", line->text);
+}
+
 void write_legend(pen *p, const layer_source *in)
 {
     const scene *s = p->scene;
-    const int line = s->text.line, foot = s->view.height - LAYOUT_MARGIN * s->text.width;
+    const int line = p->text.line, foot = s->view.height - LAYOUT_MARGIN * s->text.width;
     const int room = (foot - p->y - line / 2) / line;
     legend l = {.scene = s, .in_frame = layers_in_frame(s)};
     for (int order = 1; order <= LEGEND_LAST; order++)
         for (int i = 0; i < LAYER_ALL; i++)
             if (layer_types[i]->legend.order == order)
                 add_layer_line(&l, in, (view_layer)i);
-    const size_t left_out = fit_lines(&l, room > 0 ? (size_t)room : 0);
+    const size_t left_out = p->rows ? 0 : fit_lines(&l, room > 0 ? (size_t)room : 0);
     if (l.count == 0)
         return;
     p->y = foot - (int)(l.count + (left_out > 0)) * line - line / 2;
     write_rule(p);
     for (size_t i = 0; i < l.count; i++) {
-        fill_sign(p, &l.lines[i]);
-        if (*l.lines[i].text)
-            write_text(p, LEGEND_WORDS, ROLE_FAINT, "%s", l.lines[i].text);
+        write_legend_line(p, &l.lines[i]);
         p->y += line;
     }
     if (left_out)

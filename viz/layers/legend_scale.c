@@ -65,7 +65,7 @@ static scale_numbers number_round_steps(const legend_scale *scale, int count)
  */
 static int number_left(const pen *p, const scale_number *m, int width)
 {
-    const int size = (int)strlen(m->text) * p->scene->text.width, left = (int)(m->part * width) - size / 2;
+    const int size = (int)strlen(m->text) * p->text.width, left = (int)(m->part * width) - size / 2;
     return left < 0 ? 0 : left + size > width ? width - size : left;
 }
 
@@ -73,7 +73,7 @@ static int number_left(const pen *p, const scale_number *m, int width)
 static bool numbers_fit(const pen *p, const scale_numbers *m, int width)
 {
     for (int i = 0; i < m->count; i++) {
-        const int left = number_left(p, &m->items[i], width), letter = p->scene->text.width;
+        const int left = number_left(p, &m->items[i], width), letter = p->text.width;
         if (left < 0 || (i > 0 && left < number_left(p, &m->items[i - 1], width) +
                                              ((int)strlen(m->items[i - 1].text) + 1) * letter))
             return false;
@@ -101,9 +101,11 @@ static scale_numbers choose_numbers(const pen *p, const legend_scale *scale, int
 
 void write_scale(pen *p, const legend_scale *scale)
 {
-    const lettering *text = &p->scene->text;
-    const int width = p->letters * text->width, high = text->height / 2,
-              dot = text->height < 24 ? 1 : text->height / 12;
+    const lettering *text = &p->text;
+    const int width = LAYOUT_LETTERS * text->width, high = text->height / 2,
+              dot = p->rows             ? 2
+                    : text->height < 24 ? 1
+                                        : text->height / 12;
     const scale_numbers m = choose_numbers(p, scale, width);
     for (int x = 0; x < width; x += dot) {
         const int left = width - dot - x, from_end = x < left ? x : left > 0 ? left : 0;

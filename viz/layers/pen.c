@@ -11,8 +11,15 @@
 pen pen_in_column(scene *s)
 {
     const int margin = LAYOUT_MARGIN * s->text.width;
-    return (pen){
-        .scene = s, .left = margin, .y = margin, .letters = LAYOUT_LETTERS, .name = ROLE_FAINT, .value = ROLE_TEXT};
+    const bool apart = s->view.text_apart;
+    return (pen){.scene = s,
+                 .text = apart ? PEN_ROW_LETTERING : s->text,
+                 .rows = apart ? s->rows : NULL,
+                 .left = margin,
+                 .y = margin,
+                 .letters = apart ? SCENE_TEXT - 1 : LAYOUT_LETTERS,
+                 .name = ROLE_FAINT,
+                 .value = ROLE_TEXT};
 }
 
 pen pen_in_corner(scene *s)
@@ -23,6 +30,60 @@ pen pen_in_corner(scene *s)
     p.letters = fits < 1 ? 1 : fits < LAYOUT_LETTERS ? fits : LAYOUT_LETTERS;
     return p;
 }
+
+/* ---- Rows ---------------------------------------------------------------------------------------------------- */
+
+/* Write a color as a member, unless it is the usual one. */
+static void write_color(pen *p, const char *key, theme_role role, theme_role usual)
+{
+    char text[THEME_COLOR_TEXT];
+    if (role != usual)
+        json_write_text_member(p->rows, key, theme_print_color(theme_color_at(theme_color_index(role, 0)), text));
+}
+
+static void write_text_row(pen *p, const char *key, theme_role role, const char *text)
+{
+    json_write_begin_object(p->rows);
+    json_write_text_member(p->rows, key, text);
+    write_color(p, "color", role, ROLE_TEXT);
+    json_write_end_object(p->rows);
+}
+
+static void write_row_object(pen *p, const char *name, const char *detail, const char *value)
+{
+    json_write_begin_object(p->rows);
+    json_write_text_member(p->rows, "name", name);
+    if (*detail)
+        json_write_text_member(p->rows, "detail", detail);
+    json_write_text_member(p->rows, "value", value);
+    write_color(p, "name_color", p->name, ROLE_FAINT);
+    write_color(p, "color", p->value, ROLE_TEXT);
+    json_write_end_object(p->rows);
+}
+
+static void write_rectangle(pen *p, int x, int y, int width, int height, theme_color color)
+{
+    char text[THEME_COLOR_TEXT];
+    json_write_begin_array(p->rows);
+    json_write_elements(p->rows, (double[]){x, y, width, height}, 4);
+    json_write_string(p->rows, theme_print_color(color, text));
+    json_write_end_array(p->rows);
+}
+
+void begin_sign(pen *p)
+{
+    json_write_begin_object(p->rows);
+    json_begin_array_member(p->rows, "sign");
+}
+
+void end_sign(pen *p, const char *text)
+{
+    json_write_end_array(p->rows);
+    json_write_text_member(p->rows, "text", text);
+    json_write_end_object(p->rows);
+}
+
+/* ---- Lines --------------------------------------------------------------------------------------------------- */
 
 /* Cut a text to `room` characters. A text that is cut ends in two dots. */
 static void cut_text(char *text, size_t room)
@@ -52,29 +113,45 @@ void write_text(pen *p, int at, theme_role role, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    add_text(p, at * p->scene->text.width, role, 1, at < p->letters ? (size_t)(p->letters - at) : 1, text);
+    if (p->rows)
+        write_text_row(p, "text", role, text);
+    else
+        add_text(p, at * p->text.width, role, 1, at < p->letters ? (size_t)(p->letters - at) : 1, text);
 }
 
 void write_text_at(pen *p, int x, theme_role role, const char *text)
 {
-    add_text(p, x, role, 1, SCENE_TEXT, text);
+    if (!p->rows) {
+        add_text(p, x, role, 1, SCENE_TEXT, text);
+        return;
+    }
+    json_write_begin_array(p->rows);
+    json_write_number(p->rows, x);
+    json_write_string(p->rows, text);
+    json_write_end_array(p->rows);
 }
 
 void write_right_aligned(pen *p, theme_role role, const char *text)
 {
     const int length = (int)strlen(text);
-    write_text(p, length < p->letters ? p->letters - length : 0, role, "%s", text);
+    if (p->rows)
+        write_row(p, "", "", "%s", text);
+    else
+        write_text(p, length < p->letters ? p->letters - length : 0, role, "%s", text);
 }
 
 void write_title_text(pen *p, theme_role role, const char *text)
 {
-    add_text(p, 0, role, 2, (size_t)(p->letters * p->scene->text.width / p->scene->title.width), text);
+    if (p->rows)
+        write_text_row(p, "title", role, text);
+    else
+        add_text(p, 0, role, 2, (size_t)(p->letters * p->text.width / p->scene->title.width), text);
 }
 
 void write_line(pen *p, theme_role role, const char *text)
 {
     write_text(p, 0, role, "%s", text);
-    p->y += p->scene->text.line;
+    p->y += p->text.line;
 }
 
 void write_row(pen *p, const char *name, const char *detail, const char *format, ...)
@@ -84,6 +161,10 @@ void write_row(pen *p, const char *name, const char *detail, const char *format,
     va_start(arguments, format);
     vsnprintf(value, sizeof value, format, arguments);
     va_end(arguments);
+    if (p->rows) {
+        write_row_object(p, name, detail, value);
+        return;
+    }
     snprintf(between, sizeof between, "%s", detail);
     cut_text(between, (size_t)detail_room(p, strlen(value)));
     const int taken = *between ? DETAIL + (int)strlen(between) : (int)strlen(name);
@@ -95,20 +176,25 @@ void write_row(pen *p, const char *name, const char *detail, const char *format,
     if (*between)
         write_text(p, DETAIL, ROLE_FAINT, "%s", between);
     write_right_aligned(p, p->value, value);
-    p->y += p->scene->text.line;
+    p->y += p->text.line;
 }
 
 void write_gap(pen *p)
 {
-    p->y += p->scene->text.line / 2;
+    p->y += p->text.line / 2;
 }
 
 void write_rule(pen *p)
 {
-    const scene *s = p->scene;
-    if (layout_panel_width(&s->view))
-        fill_rectangle(p, 0, s->text.line / 4, p->letters * s->text.width,
-                       s->text.height < 48 ? 1 : s->text.height / 24, ROLE_WORLD);
+    const lettering *text = &p->text;
+    if (p->rows) {
+        json_write_begin_object(p->rows);
+        json_write_bool_member(p->rows, "rule", true);
+        json_write_end_object(p->rows);
+    } else if (layout_panel_width(&p->scene->view)) {
+        fill_rectangle(p, 0, text->line / 4, p->letters * text->width, text->height < 48 ? 1 : text->height / 24,
+                       ROLE_WORLD);
+    }
     write_gap(p);
 }
 
@@ -137,13 +223,20 @@ void write_ids(pen *p, const char *name, const octree_point *points, size_t coun
 
 void fill_rectangle(pen *p, int x, int y, int width, int height, unsigned role)
 {
-    scene_add_rectangle(p->scene, p->next_id++, (int[]){p->left + x, p->y + y}, (int[]){width, height}, LAYER_TEXT,
-                        role);
+    if (p->rows)
+        write_rectangle(p, x, y, width, height, theme_color_at(theme_color_index(role, 0)));
+    else
+        scene_add_rectangle(p->scene, p->next_id++, (int[]){p->left + x, p->y + y}, (int[]){width, height}, LAYER_TEXT,
+                            role);
 }
 
 void write_wrapped(pen *p, theme_role role, const char *text)
 {
     const size_t most = (size_t)p->letters;
+    if (p->rows) {
+        write_text_row(p, "text", role, text);
+        return;
+    }
     while (*text) {
         char line[SCENE_TEXT];
         const size_t left = strlen(text);
@@ -160,5 +253,8 @@ void write_wrapped(pen *p, theme_role role, const char *text)
 void fill_rectangle_in_color(pen *p, int x, int y, int width, int height, theme_color color)
 {
     const scene_style style = make_role_style(LAYER_TEXT, ROLE_OWN, STROKE_SOLID, 0);
-    scene_add_panel(p->scene, (scene_panel){p->next_id++, style, color, p->left + x, p->y + y, width, height});
+    if (p->rows)
+        write_rectangle(p, x, y, width, height, color);
+    else
+        scene_add_panel(p->scene, (scene_panel){p->next_id++, style, color, p->left + x, p->y + y, width, height});
 }

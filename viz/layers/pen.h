@@ -4,6 +4,7 @@
 #ifndef LAYERS_PEN_H
 #define LAYERS_PEN_H
 
+#include "json_write.h"
 #include "layout.h"
 #include "number.h"
 #include "octree/types.h"
@@ -11,14 +12,28 @@
 
 #define DETAIL 10 /* position of the detail in a row: the character at which it begins */
 
-/* The position of the next line of text in a scene. */
+/* The position of the next line of text in a scene.
+ *
+ * If the view has its text apart, the pen writes rows for a page in place of labels. Each row is one of these objects:
+ *   {"title": "tick 41"}
+ *   {"text": "moved", "color": "#rrggbb"}
+ *   {"name": "depth", "detail": "...", "value": "5 of max 5", "name_color": "#rrggbb", "color": "#rrggbb"}
+ *   {"sign": [[x, y, width, height, "#rrggbb"], [x, "text"], ...], "text": "point"}
+ *   {"rule": true}
+ * Usual colours and empty details are left out. A sign, a symbol of the legend, has rectangles, and texts whose left
+ * end is given; they suit characters of PEN_ROW_LETTERING. Texts are not cut. */
 typedef struct pen {
     scene *scene;
+    lettering text;         /* the lettering of the lines */
+    json_writer *rows;      /* null: the pen adds labels and rectangles to the scene */
     int left, y;            /* the top left corner of the line's first character, in pixels */
     int letters;            /* number of characters that fit into a line */
     theme_role name, value; /* the colours of a row's name and value */
     uint64_t next_id;
 } pen;
+
+/* The lettering of a pen that writes rows. */
+#define PEN_ROW_LETTERING ((lettering){.face = FACE_8X16, .multiple = 1, .width = 8, .height = 16, .line = 19})
 
 /* pen_in_column() returns a pen at the top of the column. pen_in_corner() returns a pen in the corner of a picture
  * without a column. */
@@ -58,6 +73,11 @@ void write_ids(pen *p, const char *name, const octree_point *points, size_t coun
 
 /* Print a number with as many significant digits as fit into `letters` characters, at most 9 digits. Return `text`. */
 const char *format_number_within(double value, size_t letters, char text[NUMBER_TEXT]);
+
+/* Write a row of the legend for a page: begin a sign, whose rectangles and texts follow, or end it with the row's
+ * text. */
+void begin_sign(pen *p);
+void end_sign(pen *p, const char *text);
 
 /* Write a text x pixels to the right of the pen. */
 void write_text_at(pen *p, int x, theme_role role, const char *text);

@@ -20,7 +20,7 @@
 int layout_panel_width(const view *v)
 {
     const int width = (LAYOUT_LETTERS + 2 * LAYOUT_MARGIN) * lettering_choose(v, false).width;
-    return view_shows_layer(v, LAYER_TEXT) && v->width >= 2 * width ? width : 0;
+    return view_shows_layer(v, LAYER_TEXT) && !v->text_apart && v->width >= 2 * width ? width : 0;
 }
 
 /* Returns the area of the picture without the column of text. */

@@ -11,8 +11,8 @@
 #define LAYOUT_LETTERS 28
 #define LAYOUT_MARGIN 2
 
-/* Returns the width of the column of text in pixels. Returns 0 if the view has no text, or if the picture is too small
- * for the column. */
+/* Returns the width of the column of text in pixels. Returns 0 if the view has no text or has it apart, or if the
+ * picture is too small for the column. */
 int layout_panel_width(const view *v);
 
 /* Returns the area of the space view, in which the world is drawn. */

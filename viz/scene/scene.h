@@ -155,8 +155,11 @@ typedef struct scene {
     int place[2];
     double times;           /* only in a close-up: the magnification at its middle; 0 in other scenes */
     struct kept_tree *kept; /* the cache of subtrees from the previous tick; may be null */
-    size_t refused;         /* the number of elements with NaN or infinite geometry, which are never drawn */
-    bool out_of_memory;     /* true: the scene is incomplete, because memory ran out in scene_add_*() */
+    /* if the view has its text apart: receives the rows of the text column as elements of an array (pen.h); null: no
+     * rows are written */
+    struct json_writer *rows;
+    size_t refused;     /* the number of elements with NaN or infinite geometry, which are never drawn */
+    bool out_of_memory; /* true: the scene is incomplete, because memory ran out in scene_add_*() */
 } scene;
 
 /* Returns the bitmap font in which a label is drawn. */

@@ -2,6 +2,8 @@
 /* theme.c - the names and colours of roles, and the ramps of colours; see theme.h. */
 #include "theme.h"
 
+#include <stdio.h>
+
 #define ROLE_NAME(role, name, r, g, b) name,
 #define ROLE_COLOR(role, name, r, g, b) {r, g, b},
 static const char *const role_names[ROLE_COUNT] = {THEME_ROLE_MAP(ROLE_NAME)};
@@ -19,6 +21,12 @@ static const int strength[THEME_SHADES] = {256, 236, 216, 196, 176, 156, 136, 11
 static uint8_t mix_channel(uint8_t color, uint8_t ground, int part)
 {
     return (uint8_t)((color * part + ground * (256 - part)) / 256);
+}
+
+char *theme_print_color(theme_color color, char text[THEME_COLOR_TEXT])
+{
+    snprintf(text, THEME_COLOR_TEXT, "#%02x%02x%02x", color.r, color.g, color.b);
+    return text;
 }
 
 theme_color theme_fade_color(theme_color full, int parts)

@@ -99,6 +99,10 @@ static inline uint8_t theme_color_index(unsigned role, unsigned shade)
 #define ROLE_OWN ROLE_COUNT
 #define THEME_OWN THEME_COLORS
 
+/* Print a colour as "#rrggbb". Returns `text`. */
+#define THEME_COLOR_TEXT 8
+char *theme_print_color(theme_color color, char text[THEME_COLOR_TEXT]);
+
 /* Mix a colour with the background: 256 parts give the colour, 0 parts the background. */
 theme_color theme_fade_color(theme_color full, int parts);
 

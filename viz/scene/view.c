@@ -7,6 +7,8 @@
 int view_height_at_16_9(const view *v)
 {
     const int wide = v->width / 16 * 9;
+    if (v->suited_height)
+        return v->suited_height;
     return v->height < wide ? v->height : wide;
 }
 

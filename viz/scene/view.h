@@ -88,6 +88,11 @@ typedef enum view_fit {
 
 typedef struct view {
     int width, height; /* the size of the picture in pixels */
+    /* the picture height that lines, markers and characters suit; 0: the height of a 16:9 picture of this size. It is
+     * set where a picture has another resolution than a recorded one: in a page. */
+    int suited_height;
+    /* true: the column of text is not part of the picture; scene.rows receives its rows */
+    bool text_apart;
     view_camera camera;
     view_fit fit;
     octree_box focus; /* the framed box if `fit` is FIT_BOX */
@@ -129,8 +134,8 @@ typedef struct view {
 /* The longest side of a picture in samples: llvmpipe clamps longer sides. */
 #define VIEW_MAX_SIDE 16384
 
-/* Returns the height of a picture, or the height of a 16:9 picture of the same width if that height is less. The sizes
- * of lines and characters depend on the result. */
+/* Returns the height of a picture, or the height of a 16:9 picture of the same width if that height is less, or the
+ * view's suited_height. The sizes of lines and characters depend on the result. */
 int view_height_at_16_9(const view *v);
 
 /* Returns the size of a picture unit in pixels: 1 if view_height_at_16_9() is below 640, 2 from 640 on, 6 at 2160.

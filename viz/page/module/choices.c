@@ -16,10 +16,8 @@ static void write_names(json_writer *w, const char *key, json_name *names)
 
 static void write_color(json_writer *w, theme_role role)
 {
-    char text[8];
-    const theme_color c = theme_color_at(theme_color_index(role, 0));
-    snprintf(text, sizeof text, "#%02x%02x%02x", c.r, c.g, c.b);
-    json_write_text_member(w, "color", text);
+    char text[THEME_COLOR_TEXT];
+    json_write_text_member(w, "color", theme_print_color(theme_color_at(theme_color_index(role, 0)), text));
 }
 
 JSON_NAMES(bounds_name, octree_bounds_name, octree_bounds)

@@ -33,6 +33,7 @@ typedef struct web {
     playback playback;
     bool open, drawn;       /* true: the playback is open; true: the current tick is drawn */
     bool has_fitted_scale;  /* true: the point scale was fitted to the points, not given in the view */
+    int size[2];            /* width and height of the view, which are those of its recording, in pixels */
     unsigned summed_layers; /* the heat layers whose sums over all ticks are collected, as bits of view_layer */
     char *room, *text;
     size_t room_size, text_size;
@@ -97,13 +98,19 @@ static bool set_text(bool (*write)(FILE *out))
 
 /* ---- The session -------------------------------------------------------------------------------------------- */
 
+static void close_picture(void)
+{
+    picture_close(&page.playback.picture);
+    free(page.rgba);
+    page.rgba = NULL;
+}
+
 static void close_game_and_picture(void)
 {
+    close_picture();
     if (page.open)
         playback_close(&page.playback);
     session_release(&page.session);
-    free(page.rgba);
-    page.rgba = NULL;
     page.open = page.drawn = page.has_fitted_scale = false;
 }
 
@@ -120,6 +127,8 @@ bool web_open(size_t session, size_t recording)
     free(page.room);
     page.room = NULL;
     page.room_size = 0;
+    page.size[0] = v.width;
+    page.size[1] = v.height;
     page.summed_layers = v.layers & VIEW_HEAT_LAYERS ? VIEW_HEAT_LAYERS : 0;
     page.open = playback_open(&page.playback, &page.session.session, &page.session.values, &v, &page.error);
     page.playback.history.changes.tracked = page.open;
@@ -128,17 +137,28 @@ bool web_open(size_t session, size_t recording)
     return page.open || report_error_text();
 }
 
+/* Give a view the size of the recording, with the column of text in the picture. */
+static void suit_recording(view *v)
+{
+    v->width = page.size[0];
+    v->height = page.size[1];
+    v->suited_height = 0;
+    v->text_apart = false;
+}
+
 /* Play the next tick. `key` is the player's key press. If `key` is 0, the tick has the key press, edits and queries
  * that the session has for it. */
 bool web_step(int key)
 {
     const octree_input input = {.key = (char)key};
     playback *p = &page.playback;
-    const unsigned layers = p->view.layers;
+    const view drawn = p->view;
     page.drawn = false;
+    /* A tick's history depends on the view: play every tick with the view of the recording. */
+    suit_recording(&p->view);
     p->view.layers |= page.summed_layers;
     const bool done = key ? playback_play_input(p, &input, &page.error) : playback_advance(p, &page.error);
-    p->view.layers = layers;
+    p->view = drawn;
     return done || report_error_text();
 }
 
@@ -200,18 +220,22 @@ static bool fit_view(view *v)
     return picture_fit(v, octree_game_tree(page.playback.game), &page.session.values, &page.error);
 }
 
-/* Set the view to the view in a recording.json. The input buffer holds `recording` bytes of this file. */
+/* Set the view to the view in a recording.json. The input buffer holds `recording` bytes of this file. The picture
+ * keeps its size until the next drawing. */
 bool web_view(size_t recording)
 {
     view v, *now = &page.playback.view;
     uint64_t every;
     if (!recording_parse("the view", page.room, recording, &v, &every, &page.error) || !fit_view(&v))
         return report_error_text();
-    if (v.width != now->width || v.height != now->height || v.aa != now->aa || view_is_rgb(&v) != view_is_rgb(now)) {
-        picture_close(&page.playback.picture);
-        free(page.rgba);
-        page.rgba = NULL;
-    }
+    page.size[0] = v.width;
+    page.size[1] = v.height;
+    v.width = now->width;
+    v.height = now->height;
+    v.suited_height = now->suited_height;
+    v.text_apart = now->text_apart;
+    if (v.aa != now->aa || view_is_rgb(&v) != view_is_rgb(now))
+        close_picture();
     *now = v;
     page.drawn = false;
     return true;
@@ -259,18 +283,61 @@ static void color_pixels(const image *frame)
             page.rgba[i] = rgba_word((image_color){from[0], from[1], from[2]});
 }
 
-/* Draw the current tick. Returns the pixels row by row from the top, 4 bytes each: R, G, B, A. Returns null on failure;
- * web_text() then returns the error. */
-const uint32_t *web_draw(void)
+/* Compose the scene of the current tick, and write the rows of its text column if the view has its text apart. */
+static bool compose_and_write_rows(FILE *out)
 {
     playback *p = &page.playback;
-    clear_text();
-    if (!open_picture() || !playback_compose_scene(p, &page.error) ||
-        !picture_draw(&p->picture, &p->scene, &page.error))
+    json_writer writer = {.out = out};
+    json_write_begin_array(&writer);
+    p->scene.rows = &writer;
+    const bool composed = playback_compose_scene(p, &page.error);
+    p->scene.rows = NULL;
+    json_write_end_array(&writer);
+    return composed;
+}
+
+/* Draw the current tick with the present size of the picture. Returns the pixels, or null on failure. */
+static const uint32_t *draw_picture(void)
+{
+    playback *p = &page.playback;
+    if (!open_picture() || !set_text(compose_and_write_rows) || !picture_draw(&p->picture, &p->scene, &page.error)) {
+        report_error_text();
         return NULL;
+    }
     color_pixels(&p->picture.frame);
     page.drawn = true;
     return page.rgba;
+}
+
+static const uint32_t *draw_view(const view *v)
+{
+    view *now = &page.playback.view;
+    if (v->width != now->width || v->height != now->height)
+        close_picture();
+    *now = *v;
+    return draw_picture();
+}
+
+/* Draw the current tick as recorded. Returns the pixels row by row from the top, 4 bytes each: R, G, B, A. Returns null
+ * on failure; web_text() then returns the error. */
+const uint32_t *web_draw(void)
+{
+    view v = page.playback.view;
+    suit_recording(&v);
+    return draw_view(&v);
+}
+
+/* Draw the current tick with another size and without the column of text. Lines, markers and characters have the size
+ * that suits a picture of height `suited_height`. web_text() then returns the rows of the column as a JSON array
+ * (pen.h). */
+const uint32_t *web_draw_at(int width, int height, int suited_height)
+{
+    view v = page.playback.view;
+    v.width = width;
+    v.height = height;
+    v.suited_height = suited_height;
+    v.text_apart = true;
+    return draw_view(&v);
 }
 
 int web_width(void)
@@ -383,7 +450,7 @@ bool web_pick(int x, int y, int radius)
     picked.x = x;
     picked.y = y;
     picked.radius = radius;
-    if ((!page.drawn && !web_draw()) || x < 0 || y < 0 || x >= web_width() || y >= web_height())
+    if ((!page.drawn && !draw_picture()) || x < 0 || y < 0 || x >= web_width() || y >= web_height())
         return report_error_text();
     return set_text(write_pick);
 }

@@ -120,10 +120,23 @@ class Engine {
         return Boolean(this.wasm.web_lacks_sums());
     }
 
-    /* Draw the current tick. The returned picture is valid until the next call of the module. */
+    /* Draw the current tick as recorded. The returned picture is valid until the next call of the module. */
     draw()
     {
-        const at = this.wasm.web_draw();
+        return this.picture(this.wasm.web_draw());
+    }
+
+    /* Draw the current tick with another size, without the column of text. `rows` becomes the JSON text of the rows of
+     * this column. Letters and lines suit a picture of height `suited`. */
+    drawAt(width, height, suited)
+    {
+        const picture = this.picture(this.wasm.web_draw_at(width, height, suited));
+        this.rows = this.text();
+        return picture;
+    }
+
+    picture(at)
+    {
         if (!at)
             throw new Error(this.text());
         const width = this.wasm.web_width(), height = this.wasm.web_height();
