@@ -45,6 +45,7 @@ async function sayTold()
 /* Queries are answered by the library, and disappear with the tick. */
 async function sayAnswers()
 {
+    player().engine.draw(); /* as recorded */
     const digest = player().engine.digest();
     interaction.ask({knearest: 2, at: [0, 0, 0]});
     interaction.ask({radius: 100, at: [700, 700, 700]});

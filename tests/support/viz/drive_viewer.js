@@ -80,12 +80,12 @@ function sayMatches()
     sayWalk("walk collided", "j");
     sayWalk("walk back", "k");
     say("filtered", document.getElementById("filtered").textContent);
-    say("chosen", [...document.querySelectorAll('[aria-pressed="true"]')].map(label => label.dataset.event).join(" "));
+    say("chosen", [...document.querySelectorAll('.lane-label[aria-pressed="true"]')].map(label => label.dataset.event).join(" "));
     document.querySelector('.lane-label[data-event="merged"]').click();
     press("Home");
     sayWalk("walk collided or merged", "j");
     press("0");
-    say("chosen none", document.querySelectorAll('[aria-pressed="true"]').length);
+    say("chosen none", document.querySelectorAll('.lane-label[aria-pressed="true"]').length);
 }
 
 function sayPointer()
@@ -141,7 +141,7 @@ async function sayAddress()
     say("address", location.hash);
     location.hash = "#t=12&filter=full,split,unheard-of";
     await until(() => tickShown() === "12", "from address");
-    say("from address", `${tickShown()} ${document.querySelectorAll('[aria-pressed="true"]').length}`);
+    say("from address", `${tickShown()} ${document.querySelectorAll('.lane-label[aria-pressed="true"]').length}`);
     location.hash = "#t=99999999";
     await until(() => tickShown() !== "12", "beyond the end");
     say("beyond the end", tickShown());
@@ -164,6 +164,7 @@ function sayHelp()
 
 async function drive()
 {
+    press("p"); /* show the recorded frames */
     sayFacts();
     sayKeys();
     sayMatches();

@@ -236,7 +236,7 @@ static void page_plays_only_the_filtered_ticks_and_stops_at_the_last(void **stat
 static void address_contains_the_tick_and_restores_it(void **state)
 {
     skip_without_browser();
-    assert_said(*state, "address", "#t=41&filter=collided");
+    assert_said(*state, "address", "#t=41&filter=collided&pixels=recorded");
     assert_said(*state, "from address", "12 2");
     assert_said(*state, "beyond the end", "252");
     assert_said(*state, "from nonsense", "0");
@@ -250,10 +250,10 @@ static void question_mark_lists_the_keys(void **state)
     assert_said(*state, "behind the help", "0");
     assert_said(*state, "keys listed",
                 !page_plays()
-                    ? "\xe2\x86\x92 \xe2\x86\x90 Page Down Page Up Home End space + - j k 1 2 3 4 5 6 0 i t Esc ?"
+                    ? "\xe2\x86\x92 \xe2\x86\x90 Page Down Page Up Home End space + - j k 1 2 3 4 5 6 0 o i p l t Esc ?"
                     : "\xe2\x86\x92 \xe2\x86\x90 Page Down Page Up Home End space + - j k 1 2 3 4 5 6 0 "
                       "w s d a e f n . q Shift \xe2\x86\x90 Shift \xe2\x86\x92 Shift \xe2\x86\x91 Shift \xe2\x86\x93 "
-                      "Shift Page Up Shift Page Down c i t Esc ?");
+                      "Shift Page Up Shift Page Down v c o i p l t Esc ?");
 }
 
 /* The page has hundreds of elements, however many ticks there are. */
@@ -283,7 +283,8 @@ static void tick_without_a_frame_shows_the_previous_frame_and_says_so(void **sta
     film_options options = small_film(film.path);
     options.every = 40;
     assert_filmed(&session, &options);
-    char *page = browser_open(d->folder, place_below(film.path, "index.html").path, "t=43&filter=collided,full");
+    char *page =
+        browser_open(d->folder, place_below(film.path, "index.html").path, "t=43&filter=collided,full&pixels=recorded");
     assert_has(page, "data-tick=\"43\"");
     assert_has(page, "data-fact=\"tick\">43<");
     assert_has(page, "Tick 43 has no frame; this is the frame of tick 40.");

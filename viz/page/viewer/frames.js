@@ -56,11 +56,19 @@ class Frames {
             return;
         this.busy = true;
         while (this.shown !== this.wanted) {
-            const next = this.wanted;
-            this.stage.replaceChildren(...(next < 0 ? [] : [await this.load(next)]));
+            const next = this.wanted, parts = next < 0 ? [] : [await this.load(next)];
+            if (this.wanted === null)
+                break;
+            this.stage.replaceChildren(...parts);
             this.shown = next;
         }
         this.busy = false;
+    }
+
+    /* Leave the stage to other pictures. A frame that is still being decoded is not shown. */
+    leave()
+    {
+        this.wanted = this.shown = null;
     }
 
     /* Start to decode the frames of ticks that are likely to be shown next. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* interaction.js - playing in the page. The first gesture starts the WebAssembly module, which then draws in place of
- * the recorded frames. From any tick on, the user can continue the game with the keys of the player. */
+/* interaction.js - playing in the page. The WebAssembly module draws in place of the recorded frames, at the size of the
+ * window. From any tick on, the user can continue the game with the keys of the player. */
 "use strict";
 
 const LONG_WAIT = 100; /* ms; if the user waits longer, a progress bar is shown */
@@ -38,6 +38,7 @@ class Interaction {
         this.viewer = viewer;
         this.stage = byId("stage");
         this.busy = false;
+        this.exact = false; /* true: the page shows recorded pixels */
         this.recorded = viewer.recording;
         this.canPlay = hasModule();
         if (this.canPlay)
@@ -47,6 +48,12 @@ class Interaction {
     get isLive()
     {
         return this.live !== undefined;
+    }
+
+    /* Whether the page shows the recorded frames. If not, it shows pictures that the module draws. */
+    get showsFrames()
+    {
+        return !this.isLive || (this.exact && this.recorded.hasFrames && byId("live-end").hidden);
     }
 
     showStatus(text)
@@ -99,17 +106,17 @@ class Interaction {
             picked: (pick, place) => this.showPick(pick, place),
             changed: () => this.showView(),
             again: () => this.playAgain(),
+            appears: () => this.viewer.stage.leave(),
+            showRows,
         });
+        this.live.exact = this.exact;
         this.viewer.follow(recording);
         this.showView();
         this.showBranch();
         byId("view").hidden = byId("asking").hidden = false;
-        /* If there are no recorded frames, the page started to play by itself. */
-        byId("hint").hidden = recording.hasFrames;
-        byId("caption").hidden = true;
-        this.stage.classList.remove("stale");
         this.showStatus(!player.isCut ? "" : `The session has ${grouped(player.engine.length)} ticks; ` +
                                              `this page plays the first ${grouped(player.length)}.`);
+        this.viewer.address.apply();
         const {tick} = this.viewer;
         if (tick > 0)
             this.playAhead();
@@ -172,7 +179,8 @@ class Interaction {
         try {
             do {
                 await this.player.goTo(this.wanted);
-                await this.live?.draw();
+                if (!this.showsFrames)
+                    await this.live.draw();
                 this.viewer.inspector.follow();
             } while (this.isLive && this.player.engine.tick !== this.wanted);
         } catch (error) {
@@ -181,24 +189,32 @@ class Interaction {
         this.busy = false;
     }
 
-    /* Stop playing in the page and show the recorded frames again. */
+    /* Show the recorded view of the recorded ticks again. */
     goBack()
     {
         if (!this.isLive)
             return;
         this.player.stop();
-        this.live.hide();
+        this.live.end();
         this.live = this.starting = undefined;
-        for (const hidden of ["view", "asking", "live-end", "save", "branch", "picked", "ahead"])
+        for (const hidden of ["live-end", "save", "branch", "picked", "ahead"])
             byId(hidden).hidden = true;
-        byId("hint").hidden = false;
         this.showStatus("");
-        this.viewer.stage.shown = -1;
         this.viewer.follow(this.recorded);
+        this.start();
         this.viewer.goTo(this.viewer.tick);
     }
 
-    /* Turn the camera by a key. Like dragging, this starts the module. */
+    /* Show recorded pixels from the next picture on, or pictures that fill the window. */
+    showExact(exact)
+    {
+        this.exact = exact;
+        if (this.isLive)
+            this.live.exact = exact;
+        showExact(exact, this.recorded.about.size);
+    }
+
+    /* Turn the camera by a key. */
     async turn(dx, dy)
     {
         if (await this.start())
@@ -265,13 +281,12 @@ class Interaction {
         this.showBackButton();
     }
 
-    /* Show the button that leaves playing. If there are no recorded frames, the button appears only after the user has
-     * changed the view or pressed a key of the game. */
+    /* After the user has changed the view or pressed a key of the game, show the button that leads back. */
     showBackButton()
     {
-        const {hasFrames} = this.recorded, button = byId("live-end");
-        button.textContent = hasFrames ? "Back to the recording" : "Back to the session";
-        button.hidden = !hasFrames && !this.player.isBranched && byId("view-options").hidden;
+        const button = byId("live-end");
+        button.textContent = this.recorded.hasFrames ? "Back to the recording" : "Back to the session";
+        button.hidden = !this.player.isBranched && byId("view-options").hidden;
     }
 
     save()
@@ -320,11 +335,26 @@ class Interaction {
 
     /* ---- What is shown ------------------------------------------------------------------------------------------ */
 
+    /* The options that turn the recorded view into the shown one (see optionsOf). */
+    changedOptions(all)
+    {
+        return this.isLive ? optionsOf(this.player.engine.view, this.recorded.about, all) : "";
+    }
+
+    /* Change the view of the next picture. Throws an error if the module refuses the view. */
+    look(view)
+    {
+        this.player.engine.look(view);
+        this.showView();
+        if (this.player.engine.lacksSums)
+            this.playAgain();
+    }
+
     showView()
     {
-        const {view} = this.player.engine;
-        const options = optionsOf(view, this.recorded.about);
-        this.controls.show(view);
+        const options = this.changedOptions();
+        this.controls.show(this.player.engine.view);
+        this.viewer.address.writeSoon();
         byId("view-options").hidden = options === "";
         byId("view-options").querySelector("code").textContent = options;
         this.showBackButton();

@@ -32,6 +32,78 @@ function closeSheet()
     return open !== undefined;
 }
 
+/* ---- The column of text ---------------------------------------------------------------------------------------- */
+
+const SVG = "http://www.w3.org/2000/svg";
+const SIGN_SIZE = [20, 16], SCALE_SIZE = [224, 36]; /* the size of a symbol, and of a colour bar with its numbers */
+
+function drawing(name, attributes, content = "")
+{
+    const made = document.createElementNS(SVG, name);
+    made.append(content);
+    for (const [key, value] of Object.entries(attributes))
+        made.setAttribute(key, value);
+    return made;
+}
+
+/* Draw a sign of the legend: rectangles as [x, y, width, height, color], and texts as [x, text]. Rectangles of one color
+ * become one path. */
+function drawSign(parts)
+{
+    const texts = parts.filter(part => part.length === 2), paths = {};
+    const [width, height] = texts.length > 0 ? SCALE_SIZE : SIGN_SIZE;
+    const sign = drawing("svg", {viewBox: `0 0 ${width} ${height}`, width, height, "aria-hidden": texts.length === 0});
+    for (const [x, y, wide, high, color] of parts.filter(part => part.length > 2))
+        paths[color] = `${paths[color] ?? ""}M${x} ${y}h${wide}v${high}h${-wide}z`;
+    for (const [fill, d] of Object.entries(paths))
+        sign.append(drawing("path", {fill, d}));
+    for (const [x, text] of texts)
+        sign.append(drawing("text", {x, y: height - 4, fill: "currentColor"}, text));
+    return sign;
+}
+
+function colored(name, text, color)
+{
+    const made = element(name, text);
+    made.style.color = color ?? "";
+    return made;
+}
+
+/* The element that shows a row (layers/pen.h). */
+function rowElement({title, text, sign, name, detail = "", value, name_color, color, rule})
+{
+    if (rule)
+        return element("hr");
+    if (title !== undefined)
+        return element("h2", title);
+    if (name === undefined && !sign)
+        return colored("p", text, color);
+    const row = element("div", sign ? drawSign(sign) : colored("span", name, name_color), {class: sign ? "symbol" : "row"});
+    row.append(...(sign ? [element("span", text)] : [element("span", detail), colored("span", value, color)]));
+    return row;
+}
+
+/* Show the rows of the column of text. A rule that follows a rule or is last, and an empty line, are left out. */
+function showRows(rows)
+{
+    const isNeeded = (row, i) => row.rule ? rows[i + 1] && !rows[i + 1].rule : !row.sign || row.text || row.sign.length > 0;
+    byId("column").replaceChildren(...rows.filter(isNeeded).map(rowElement));
+}
+
+/* ---- Recorded pixels ------------------------------------------------------------------------------------------- */
+
+/* Show pictures pixel for pixel, or let them fill the window. */
+function showExact(exact, [width, height])
+{
+    const {style} = byId("stage");
+    document.body.classList.toggle("exact", exact);
+    byId("pixels").setAttribute("aria-pressed", exact);
+    style.setProperty("--width", `${width / devicePixelRatio}px`);
+    style.setProperty("--height", `${height / devicePixelRatio}px`);
+}
+
+/* ---- The timeline ---------------------------------------------------------------------------------------------- */
+
 function foldTimeline(folded)
 {
     byId("timeline").classList.toggle("folded", folded);
@@ -49,5 +121,6 @@ function arrange()
     }
     for (const button of document.querySelectorAll(".close"))
         button.addEventListener("click", closeSheet);
+    setOpen("column", hasModule() && innerWidth > LARGE_WIDTH);
     foldTimeline(innerHeight < LARGE_HEIGHT);
 }

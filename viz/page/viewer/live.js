@@ -7,8 +7,11 @@ const DEGREES_A_PIXEL = 0.3;
 const ZOOM_A_NOTCH = 1.0015; /* the zoom factor for a wheel delta of 1 */
 const ZOOMS = [0.001, 1e6];  /* the smallest and the largest value of --zoom */
 const CLICK = 4;             /* CSS pixels: if a pointer moves less between down and up, it is a click */
-const PICK_RADIUS = 5;
+const PICK_RADIUS = 5;       /* CSS pixels */
+const MARK_RADIUS = 9;       /* CSS pixels */
 const KEY_STEP = 16;         /* pixels of the picture: a key turns the camera as much as dragging by this distance */
+const SUITED_HEIGHT = 720;   /* lines and letters of the picture look as in a frame of this height, in CSS pixels */
+const MOST_SIDE = 16384;     /* the longest side of a picture in samples (VIEW_MAX_SIDE in scene/view.h) */
 
 const MARK_COLOR = "#ffffff";
 
@@ -21,8 +24,9 @@ const roundedPlace = number => Number(number.toPrecision(15));
 
 class Live {
     /* `showStatus(text)` shows a sentence. `picked(pick, place)` shows the elements at a pixel. `changed()` is called
-     * after the view has changed. `again()` plays from tick 0 to the shown tick once more. */
-    constructor(stage, player, {showStatus, picked, changed, again})
+     * after the view has changed. `again()` plays from tick 0 to the shown tick once more. `appears()` is called before
+     * the picture takes the stage. `showRows(rows)` shows the rows of the column of text. */
+    constructor(stage, player, {showStatus, picked, changed, again, appears, showRows})
     {
         this.stage = stage;
         this.player = player;
@@ -30,6 +34,12 @@ class Live {
         this.picked = picked;
         this.changed = changed;
         this.again = again;
+        this.appears = appears;
+        this.showRows = showRows;
+        this.exact = false; /* true: the picture has the size and the text of a recorded frame */
+        this.scale = 1;     /* pixels of the picture for each pixel of the screen, on one axis */
+        this.observer = new ResizeObserver(() => this.isShown && !this.exact && this.draw());
+        this.observer.observe(stage);
         this.recorded = player.engine.view;
         this.canvas = element("canvas", "", {class: "live", role: "img"});
         this.marks = element("canvas", "", {class: "marks", "aria-hidden": "true"});
@@ -60,11 +70,25 @@ class Live {
         return this.canvas.isConnected;
     }
 
-    hide()
+    /* Draw no more. The last picture stays until another one takes the stage. */
+    end()
     {
-        this.canvas.remove();
-        this.marks.remove();
-        this.drawn = undefined;
+        this.observer.disconnect();
+        this.ended = true;
+    }
+
+    /* Pixels of the picture for each CSS pixel. */
+    get ratio()
+    {
+        return this.exact ? 1 : devicePixelRatio * this.scale;
+    }
+
+    /* The size of the picture: it fills the stage, unless it is exact. */
+    get size()
+    {
+        const {clientWidth, clientHeight} = this.stage, most = Math.floor(MOST_SIDE / (this.view.aa ?? 1));
+        const fill = side => clamp(Math.round(side * this.ratio), 1, most);
+        return this.exact ? this.view.size : [fill(clientWidth), fill(clientHeight)];
     }
 
     /* ---- Drawing ----------------------------------------------------------------------------------------------- */
@@ -82,16 +106,23 @@ class Live {
 
     drawNow()
     {
+        if (this.ended)
+            return;
         try {
-            const picture = this.engine.draw();
+            const picture = this.exact ? this.engine.draw()
+                                       : this.engine.drawAt(...this.size, Math.round(SUITED_HEIGHT * this.ratio));
             if (this.canvas.width !== picture.width || this.canvas.height !== picture.height)
                 Object.assign(this.canvas, {width: picture.width, height: picture.height});
             this.canvas.getContext("2d").putImageData(picture, 0, 0);
             this.canvas.dataset.tick = this.engine.tick;
             this.canvas.setAttribute("aria-label", `The picture of tick ${this.engine.tick}`);
             this.seen = this.engine.camera();
-            if (!this.isShown)
+            if (!this.isShown) {
+                this.appears();
                 this.stage.replaceChildren(this.canvas, this.marks);
+            }
+            if (!this.exact && this.rows !== this.engine.rows)
+                this.showRows(JSON.parse(this.rows = this.engine.rows));
             this.mark();
         } catch (error) {
             this.showStatus(error.message);
@@ -166,14 +197,12 @@ class Live {
 
     /* ---- The pointer -------------------------------------------------------------------------------------------- */
 
-    /* The pixel of the picture at a pointer's position. The picture is centered in the stage and fills it as far as its
-     * shape allows. */
+    /* The pixel of the picture at a pointer's position, and the CSS pixels for each pixel of the picture. */
     pixelAt(event)
     {
-        const box = this.stage.getBoundingClientRect(), [width, height] = this.view.size;
-        const scale = Math.min(box.width / width, box.height / height);
-        return [(event.clientX - box.left - (box.width - width * scale) / 2) / scale,
-                (event.clientY - box.top - (box.height - height * scale) / 2) / scale, scale];
+        const box = (this.stage.firstElementChild ?? this.stage).getBoundingClientRect();
+        const scale = box.width / (this.isShown ? this.canvas.width : this.size[0]) || 1;
+        return [(event.clientX - box.left) / scale, (event.clientY - box.top) / scale, scale];
     }
 
     down(event)
@@ -231,10 +260,13 @@ class Live {
     /* Identify the elements at the position of a pointer event. Without an event, the middle of the view is used. */
     pickAt(event)
     {
-        const [x, y] = (event ? this.pixelAt(event) : this.camera.middle).map(Math.floor), [width, height] = this.view.size;
+        const at = event && this.pixelAt(event);
+        if (!this.isShown)
+            this.drawNow();
+        const [x, y] = (at ?? this.camera.middle).map(Math.floor), {width, height} = this.canvas;
         if (x < 0 || y < 0 || x >= width || y >= height)
             return;
-        const pick = this.engine.pick(x, y, PICK_RADIUS);
+        const pick = this.engine.pick(x, y, Math.round(PICK_RADIUS * this.ratio));
         this.subject = ["point", "node", "program_node"].map(kind => pick.elements.find(found => found[kind]))
             .find(found => found) ?? null;
         this.picked(pick, this.placeOfSubject() ?? this.placeAt([x, y]));
@@ -276,12 +308,11 @@ class Live {
     /* Mark the picked element in the picture, at its position in this tick. */
     mark()
     {
-        const [width, height] = this.view.size, point = this.subject?.point && this.engine.point(this.subject.point.id);
-        this.marks.width = width;
-        this.marks.height = height;
+        const {width, height} = this.canvas, point = this.subject?.point && this.engine.point(this.subject.point.id);
+        Object.assign(this.marks, {width, height});
         const context = this.marks.getContext("2d");
         context.strokeStyle = MARK_COLOR;
-        context.lineWidth = 2;
+        context.lineWidth = 2 * this.ratio;
         context.beginPath();
         if (point)
             this.tracePoint(context, point);
@@ -294,7 +325,7 @@ class Live {
     {
         const [[x, y]] = this.engine.project([place]);
         if (!isNaN(x))
-            context.arc(x, y, 9, 0, 2 * Math.PI);
+            context.arc(x, y, MARK_RADIUS * this.ratio, 0, 2 * Math.PI);
     }
 
     traceBox(context, {min, max})

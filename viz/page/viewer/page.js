@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* page.js - the viewer: the current tick, playing, the event filter, keys and buttons. The page's address holds the
- * tick and the filter: #t=41&filter=collided,full. */
+/* page.js - the viewer: the current tick, playing, the event filter, keys and buttons. */
 "use strict";
 
 const SPEEDS = [1, 2, 5, 10, 15, 30, 60]; /* frames per second */
@@ -8,8 +7,6 @@ const START_SPEED = 15;
 const FRAMES_AHEAD = 6;
 const SHORTEST_WAIT = 4; /* the shortest wait between two frames in ms */
 const GROWTH_DELAY = 250; /* ms between two drawings of a timeline that grows while ticks are added */
-/* Milliseconds between two changes of the page's address: browsers refuse an address that changes with each frame. */
-const ADDRESS_DELAY = 200;
 
 const NO_FRAMES = "This recording has no frames.";
 const NO_MODULE = "This recording has no frames, and this page cannot draw them: octreel was built without " +
@@ -30,6 +27,7 @@ class Viewer {
         this.timeline = new Timeline(recording, {goTo: tick => this.goTo(tick), toggle: bit => this.toggle(bit)});
         this.inspector = new Inspector(this);
         this.interaction = new Interaction(this);
+        this.address = new Address(this);
     }
 
     get last()
@@ -106,6 +104,12 @@ class Viewer {
     {
         foldTimeline(folded);
         this.timeline.draw();
+    }
+
+    showExact(exact)
+    {
+        this.interaction.showExact(exact);
+        this.show();
     }
 
     clearFilter()
@@ -187,13 +191,17 @@ class Viewer {
         this.showFilter();
         if (!this.playing)
             byId("spoken").textContent = `Tick ${this.tick}: ${(tick.events ?? []).join(", ") || "no events"}`;
-        this.writeAddressSoon();
+        this.address.writeSoon();
     }
 
     showFrame()
     {
-        if (this.interaction.isLive) {
-            this.interaction.show(this.tick);
+        const {interaction} = this;
+        if (interaction.isLive)
+            interaction.show(this.tick);
+        if (!interaction.showsFrames) {
+            byId("caption").hidden = true;
+            byId("stage").classList.remove("stale");
             return;
         }
         if (!this.recording.hasFrames) {
@@ -247,27 +255,6 @@ class Viewer {
     {
         return EVENTS.filter((event, i) => this.filter & 1 << i).map(([name]) => name);
     }
-
-    /* ---- The address ---------------------------------------------------------------------------------------- */
-
-    readAddress()
-    {
-        const address = new URLSearchParams(location.hash.slice(1));
-        this.filter = eventBits((address.get("filter") ?? "").split(","));
-        this.goTo(Math.trunc(Number(address.get("t"))) || 0);
-    }
-
-    writeAddressSoon()
-    {
-        clearTimeout(this.writing);
-        this.writing = setTimeout(() => this.writeAddress(), ADDRESS_DELAY);
-    }
-
-    writeAddress()
-    {
-        const filter = this.filter ? `&filter=${this.filterNames().join(",")}` : "";
-        history.replaceState(null, "", `#t=${this.tick}${filter}`);
-    }
 }
 
 /* ---- Keys and buttons --------------------------------------------------------------------------------------- */
@@ -281,6 +268,7 @@ const PLAYING_KEYS = [
                                    viewer => viewer.interaction.turn(dx, dy)]),
     [["Shift+PageUp"], "Shift Page Up", "zoom in (or scroll)", viewer => viewer.interaction.zoom(1.25)],
     [["Shift+PageDown"], "Shift Page Down", "zoom out", viewer => viewer.interaction.zoom(0.8)],
+    [["v"], "v", "open or close the controls of the view, and queries", () => setOpen("tools", !isOpen("tools"))],
     [["c"], "c", "identify what is in the middle of the view (or click anywhere)", viewer => viewer.interaction.pick()],
 ];
 
@@ -302,7 +290,11 @@ const KEYS = [
         [[String(i + 1)], String(i + 1), `select or deselect ${name}`, viewer => viewer.toggle(1 << i)]),
     [["0"], "0", "clear the selection", viewer => viewer.clearFilter()],
     ...(hasModule() ? PLAYING_KEYS : []),
+    [["o"], "o", "open or close the panel and legend", () => setOpen("column", !isOpen("column"))],
     [["i"], "i", "open or close the facts of the tick", () => setOpen("sheet", !isOpen("sheet"))],
+    [["p"], "p", "show the recorded pixels, or fill the window",
+     viewer => viewer.showExact(!viewer.interaction.exact)],
+    [["l"], "l", "copy a link to exactly this view", viewer => viewer.address.copy()],
     [["t"], "t", "open or fold the timeline", viewer => viewer.foldTimeline(!isFolded())],
     [["Escape"], "Esc", "close the facts or the view; then back to the recording or session",
      viewer => closeSheet() || viewer.interaction.goBack()],
@@ -358,8 +350,8 @@ function listenToControls(viewer)
     byId("tick").addEventListener("change", event => typeTick(viewer, event.target.valueAsNumber));
     byId("tick").addEventListener("keydown", event => event.key === "Enter" && event.target.blur());
     byId("help-open").addEventListener("click", () => actionOf("?")(viewer));
+    byId("pixels").addEventListener("click", () => actionOf("p")(viewer));
     byId("fold").addEventListener("click", () => actionOf("t")(viewer));
-    addEventListener("hashchange", () => viewer.readAddress());
 }
 
 /* ---- The page ----------------------------------------------------------------------------------------------- */
@@ -414,7 +406,9 @@ function openRecording()
     viewer.follow(recording);
     listenToKeys(viewer);
     listenToControls(viewer);
-    viewer.readAddress();
+    viewer.address.read();
+    if (viewer.interaction.canPlay)
+        viewer.interaction.start();
     return viewer;
 }
 

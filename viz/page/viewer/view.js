@@ -124,24 +124,53 @@ class ViewControls {
     }
 }
 
-/* The command-line options that turn the recorded view into `view`. */
-function optionsOf(view, recorded)
+/* The command-line options of a view. Each row has a member of the view, the name of its option, and functions that write
+ * and read the option's value. A switch has its value in place of the functions. Some names have texts above. */
+const textOption = member => {
+    const {read, write} = VIEW_ROWS.find(([name]) => name === member)[3];
+    return [member, member, write, read];
+};
+const VIEW_OPTIONS = [
+    ...["camera", "color_by", "color_points", "shade", "tree", "diagram"].map(
+        member => [member, member.replace("_", "-"), String, String]),
+    ["labels", "labels", true],
+    ["leaves", "leaves", true],
+    ["closeup", "no-closeup", false],
+    ["lod", "lod", String, Number],
+    ["budget", "budget", String, Number],
+    ["layers", "layers", value => value.join(",") || "none", text => text === "none" ? [] : text.split(",")],
+    ...["look", "center", "zoom", "depths", "slice", "region"].map(textOption),
+];
+
+/* The command-line options that turn the recorded view into `view`. With `all`, members of the recorded view that `view`
+ * lacks have the value "none", which only addresses have. */
+function optionsOf(view, recorded, all = false)
 {
-    const written = {
-        camera: value => `--camera ${value}`, color_by: value => `--color-by ${value}`,
-        color_points: value => `--color-points ${value}`, shade: value => `--shade ${value}`,
-        tree: value => `--tree ${value}`, diagram: value => `--diagram ${value}`, 
-        labels: value => value ? "--labels" : "", leaves: value => value ? "--leaves" : "",
-        depths: ([from, to]) => `--depths ${from}:${to}`,
-        slice: slice => `--slice ${Object.entries(slice)[0].join("=")}`,
-        region: ({min, max}) => `--region ${[...min, ...max].join(",")}`,
-        lod: value => `--lod ${value}`, budget: value => `--budget ${value}`,
-        look: value => `--look ${value.join(",")}`, center: value => `--center ${value.join(",")}`,
-        closeup: value => value ? "" : "--no-closeup",
-        zoom: value => `--zoom ${value}`, layers: value => `--layers ${value.join(",") || "none"}`,
-    };
-    return Object.entries(view)
-        .filter(([name, value]) => written[name] && value !== null &&
-                JSON.stringify(value) !== JSON.stringify(recorded[name]))
-        .map(([name, value]) => written[name](value)).filter(option => option).join(" ");
+    const isChanged = ([member]) => JSON.stringify(view[member] ?? null) !== JSON.stringify(recorded[member] ?? null);
+    return VIEW_OPTIONS.filter(isChanged).map(([member, name, write]) => {
+        const value = view[member] ?? null;
+        if (typeof write === "boolean")
+            return value === write ? `--${name}` : all ? `--${name} none` : "";
+        return value !== null ? `--${name} ${write(value)}` : all ? `--${name} none` : "";
+    }).filter(option => option).join(" ");
+}
+
+/* The view that the options of a text make of the recorded view. The module checks the values. */
+function viewOf(text, recorded)
+{
+    const view = {...recorded}, words = text.split(/\s+/).filter(word => word);
+    while (words.length > 0) {
+        const word = words.shift(), [member, , write, read] = VIEW_OPTIONS.find(([, name]) => word === `--${name}`) ?? [];
+        if (!member)
+            throw new Error(`"${shownName(word)}" is not an option of the view`);
+        if (typeof write === "boolean")
+            view[member] = (words[0] === "none") !== write;
+        else if (words[0] === "none" && member !== "layers")
+            delete view[member];
+        else
+            view[member] = read(words[0] ?? "");
+        if (typeof write !== "boolean" || words[0] === "none")
+            words.shift();
+    }
+    return view;
 }
