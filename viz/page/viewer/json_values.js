@@ -11,9 +11,13 @@ const JSON_TYPES = {object: 0, array: 1, string: 2, number: 4, true: 5, false: 6
 const ERROR_POSITION = 8, ERROR_TEXT = 92, ERROR_TEXT_SIZE = 160;
 const MOST_NESTED = 200;
 
-const codesOf = text => new Set([...text].map(char => char.charCodeAt(0)));
-const [QUOTE] = codesOf('"'), [BACKSLASH] = codesOf("\\"), [COLON] = codesOf(":");
-const OPENING = codesOf("[{"), CLOSING = codesOf("]}"), ENDING = codesOf("]}, \t\r\n");
+/* What a byte of JSON outside a string may be, as bits. Most bytes are digits, which are none of these. */
+const QUOTE = 1, COLON = 2, OPENING = 4, CLOSING = 8, ENDING = 16;
+const BACKSLASH = "\\".charCodeAt(0);
+const BYTE_KINDS = new Uint8Array(256);
+for (const [chars, kind] of [['"', QUOTE], [":", COLON], ["[{", OPENING], ["]}", CLOSING | ENDING], [", \t\r\n", ENDING]])
+    for (const char of chars)
+        BYTE_KINDS[char.charCodeAt(0)] = kind;
 
 /* The room for a text with its final zero: UTF-8 takes up to three bytes for each UTF-16 unit. */
 const sizeOfText = text => 3 * text.length + 1;
@@ -25,17 +29,19 @@ function findJsonEnd(bytes)
 {
     let depth = 0, members = 0;
     for (let at = 0; at < bytes.length; at++) {
-        const byte = bytes[at];
-        if (depth === 0 && ENDING.has(byte))
+        const kind = BYTE_KINDS[bytes[at]];
+        if (kind === 0)
+            continue;
+        if (depth === 0 && kind & ENDING)
             return {end: at, members};
-        if (OPENING.has(byte) && ++depth > MOST_NESTED)
+        if (kind === OPENING && ++depth > MOST_NESTED)
             throw new SyntaxError(`lists and objects nest more than ${MOST_NESTED} deep`);
-        if (byte === QUOTE)
-            for (at++; at < bytes.length && bytes[at] !== QUOTE; at++)
+        if (kind === QUOTE)
+            for (at++; at < bytes.length && BYTE_KINDS[bytes[at]] !== QUOTE; at++)
                 at += bytes[at] === BACKSLASH;
-        members += byte === COLON;
-        depth -= CLOSING.has(byte);
-        if (depth === 0 && (byte === QUOTE || CLOSING.has(byte)))
+        members += kind === COLON;
+        depth -= kind & CLOSING ? 1 : 0;
+        if (depth === 0 && kind & (QUOTE | CLOSING))
             return {end: at + 1, members};
     }
     return {end: bytes.length, members};
@@ -45,20 +51,25 @@ function findJsonEnd(bytes)
  * addition to its own structure. Adds the number of its members to counts.members. */
 function checkJson(value, counts)
 {
-    const sum = (items, sizeOf) => items.reduce((size, item) => size + sizeOf(item), 0);
     if (value === Infinity || value === -Infinity)
         throw new SyntaxError("a number is too large for a double");
     if (typeof value === "string" && /\0|\p{Surrogate}/u.test(value))
         throw new SyntaxError("a text holds \\u0000 or half of a surrogate pair");
     if (typeof value === "string")
         return aligned(sizeOfText(value));
-    if (Array.isArray(value))
-        return sum(value, item => VALUE_SIZE + checkJson(item, counts));
     if (value === null || typeof value !== "object")
         return 0;
-    counts.members += Object.keys(value).length;
-    return sum(Object.entries(value), ([key, member]) =>
-        ENTRY_SIZE + 4 + checkJson(key, counts) + checkJson(member, counts));
+    let size = 0;
+    if (Array.isArray(value)) {
+        for (const item of value)
+            size += VALUE_SIZE + checkJson(item, counts);
+        return size;
+    }
+    for (const [key, member] of Object.entries(value)) {
+        counts.members++;
+        size += ENTRY_SIZE + 4 + checkJson(key, counts) + checkJson(member, counts);
+    }
+    return size;
 }
 
 /* The line of a syntax error. Some browsers report the line. Others quote ten characters on each side of the error. If
