@@ -31,10 +31,13 @@ const EVENTS = [
 
 const MOVED = 1;
 
-/* The member of a tick at a path such as "tree.nodes", or undefined if the tick has no such member. */
-function factAt(tick, path)
+/* The member of a tick at a path such as ["tree", "nodes"], or undefined if the tick has no such member. */
+function factAt(tick, names)
 {
-    return path.split(".").reduce((value, name) => value?.[name], tick);
+    let value = tick;
+    for (const name of names)
+        value = value?.[name];
+    return value;
 }
 
 /* The number of entries that octreel left out at the end of a list. The last entry of such a list is {"more":
@@ -61,9 +64,14 @@ function amountOf(value)
     return typeof value === "number" ? value : NaN;
 }
 
+const EVENT_BITS = new Map(EVENTS.map(([name], i) => [name, 1 << i]));
+
 function eventBits(names)
 {
-    return EVENTS.reduce((bits, [name], i) => names.includes(name) ? bits | 1 << i : bits, 0);
+    let bits = 0;
+    for (const name of names)
+        bits |= EVENT_BITS.get(name) ?? 0;
+    return bits;
 }
 
 const frameName = tick => `frame_${String(tick).padStart(6, "0")}.png`;
@@ -78,7 +86,7 @@ class Recording {
         this.scenes = []; /* for a tick without a line of its own: its scene digest, or "" if it has no frame */
         this.events = [];
         this.filmed = []; /* for each tick: the last tick up to it that has a frame; -1: no such tick */
-        this.curves = CURVES.map(([path, name, of]) => ({path, name, of, values: []}));
+        this.curves = CURVES.map(([path, name, of]) => ({path, names: path.split("."), name, of, values: []}));
         lines.forEach(line => this.append(line));
         this.curves = this.curves.filter(curve => !this.length || curve.values.some(value => !isNaN(value)));
         this.hasForeignNodes = this.length > 0 && this.curves.some(({path}) => path.startsWith("foreign_nodes"));
@@ -156,7 +164,7 @@ class Recording {
         this.events[i] = eventBits(tick.events ?? []);
         this.filmed[i] = tick.frame ? i : this.filmed[i - 1] ?? -1;
         for (const curve of this.curves)
-            curve.values[i] = amountOf(factAt(tick, curve.path));
+            curve.values[i] = amountOf(factAt(tick, curve.names));
     }
 
     get hasFrames()
