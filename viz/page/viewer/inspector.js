@@ -430,6 +430,7 @@ class Inspector {
         this.showCard(found);
         setOpen("sheet", true);
         live.mark();
+        this.viewer.address.writeSoon();
     }
 
     showCard(found)

@@ -37,7 +37,6 @@ class Interaction {
     {
         this.viewer = viewer;
         this.stage = byId("stage");
-        this.busy = false;
         this.exact = false; /* true: the page shows recorded pixels */
         this.recorded = viewer.recording;
         this.canPlay = hasModule();
@@ -81,6 +80,7 @@ class Interaction {
         if (!this.session)
             throw new Error("the session is too large to be in the page; drop its session.json here");
         await this.play(this.session, this.recorded.about, this.recorded);
+        this.viewer.address.apply();
         return true;
     }
 
@@ -116,7 +116,7 @@ class Interaction {
         byId("view").hidden = byId("asking").hidden = false;
         this.showStatus(!player.isCut ? "" : `The session has ${grouped(player.engine.length)} ticks; ` +
                                              `this page plays the first ${grouped(player.length)}.`);
-        this.viewer.address.apply();
+        this.viewer.address.applyView();
         const {tick} = this.viewer;
         if (tick > 0)
             this.playAhead();
@@ -169,15 +169,25 @@ class Interaction {
         this.viewer.follow(recording);
     }
 
+    /* Whether a picture is being made. */
+    get busy()
+    {
+        return this.showing !== undefined;
+    }
+
     /* Show a tick. If several ticks are requested during the drawing, only the last of them is shown. */
-    async show(tick)
+    show(tick)
     {
         this.wanted = Math.min(tick, this.player.length - 1);
-        if (this.busy)
-            return;
-        this.busy = true;
+        return this.showing ??= this.showWanted().finally(() => this.showing = undefined);
+    }
+
+    async showWanted()
+    {
         try {
             do {
+                if (this.player.engine.tick !== this.wanted)
+                    this.asked = undefined;
                 await this.player.goTo(this.wanted);
                 if (!this.showsFrames)
                     await this.live.draw();
@@ -186,7 +196,6 @@ class Interaction {
         } catch (error) {
             this.showStatus(error.message);
         }
-        this.busy = false;
     }
 
     /* Show the recorded view of the recorded ticks again. */
@@ -196,7 +205,8 @@ class Interaction {
             return;
         this.player.stop();
         this.live.end();
-        this.live = this.starting = undefined;
+        this.live = this.starting = this.asked = undefined;
+        this.viewer.inspector.name = "";
         for (const hidden of ["live-end", "save", "branch", "picked", "ahead"])
             byId(hidden).hidden = true;
         this.showStatus("");
@@ -259,6 +269,7 @@ class Interaction {
         }
         try {
             player.press(key);
+            this.asked = undefined;
         } catch (error) {
             this.showStatus(error.message);
             return;
@@ -272,12 +283,49 @@ class Interaction {
         viewer.goTo(recording.length - 1);
     }
 
+    /* The tick from which the user played on, and the user's key presses, as "30:wwd"; empty if there are none. */
+    get branchText()
+    {
+        return this.isLive && this.player.isBranched ? `${this.player.branch}:${this.player.keys}` : "";
+    }
+
+    /* Play the key presses of a text like branchText, and show a tick. */
+    async playKeys(text, tick)
+    {
+        const [, branch, keys] = /^(\d{1,9}):([wsadefn.]{1,9999})$/.exec(text) ?? [];
+        if (this.player.isBranched)
+            this.goBack();
+        if (text && !keys)
+            throw new Error(`"${shownName(text)}" are no key presses`);
+        if (!text)
+            return;
+        this.viewer.goTo(Number(branch));
+        for (const key of keys)
+            await this.press(key);
+        this.viewer.goTo(tick);
+        await this.show(this.viewer.tick);
+    }
+
+    /* Select an element by its name, or none. */
+    async select(name)
+    {
+        const {inspector} = this.viewer;
+        inspector.name = "";
+        this.live.subject = null;
+        byId("picked").hidden = true;
+        this.live.mark();
+        if (name && !(/^\w+ [\w/]+$/.test(name) && this.player.engine.describe(name)))
+            throw new Error(`tick ${this.viewer.tick} has no "${shownName(name)}"`);
+        if (name)
+            await inspector.select(name);
+    }
+
     showBranch()
     {
         const {isBranched, branch, keys, given} = this.player;
         const without = branch < given - 1 ? "; the session's own later ticks are left out" : "";
         byId("branch").hidden = byId("save").hidden = !isBranched;
-        byId("branch").textContent = `Played on from tick ${grouped(branch)}${without}: ${keys.slice(-24)}`;
+        byId("branch").textContent = byId("branch").title = `Played on from tick ${grouped(branch)}${without}: ${keys.slice(-24)}`;
         this.showBackButton();
     }
 
@@ -321,15 +369,18 @@ class Interaction {
         if (!this.isLive)
             return undefined;
         const {engine} = this.player;
+        this.asked = undefined;
         try {
             this.player.replay();
             if (query)
                 engine.ask([query]);
+            this.asked = query && JSON.stringify(query);
             this.showStatus("");
         } catch (error) {
             this.showStatus(error.message.replace(/^the query:\d+: queries\[0\]\.?/, "query: "));
         }
         this.viewer.inspector.show(JSON.parse(engine.facts()));
+        this.viewer.address.writeSoon();
         return this.live.draw();
     }
 
@@ -366,6 +417,7 @@ class Interaction {
         this.form.setPlace(place, Math.max(...max.map((high, i) => high - min[i])));
         setOpen("sheet", true);
         this.viewer.inspector.showPick(pick, this.live.subject);
+        this.viewer.address.writeSoon();
     }
 
     /* ---- Gestures ----------------------------------------------------------------------------------------------- */

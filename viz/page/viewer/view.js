@@ -163,12 +163,14 @@ function viewOf(text, recorded)
         const word = words.shift(), [member, , write, read] = VIEW_OPTIONS.find(([, name]) => word === `--${name}`) ?? [];
         if (!member)
             throw new Error(`"${shownName(word)}" is not an option of the view`);
+        if (typeof write !== "boolean" && !/^(?!--)./.test(words[0] ?? ""))
+            throw new Error(`${word} needs a value`);
         if (typeof write === "boolean")
             view[member] = (words[0] === "none") !== write;
         else if (words[0] === "none" && member !== "layers")
             delete view[member];
         else
-            view[member] = read(words[0] ?? "");
+            view[member] = read(words[0]);
         if (typeof write !== "boolean" || words[0] === "none")
             words.shift();
     }
