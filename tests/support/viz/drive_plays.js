@@ -24,6 +24,7 @@ function sayPicks()
 async function sayTold()
 {
     const textsOf = (root, what) => [...root.querySelectorAll(what)].map(({textContent}) => textContent).join(" | ");
+    setOpen("sheet", true);
     for (const tick of [6, 225, 226]) {
         octreel.goTo(tick);
         await until(() => !interaction.busy && player().engine.tick === tick, `tick ${tick}`);

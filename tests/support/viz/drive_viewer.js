@@ -22,7 +22,7 @@ async function until(isSo, what)
     }
 }
 
-const tickShown = () => document.querySelector('[data-fact="tick"]').textContent;
+const tickShown = () => document.body.dataset.tick;
 
 function press(key)
 {
@@ -39,6 +39,8 @@ function slideTo(tick)
 /* Report the facts of every tick: as JSON, as sentences, and in the curves. */
 function sayFacts()
 {
+    press("i");
+    slideTo(0);
     const raw = document.querySelector(".raw"), textsOf = selector =>
         [...document.querySelectorAll(selector)].map(({textContent}) => textContent).join(" | ");
     raw.open = true;
@@ -102,6 +104,57 @@ function sayPointer()
     say("typed", tickShown());
     document.querySelector('[data-does="next"]').click();
     say("button", tickShown());
+}
+
+/* The lanes show a part of the ticks, and follow the current tick. */
+async function sayZoom()
+{
+    const {timeline} = octreel, scrub = document.getElementById("scrub"), box = scrub.getBoundingClientRect();
+    const part = async () => {
+        await until(() => !timeline.drawing, "the lanes");
+        const bar = document.getElementById("range").hidden ? "" : ", range bar";
+        return `${Math.round(timeline.from)} to ${Math.round(timeline.to)}${bar}`;
+    };
+    const clientX = box.left + box.width / 2;
+    const wheel = more => scrub.dispatchEvent(new WheelEvent("wheel", {clientX, cancelable: true, ...more}));
+    slideTo(100);
+    press("z");
+    press("z");
+    say("zoomed", await part());
+    scrub.dispatchEvent(new PointerEvent("pointerdown", {clientX, button: 0, buttons: 1}));
+    scrub.dispatchEvent(new PointerEvent("pointerup"));
+    say("click in the part", tickShown());
+    slideTo(250);
+    say("followed", await part());
+    wheel({deltaX: -1e6});
+    say("panned", await part());
+    wheel({deltaY: -1e6});
+    say("as far as it goes", await part());
+    press("x");
+    wheel({deltaY: 1e6});
+    say("zoomed out", await part());
+}
+
+async function sayEvents()
+{
+    const list = document.getElementById("events"), rows = () => [...list.querySelectorAll("button")];
+    slideTo(225);
+    press("b");
+    await until(() => list.querySelector("[aria-current]"), "the list of events");
+    const at = rows().findIndex(row => row.hasAttribute("aria-current"));
+    say("events", rows().slice(at - 2, at + 2).map(row => row.textContent).join(" | "));
+    say("rows made", rows().length < 40 && rows().length);
+    rows()[at - 2].click();
+    say("event clicked", `${tickShown()} ${list.querySelector("[aria-current]").textContent.slice(0, 3)}`);
+    press("3");
+    say("events collided", octreel.timeline.list.ticks.join(" "));
+    slideTo(0);
+    say("first event", rows()[0].textContent);
+    press("0");
+    press("1");
+    say("events moved", octreel.timeline.list.ticks.length);
+    press("0");
+    press("b");
 }
 
 async function sayFrame(name)
@@ -170,6 +223,8 @@ async function drive()
     sayMatches();
     sayPointer();
     await sayFrame("frame");
+    await sayZoom();
+    await sayEvents();
     press("Home");
     await sayPlayed("played", 12);
     press("Home");

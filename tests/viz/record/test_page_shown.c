@@ -162,6 +162,30 @@ static void pointer_and_typing_choose_a_tick(void **state)
     assert_said(*state, "button", "78");
 }
 
+static void lanes_zoom_and_follow_the_tick(void **state)
+{
+    skip_without_browser();
+    assert_said(*state, "zoomed", "56 to 168, range bar");
+    assert_said(*state, "click in the part", "112");
+    assert_said(*state, "followed", "140 to 252, range bar");
+    assert_said(*state, "panned", "0 to 112, range bar");
+    assert_said(*state, "as far as it goes", "51 to 61, range bar");
+    assert_said(*state, "zoomed out", "0 to 252");
+}
+
+static void events_are_listed_in_sentences(void **state)
+{
+    skip_without_browser();
+    assert_said(*state, "events",
+                "218⊞Node 7/7/7/0 split: more points than its capacity, 2 | 220⊟Node 7/7/7/0 merged into one leaf; "
+                "capacity 2 | 225⊞Node 7/7/7/0 split: more points than its capacity, 2 | 226⊟Node 7/7/7/0 merged into "
+                "one leaf; capacity 2");
+    assert_said(*state, "event clicked", "218 218");
+    assert_said(*state, "events collided", "0 1 2 6 10 11 120 121 193 234");
+    assert_said(*state, "first event", "0✕Collided with point 5; the player at (0, 0, 0) made no step");
+    assert_said(*state, "events moved", "213");
+}
+
 static void page_shows_the_frame_of_the_tick(void **state)
 {
     skip_without_browser();
@@ -248,12 +272,13 @@ static void question_mark_lists_the_keys(void **state)
     assert_said(*state, "help before", "false");
     assert_said(*state, "help", "true");
     assert_said(*state, "behind the help", "0");
-    assert_said(*state, "keys listed",
-                !page_plays()
-                    ? "\xe2\x86\x92 \xe2\x86\x90 Page Down Page Up Home End space + - j k 1 2 3 4 5 6 0 o i p l t Esc ?"
-                    : "\xe2\x86\x92 \xe2\x86\x90 Page Down Page Up Home End space + - j k 1 2 3 4 5 6 0 "
-                      "w s d a e f n . q Shift \xe2\x86\x90 Shift \xe2\x86\x92 Shift \xe2\x86\x91 Shift \xe2\x86\x93 "
-                      "Shift Page Up Shift Page Down v c o i p l t Esc ?");
+    assert_said(
+        *state, "keys listed",
+        !page_plays()
+            ? "\xe2\x86\x92 \xe2\x86\x90 Page Down Page Up Home End space + - j k 1 2 3 4 5 6 0 o i p l b z x t Esc ?"
+            : "\xe2\x86\x92 \xe2\x86\x90 Page Down Page Up Home End space + - j k 1 2 3 4 5 6 0 "
+              "w s d a e f n . q Shift \xe2\x86\x90 Shift \xe2\x86\x92 Shift \xe2\x86\x91 Shift \xe2\x86\x93 "
+              "Shift Page Up Shift Page Down v c o i p l b z x t Esc ?");
 }
 
 /* The page has hundreds of elements, however many ticks there are. */
@@ -432,6 +457,8 @@ int main(void)
         cmocka_unit_test(page_tells_each_kind_of_event_in_a_sentence),
         cmocka_unit_test(keys_step_through_the_ticks),
         cmocka_unit_test(pointer_and_typing_choose_a_tick),
+        cmocka_unit_test(lanes_zoom_and_follow_the_tick),
+        cmocka_unit_test(events_are_listed_in_sentences),
         cmocka_unit_test(page_shows_the_frame_of_the_tick),
         cmocka_unit_test(filter_steps_from_match_to_match),
         cmocka_unit_test(page_plays_frame_by_frame_until_paused),

@@ -20,21 +20,8 @@ const QUERY_PARAMETERS = {
 const FOREIGN_MEMBERS = ["count", "leaves", "depth", "digest", "visited", "pruned", "hit"];
 const JUDGED_MEMBERS = ["answer", "mode", "wrong", "wrong_id", "expected", "missing", "extra", "rank", "ratio"];
 
+const SHOW_DELAY = 250; /* ms */
 const FEW_ROWS = 8; /* the number of rows of a table that are shown before "more" */
-
-/* What is known of the session from the beginning of its text: octreel writes the objects about the tree and the player
- * before the points. The whole text may have many megabytes. */
-function readSessionHead(text)
-{
-    const head = {};
-    for (const [, name, value] of text.slice(0, 4096).matchAll(/(?<!\\)"(tree|player)":\s*(\{[^{}]*\})/g))
-        try {
-            head[name] ??= JSON.parse(value);
-        } catch {
-            /* not the session's own member */
-        }
-    return {capacity: head.tree?.capacity, player: head.player?.id};
-}
 
 /* ---- Parts ------------------------------------------------------------------------------------------------------- */
 
@@ -53,12 +40,13 @@ function section(title, ...content)
 }
 
 /* A sentence of describeTick(), with the sign of its event. */
-function sentence([event, ...parts])
+function sentenceOf([event, ...parts], name = "p")
 {
-    const sign = EVENTS.find(([name]) => name === event)?.[1];
-    const made = paragraph(parts, {class: "happened", "data-event": event});
+    const sign = EVENTS.find(([known]) => known === event)?.[1];
+    const made = element(name, "", {class: "happened", "data-event": event});
     if (sign)
-        made.prepend(element("span", sign, {class: "sign", "aria-hidden": "true"}));
+        made.append(element("span", sign, {class: "sign", "aria-hidden": "true"}));
+    made.append(...parts);
     return made;
 }
 
@@ -242,7 +230,7 @@ function showOrigin({frame, scene, tree})
 
 function tellTick(tick, look)
 {
-    return [...describeTick(tick, look).map(sentence), ...showQueries(tick.answers ?? [], look),
+    return [...describeTick(tick, look).map(said => sentenceOf(said)), ...showQueries(tick.answers ?? [], look),
             ...showForeign(tick.foreign_nodes), ...showTree(tick), ...otherMembers(tick, TOLD_MEMBERS),
             ...showOrigin(tick)];
 }
@@ -355,6 +343,8 @@ class Inspector {
         this.raw = element("details", element("summary", "Raw JSON"), {class: "raw"});
         this.raw.append(element("pre", "", {tabindex: "0", "aria-label": "Raw JSON"}));
         this.raw.addEventListener("toggle", () => this.showRaw());
+        const opened = new MutationObserver(() => isOpen("sheet") && this.showNow());
+        opened.observe(byId("sheet"), {attributeFilter: ["hidden"]});
         document.addEventListener("click", event => {
             const link = event.target.closest("[data-select], [data-go]");
             if (link)
@@ -376,15 +366,26 @@ class Inspector {
     /* What is known about the tick beside its line (see sentences.js). */
     get look()
     {
-        const {engine} = this, text = this.viewer.interaction?.session ?? byId("session")?.textContent ?? "";
-        if (text !== this.headText)
-            this.head = readSessionHead(this.headText = text);
-        return {...this.head, at: id => engine?.point(id), node: path => engine?.describe(`node ${path}`)};
+        const {engine} = this;
+        return {...sessionHead(this.viewer.interaction?.session),
+                at: id => engine?.point(id), node: path => engine?.describe(`node ${path}`)};
     }
 
+    /* Show the facts of a tick: at once if the sheet is open. Otherwise when the tick stays for a while, because making
+     * the elements takes up to 2 ms, which playing needs. */
     show(tick)
     {
         this.tick = tick;
+        clearTimeout(this.waiting);
+        if (isOpen("sheet"))
+            this.showNow();
+        else
+            this.waiting = setTimeout(() => this.showNow(), SHOW_DELAY);
+    }
+
+    showNow()
+    {
+        const {tick} = this;
         this.wasPlayed = this.engine !== undefined;
         const title = element("h2", "Tick ");
         title.append(element("span", textOf(tick.tick ?? null), {"data-fact": "tick"}));

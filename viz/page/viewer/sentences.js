@@ -29,6 +29,24 @@ const WRONG_NODES = {
     pruned_point: "a query pruned it, and its answer lacks a point in it",
 };
 
+/* What is known of the session from the beginning of its text: octreel writes the objects about the tree and the player
+ * before the points. The whole text may have many megabytes. Without an argument, it is the text of the last call, or
+ * that of the page. */
+function sessionHead(text = sessionHead.text ?? byId("session")?.textContent.trim() ?? "")
+{
+    if (text === sessionHead.text)
+        return sessionHead.found;
+    const head = {};
+    for (const [, name, value] of text.slice(0, 4096).matchAll(/(?<!\\)"(tree|player)":\s*(\{[^{}]*\})/g))
+        try {
+            head[name] ??= JSON.parse(value);
+        } catch {
+            /* not a member of the session */
+        }
+    sessionHead.text = text;
+    return sessionHead.found = {capacity: head.tree?.capacity, player: head.player?.id};
+}
+
 /* ---- Parts ------------------------------------------------------------------------------------------------------- */
 
 /* Whether a link can select an element: only a page that plays knows where the element is. */
@@ -233,8 +251,11 @@ function describeWrongNodes({foreign_nodes: foreign})
 
 /* Everything that happened at a tick, wrong answers first: a list of sentences. The first item of a sentence is the
  * name of its event, or "". */
-function describeTick(tick, look)
+function describeTick(tick, more)
 {
+    const near = queriesOf(tick).flatMap(([, query]) => keptEntries(query.neighbors ?? [query]));
+    const known = new Map(near.map(({id, position}) => [id, position]));
+    const look = {...more, at: id => more.at(id) ?? known.get(id)};
     return [
         ...describeWrongAnswers(tick),
         ...describeWrongNodes(tick),
