@@ -49,6 +49,11 @@ static void fill_rectangle(const target *t, const quad *q)
     const int top = find_first_pixel(y[0] < y[2] ? y[0] : y[2], t->height);
     const int bottom = find_first_pixel(y[0] < y[2] ? y[2] : y[0], t->height);
     uint8_t *row = t->bytes + (size_t)top * (size_t)t->width + left;
+    if (right - left == 1) { /* most points of a cloud: memset() would take longer than the pixel */
+        for (int i = top; i < bottom; i++, row += t->width)
+            *row = q->color;
+        return;
+    }
     for (int i = top; i < bottom && left < right; i++, row += t->width)
         memset(row, q->color, (size_t)(right - left));
 }
