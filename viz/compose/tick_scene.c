@@ -78,6 +78,14 @@ static void add_closeup(scene *s, const layer_source *in, const double place[3],
     s->out_of_memory |= s->closeup->out_of_memory;
 }
 
+/* Forget the results for another tick. The history may end at the tick before the one that is built. */
+static void begin_results(tick_history *h, const octree_tick *tick)
+{
+    if (h->built != tick->number)
+        h->check.done = h->arrows.known = false;
+    h->built = tick->number;
+}
+
 /* Check the tree, unless it was checked before. */
 static void check_tree(layer_source *in, tick_check *check)
 {
@@ -133,7 +141,7 @@ void tick_history_release(tick_history *h)
 bool tick_history_add(tick_history *h, const view *v, const octree_game *game)
 {
     const layer_source in = make_source(v, game);
-    h->check.done = false;
+    h->check.done = h->arrows.known = false;
     if (in.tick->gap)
         return true;
     closeup_follow(&h->closeup, &in);
@@ -145,7 +153,10 @@ bool tick_scene_build(scene *s, const view *v, const octree_game *game, tick_his
 {
     layer_source in = make_source(v, game);
     tick_check check = {0};
+    if (h)
+        begin_results(h, in.tick);
     in.heat = h ? &h->heat : NULL;
+    in.arrows = h ? &h->arrows : NULL;
     in.values = values;
     return build_scene(s, &in, in.tick->player, h ? h->closeup : (closeup_course){0}, h ? &h->check : &check);
 }

@@ -9,6 +9,7 @@
 #include "octree/game.h"
 #include "point_values.h"
 #include "scene.h"
+#include "velocity_layer.h"
 
 /* The panel shows the key presses of this many ticks before and after its own tick. */
 enum { KEYS_BEHIND = 5, KEYS_AHEAD = 6 };
@@ -25,7 +26,10 @@ typedef struct tick_history {
     heat heat; /* number of visits and points of leaves so far; empty if the view shows no heat layer */
     closeup_course closeup;
     node_changes changes; /* empty unless changes.tracked is set at tick 0 */
-    tick_check check;     /* of the last tick, whose scene may be built for many cameras, but checked only once */
+    /* results for the tick `built`, whose scene may be built for many cameras */
+    uint64_t built;
+    tick_check check;
+    arrow_counts arrows;
 } tick_history;
 
 void tick_history_release(tick_history *h);

@@ -24,7 +24,8 @@ typedef struct layer_source {
     const octree_game *game; /* the game; null: the scene shows a tree without a game */
     const octree_session *session;
     const octree_tick *tick;
-    const heat *heat; /* visits and points of the nodes so far; null: the heat layers have no elements */
+    struct arrow_counts *arrows; /* see velocity_layer.h; null: the arrows are counted for each picture */
+    const heat *heat;            /* visits and points of the nodes so far; null: the heat layers have no elements */
 
     const char *title; /* the title of the text column; only for a tree without a game */
     /* the node that the user asked to mark (octreel inspect --node), or 0; only for a tree without a game */

@@ -112,39 +112,54 @@ static bool has_arrow(const arrow_context *a, const octree_body *body)
     return ((within && far) || find_arrow_end(a, body, end)) && is_body_shown(a, body);
 }
 
-/* The number of sieves. Sieve i, from 0 to 64, has its i lowest bits set; more bits keep fewer arrows. */
-enum { SIEVES = 65 };
-
 /* Return the number of bits of the finest sieve that keeps an id, which is the number of zero bits at the end of the
  * id's digest. */
 static unsigned count_passed_sieves(uint64_t id)
 {
+    const uint64_t digest = octree_digest_word(OCTREE_DIGEST_START, id); /* as in sieve_rejects_id() */
     unsigned passed = 0;
-    for (uint64_t sieve = 1; passed < SIEVES - 1 && !sieve_rejects_id(sieve, id); sieve <<= 1)
+    while (passed < ARROW_SIEVES - 1 && !(digest >> passed & 1))
         passed++;
     return passed;
+}
+
+/* Count the arrows that each sieve keeps. */
+static void count_arrows(const arrow_context *a, size_t passing[ARROW_SIEVES])
+{
+    const octree_tick *tick = a->in->tick;
+    memset(passing, 0, ARROW_SIEVES * sizeof *passing);
+    for (size_t i = 0; i < tick->mover_count; i++)
+        if (has_arrow(a, &tick->movers[i]))
+            passing[count_passed_sieves(tick->movers[i].id)]++;
+    for (unsigned bits = ARROW_SIEVES - 1; bits-- > 0;)
+        passing[bits] += passing[bits + 1];
+}
+
+/* Return the counts of all sieves: those that were counted before for this tick, or new ones in *own. */
+static const size_t *find_arrow_counts(const arrow_context *a, arrow_counts *own)
+{
+    const bool shared = a->in->arrows && !filter_is_set(&a->scene->view.filter);
+    arrow_counts *counts = shared ? a->in->arrows : own;
+    if (!counts->known)
+        count_arrows(a, counts->passing);
+    counts->known = true;
+    return counts->passing;
 }
 
 /* Choose how many velocity arrows are drawn. Return the coarsest sieve, at least as fine as `sieve`, that keeps at most
  * one arrow per BOXES_PER_ARROW boxes of the view's budget; this limit is at least one arrow. Store the number of
  * dropped arrows in the tally. */
-static uint64_t choose_sieve(scene *s, const arrow_context *a, const octree_tick *tick, uint64_t sieve)
+static uint64_t choose_sieve(scene *s, const arrow_context *a, uint64_t sieve)
 {
-    /* passing[i]: after the first loop, the number of arrows for which sieve i is the finest sieve that keeps them;
-     * after the second loop, the number of all arrows that sieve i keeps. */
-    size_t passing[SIEVES] = {0}, all = 0;
+    arrow_counts own = {.known = false};
+    const size_t *passing = find_arrow_counts(a, &own);
     const size_t most = s->view.budget ? (size_t)ceil((double)s->view.budget / BOXES_PER_ARROW) : SIZE_MAX;
-    for (size_t i = 0; i < tick->mover_count; i++)
-        if (has_arrow(a, &tick->movers[i]))
-            passing[count_passed_sieves(tick->movers[i].id)]++;
-    for (unsigned bits = SIEVES; bits-- > 0;)
-        passing[bits] = all += passing[bits];
     unsigned bits = 0;
     while (sieve >> bits & 1)
         bits++;
-    for (; bits < SIEVES - 1 && passing[bits] > most; bits++)
+    for (; bits < ARROW_SIEVES - 1 && passing[bits] > most; bits++)
         sieve = make_finer_sieve(sieve);
-    s->tally.arrows.thinned = all - passing[bits];
+    s->tally.arrows.thinned = passing[0] - passing[bits];
     s->tally.arrows.one_in = sieve + 1;
     return sieve;
 }
@@ -158,7 +173,7 @@ static void add_velocities(scene *s, const layer_source *in, view_layer layer)
     /* The sieve that dropped points from this scene. A dropped point gets no arrow, so the arrows use the same or a
      * finer sieve. */
     const uint64_t points = s->tally.one_in - 1;
-    const uint64_t sieve = choose_sieve(s, &a, tick, points);
+    const uint64_t sieve = choose_sieve(s, &a, points);
     for (size_t i = 0; i < tick->mover_count; i++) {
         const octree_body *body = &tick->movers[i];
         scene_segment arrow = {.id = body->id, .style = make_layer_style(LAYER_VELOCITIES, STROKE_ARROW, 1)};
