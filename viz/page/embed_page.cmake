@@ -3,7 +3,7 @@
 # at @FACTS@, where the recording's data goes. With
 #   cmake -D SOURCE=page/index.html -D OUTPUT=page_html.c [-D MODULE=octreel.wasm.letters] -P embed_page.cmake
 # the arrays are page_html_head and page_html_tail. A page with @MODULE@ in it also gets page_html_plays: whether there is
-# a module. With a module the scripts marked data-packed are compressed, too: that makes them three times
+# a module. With a module the styles and scripts marked data-packed are compressed, too: that makes them three times
 # smaller. Without one they are plain, since packing needs tools that only a build with a module needs.
 cmake_minimum_required(VERSION 3.22)
 get_filename_component(name ${OUTPUT} NAME_WE)
@@ -43,7 +43,7 @@ macro(pack text)
   execute_process(COMMAND sh ${CMAKE_CURRENT_LIST_DIR}/module/pack_module ${OUTPUT}.scripts OUTPUT_VARIABLE ${text}
                   RESULT_VARIABLE failed)
   if(failed)
-    message(FATAL_ERROR "the scripts of ${SOURCE} cannot be compressed; is gzip and basenc installed?")
+    message(FATAL_ERROR "a part of ${SOURCE} cannot be compressed; is gzip and basenc installed?")
   endif()
 endmacro()
 
@@ -85,13 +85,15 @@ string(REGEX REPLACE "^\n" "" page "${page}")
 if(page MATCHES "<script>([^<]+)</script>")
   allow(scripts "${CMAKE_MATCH_1}")
 endif()
-inline(style "<link rel=\"stylesheet\" href=\"([^\"]*)\">")
 if(MODULE)
+  inline(style "<link data-packed rel=\"stylesheet\" href=\"([^\"]*)\">" " type=\"application/gzip;z85\" id=\"styles\"")
   inline(script "<script data-packed src=\"([^\"]*)\"></script>" " type=\"application/gzip;z85\" id=\"scripts\"")
 else()
   string(REPLACE "<script src=\"unpack.js\"></script>\n" "" page "${page}")
   string(REPLACE "<script data-packed src=" "<script src=" page "${page}")
+  string(REPLACE "<link data-packed rel=" "<link rel=" page "${page}")
 endif()
+inline(style "<link rel=\"stylesheet\" href=\"([^\"]*)\">")
 inline(script "<script src=\"([^\"]*)\"></script>")
 string(REGEX REPLACE " @(scripts|styles)@" "" page "${page}")
 

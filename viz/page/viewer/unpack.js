@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* unpack.js - unpacks the compressed parts of a page, and runs the page's scripts. The content security policy allows
- * the unpacked text by its hash. */
+/* unpack.js - unpacks the compressed parts of a page, adds its styles, and runs its scripts. The content security policy
+ * allows the unpacked texts by their hashes. */
 "use strict";
 
 /* Decode a text that module/pack_module encoded: Z85 with some digits replaced. */
@@ -24,16 +24,19 @@ function unpack(letters)
     return new Response(new Blob([unpackLetters(letters)]).stream().pipeThrough(new DecompressionStream("gzip")));
 }
 
-async function runScripts()
+async function addParts()
 {
-    const message = document.getElementById("message"), script = document.createElement("script");
+    const message = document.getElementById("message");
     if (typeof DecompressionStream !== "function") {
         message.textContent = "This browser lacks DecompressionStream, which the page needs. Use a newer browser. The " +
             "frames are PNG files beside the page, and ticks.jsonl holds what happened at each tick.";
         return;
     }
-    script.textContent = await unpack(document.getElementById("scripts").textContent).text();
-    document.body.append(script);
+    for (const [id, name] of [["styles", "style"], ["scripts", "script"]]) {
+        const part = document.createElement(name);
+        part.textContent = await unpack(document.getElementById(id).textContent).text();
+        document.body.append(part);
+    }
 }
 
-runScripts();
+addParts();
