@@ -8,7 +8,10 @@ const INPUTS_A_CHECK = 150, MOST_FINDINGS = 20;
 const NASTY = ["", "NaN", "-1", "1e308", "0", "1,2", "z=0", "x=nan", "2:5", "9:1", "1,1,1,-1,-1,-1", "-400,-400,-400,400,400,400",
                "100", "0.5", "<b>", "2,2,2"];
 const KEYS_PRESSED = ["ArrowRight", "ArrowLeft", "PageDown", "PageUp", "Home", "End", " ", "+", "-", "j", "k", "1", "2", "3",
-                      "4", "5", "6", "0", ..."wsdaefn.qwsdaef", "c", "Escape", "?", "x"];
+                      "4", "5", "6", "0", ..."wsdaefn.qwsdaef", "c", "Escape", "?", "x", ..."oivtpl"];
+const ADDRESSES = ["#", "#t=7", "#t=1e9&filter=full,x", "#t=40&view=--camera+top+--zoom+3", "#t=3&view=--zoom+nan&pixels=recorded",
+                   "#t=35&keys=30:wwdnnq.&select=node+7/7", "#t=2&keys=999:ww&ask={\"radius\":300,\"at\":[0,0,0]}",
+                   "#t=12&select=point+3&view=--slice+z=100+--layers+none", "#t=9&ask=[&select=node+%00", "#%E0%A4%A"];
 const FILES = [
     ["cut.json", '{"octreel": "session", "version": 2, "points": [[1, 2'],
     ["frame.png", "\x89PNG\r\n"],
@@ -122,7 +125,7 @@ function clickButton()
 /* The inputs, and how often each is made. */
 const ACTS = [
     [30, press], [20, () => drag(byId("stage"))], [12, () => click(byId("stage"))], [12, wheel], [10, scrub],
-    [6, () => drag(byId("scrub"))], [3, type], [5, clickButton], [6, ask], [1, () => drop(oneOf(FILES))],
+    [6, () => drag(byId("scrub"))], [2, () => { location.hash = oneOf(ADDRESSES); }], [3, type], [5, clickButton], [6, ask], [1, () => drop(oneOf(FILES))],
     [8, () => {
         const controls = [...byId("view-rows").querySelectorAll("input, select")];
         if (controls.length > 0)
@@ -145,6 +148,7 @@ async function settle()
         await interaction.pressed;
         await interaction.starting;
         await interaction.opening;
+        await octreel.address.opening;
         await until(() => !interaction.busy, "the picture that is shown");
     }
 }

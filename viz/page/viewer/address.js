@@ -90,7 +90,7 @@ class Address {
     {
         const view = this.take("view"), {interaction} = this;
         this.attempt(() => view === interaction.changedOptions(true) ||
-                           interaction.look(viewOf(view, interaction.recorded.about)));
+                           interaction.look(viewOf(view, interaction.firstView)));
     }
 
     /* Apply the other parts of the address, after the picture of its tick. */

@@ -139,8 +139,14 @@ class Engine {
     {
         if (!at)
             throw new Error(this.text());
-        const width = this.wasm.web_width(), height = this.wasm.web_height();
+        const [width, height] = this.size;
         return new ImageData(new Uint8ClampedArray(this.wasm.memory.buffer, at, 4 * width * height), width, height);
+    }
+
+    /* The size of the last picture. */
+    get size()
+    {
+        return [this.wasm.web_width(), this.wasm.web_height()];
     }
 
     digest()

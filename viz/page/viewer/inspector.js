@@ -253,7 +253,7 @@ function row(term, parts)
 
 function boxTable({min, max})
 {
-    return table(["", "from", "to", "size"], [0, 1, 2],
+    return table(["axis", "from", "to", "size"], [0, 1, 2],
                  i => ["xyz"[i], numberText(min[i]), numberText(max[i]), numberText(max[i] - min[i])]);
 }
 

@@ -97,8 +97,10 @@ class Interaction {
         if (recording.length === 0)
             recording.append(player.engine.facts());
         this.player?.stop();
+        this.live?.end();
         this.player = player;
         this.session = session;
+        this.firstView = view;
         this.recorded = recording;
         this.makeControls(player.engine.choices());
         this.live = new Live(this.stage, player, {
@@ -198,21 +200,25 @@ class Interaction {
         }
     }
 
-    /* Show the recorded view of the recorded ticks again. */
+    /* Show the first view of the recorded ticks again. */
     goBack()
     {
-        if (!this.isLive)
+        if (!this.isLive || byId("live-end").hidden)
             return;
-        this.player.stop();
-        this.live.end();
-        this.live = this.starting = this.asked = undefined;
-        this.viewer.inspector.name = "";
-        for (const hidden of ["live-end", "save", "branch", "picked", "ahead"])
-            byId(hidden).hidden = true;
+        this.restart(this.firstView);
         this.showStatus("");
-        this.viewer.follow(this.recorded);
-        this.start();
         this.viewer.goTo(this.viewer.tick);
+    }
+
+    /* Play the session without the user's key presses, with a view. */
+    restart(view)
+    {
+        this.asked = undefined;
+        this.player.restart(this.session, view);
+        this.viewer.follow(this.recorded);
+        this.showView();
+        this.showBranch();
+        this.playAhead();
     }
 
     /* Show recorded pixels from the next picture on, or pictures that fill the window. */
@@ -294,7 +300,7 @@ class Interaction {
     {
         const [, branch, keys] = /^(\d{1,9}):([wsadefn.]{1,9999})$/.exec(text) ?? [];
         if (this.player.isBranched)
-            this.goBack();
+            this.restart(this.player.engine.view);
         if (text && !keys)
             throw new Error(`"${shownName(text)}" are no key presses`);
         if (!text)
@@ -389,7 +395,7 @@ class Interaction {
     /* The options that turn the recorded view into the shown one (see optionsOf). */
     changedOptions(all)
     {
-        return this.isLive ? optionsOf(this.player.engine.view, this.recorded.about, all) : "";
+        return this.isLive ? optionsOf(this.player.engine.view, this.firstView, all) : "";
     }
 
     /* Change the view of the next picture. Throws an error if the module refuses the view. */

@@ -261,7 +261,7 @@ class Live {
     pickAt(event)
     {
         const at = event && this.pixelAt(event);
-        if (!this.isShown)
+        if (!this.isShown || `${this.engine.size}` !== `${[this.canvas.width, this.canvas.height]}`)
             this.drawNow();
         const [x, y] = (at ?? this.camera.middle).map(Math.floor), {width, height} = this.canvas;
         if (x < 0 || y < 0 || x >= width || y >= height)

@@ -170,6 +170,15 @@ class Player {
             this.restore(one, this.states.list[0]);
     }
 
+    /* Open the session once more, without the user's key presses and with a view. */
+    restart(session, view)
+    {
+        this.keys = "";
+        this.branch = this.given - 1;
+        this.engine.view = view;
+        this.reopen(session);
+    }
+
     /* The text of session.json for the session, with the user's key presses. */
     save()
     {
