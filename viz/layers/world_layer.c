@@ -1,9 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /* world_layer.c - the layer of the world. It shows the world's box, the view's slice and region, and axes with numbers
- * along the box that the camera frames. */
+ * along the box that the camera frames.
+ *
+ * A zoomed picture shows a part of that box, and its edges may lie outside the picture. So the axes of a view with a
+ * zoom or a center run along a box around the center that is smaller by the zoom. That box takes as much of the picture
+ * as the framed box without zoom, with as much room for numbers. A bar shows the scale. */
 #include "layer_type.h"
 #include "layout.h"
 #include "number.h"
+#include "scale_bar.h"
 
 #include <math.h>
 #include <string.h>
@@ -23,15 +28,19 @@
 /* Weight of a low position when choose_edge() rates the edges for a level axis; the weight of a position at the left is
  * 1. */
 #define LOWEST 16
+#define SCALE_ID 100
+/* The part of the framed box that a zoomed picture of the follow camera shows. The other cameras show the whole box. */
+#define FOLLOWED_PART 0.3
 #define ROOM 40 /* weight of room for a number at an end of the edge, when choose_edge() rates the edges */
 
 /* The axes of one scene. In the number of a corner, bit i is set if the corner is at the upper end of axis i. */
 typedef struct axes {
     scene *scene;
-    const octree_box *box; /* the box that the axes run along */
-    double corners[8][2];  /* pixel of each corner */
-    bool whole;            /* true: all corners are in front of the camera */
-    text_space words;      /* the part of the picture that labels already cover */
+    octree_box box;       /* the box that the axes run along */
+    double half[3];       /* half its extent on each axis, in unit coordinates */
+    double corners[8][2]; /* pixel of each corner */
+    bool whole;           /* true: all corners are in front of the camera */
+    text_space words;     /* the part of the picture that labels already cover */
 } axes;
 
 /* The edge of the box that an axis runs along. */
@@ -48,26 +57,27 @@ static const scene_style axis_style = {.layer = LAYER_WORLD, .role = ROLE_FAINT,
 
 /* Return the length in pixels that an axis would have if seen from the side, at the distance of the box's middle. The
  * length stays the same while the camera orbits. */
-static double side_length(const camera *c, int axis)
+static double side_length(const axes *a, int axis)
 {
+    const camera *c = &a->scene->camera;
     double middle = 0;
     for (int i = 0; i < 3; i++)
         middle -= c->eye[i] * c->forward[i];
-    return 2 * c->half[axis] * c->zoom / (c->perspective ? fmax(middle, c->near) : 1);
+    return 2 * a->half[axis] * c->zoom / (c->perspective ? fmax(middle, c->near) : 1);
 }
 
 /* Return the distance between two neighbouring numbers on an axis, in world units. Return 0 if there is no room for
  * numbers, or if the numbers would need too many digits. */
 static double choose_number_step(const axes *a, int axis)
 {
-    const double extent = a->box->max[axis] - a->box->min[axis];
-    const double length = side_length(&a->scene->camera, axis);
+    const double extent = a->box.max[axis] - a->box.min[axis];
+    const double length = side_length(a, axis);
     const double space = axis == 2 ? UPRIGHT_SPACE * a->scene->text.line : TICK_SPACE * a->scene->unit;
     const double count = fmin(floor(length / space), MOST_TICKS);
     if (!(extent > 0) || !isfinite(extent) || count < 1)
         return 0;
     const double step = number_round_up_to_1_2_5(extent / count);
-    const double largest = fmax(fabs(a->box->min[axis]), fabs(a->box->max[axis]));
+    const double largest = fmax(fabs(a->box.min[axis]), fabs(a->box.max[axis]));
     /* With a smaller step, the printed digits of two neighbouring numbers could be the same. */
     return step > 0 && largest / step < 1e8 ? step : 0;
 }
@@ -88,7 +98,7 @@ static bool is_on_outline(const axes *a, const double at[2], const double out[2]
 static bool has_room(const axes *a, const double at[2], const double out[2])
 {
     const camera_window w = layout_space_area(a->scene);
-    const double x = at[0] + out[0] * layout_count_number_letters(a->box) * a->scene->text.width - w.x;
+    const double x = at[0] + out[0] * layout_count_number_letters(&a->box) * a->scene->text.width - w.x;
     const double y = at[1] + out[1] * 2 * a->scene->text.height - w.y;
     return x >= 0 && y >= 0 && x <= w.width && y <= w.height;
 }
@@ -125,7 +135,7 @@ static bool is_seen_end_on(const axes *a, const axis_edge *e)
     const double *from = a->corners[e->corner], *to = a->corners[e->corner | 1u << e->axis];
     const double x = to[0] - from[0], y = to[1] - from[1];
     const bool inside = e->out[0] == 0 && e->out[1] == 0;
-    return a->whole && (inside || sqrt(x * x + y * y) < side_length(&a->scene->camera, e->axis) * END_ON_RATIO);
+    return a->whole && (inside || sqrt(x * x + y * y) < side_length(a, e->axis) * END_ON_RATIO);
 }
 
 /* ---- Tick marks and axis names ------------------------------------------------------------------------------ */
@@ -148,9 +158,10 @@ static bool place_number(axes *a, const axis_edge *e, double tick[2][3], scene_l
     return text_space_reserve_text(&a->words, s, number->text, pixel, number->at);
 }
 
-static double longest_side(const scene *s)
+/* Return the longest side of the axes' box, in world units. */
+static double longest_side(const axes *a)
 {
-    return s->camera.size / s->camera.scale;
+    return fmax(a->half[0], fmax(a->half[1], a->half[2])) * a->scene->camera.size / a->scene->camera.scale;
 }
 
 /* Add a tick mark that points away from the box. Add a number at the tick mark's end if there is room. */
@@ -158,8 +169,8 @@ static void add_tick(axes *a, const axis_edge *e, double at, uint64_t id)
 {
     scene *s = a->scene;
     double ends[2][3];
-    const double length = TICK_LENGTH * longest_side(s);
-    box_corner(a->box, e->corner, ends[0]);
+    const double length = TICK_LENGTH * longest_side(a);
+    box_corner(&a->box, e->corner, ends[0]);
     for (int i = 0; i < 3; i++)
         ends[1][i] = ends[0][i] + (e->corner >> i & 1 ? length : -length);
     ends[0][e->axis] = ends[1][e->axis] = at;
@@ -175,9 +186,9 @@ static void add_ticks(axes *a, const axis_edge *e)
 {
     const int axis = e->axis;
     const double step = choose_number_step(a, axis);
-    if (step == 0 || is_seen_end_on(a, e) || !isfinite(longest_side(a->scene)))
+    if (step == 0 || is_seen_end_on(a, e) || !isfinite(longest_side(a)))
         return;
-    const double first = ceil(a->box->min[axis] / step), last = floor(a->box->max[axis] / step);
+    const double first = ceil(a->box.min[axis] / step), last = floor(a->box.max[axis] / step);
     for (double i = first; i <= last; i++) /* adding 0.0 turns -0 into 0 */
         add_tick(a, e, i * step + 0.0, (uint64_t)(axis + 1) * FIRST_ID + (uint64_t)(i - first));
 }
@@ -204,8 +215,8 @@ static void add_axis(axes *a, const axis_edge *e, bool drawn)
 {
     scene_label letter = scene_make_label((uint64_t)e->axis, axis_style, "%c", "xyz"[e->axis]);
     double ends[2][3];
-    box_corner(a->box, e->corner, ends[0]);
-    box_corner(a->box, e->corner | 1u << e->axis, ends[1]);
+    box_corner(&a->box, e->corner, ends[0]);
+    box_corner(&a->box, e->corner | 1u << e->axis, ends[1]);
     if (drawn)
         scene_add_line(a->scene, (uint64_t)e->axis, ends[0], ends[1], axis_style);
     if (is_seen_end_on(a, e))
@@ -217,24 +228,56 @@ static void add_axis(axes *a, const axis_edge *e, bool drawn)
     scene_add_label(a->scene, letter);
 }
 
-/* Add three axes along edges of the box that the camera frames. Each axis has its name. If the view shows text, it also
- * has tick marks with round numbers. The step between numbers depends on the box and the kind of camera, so it stays
- * the same while the camera orbits. */
+/* Replace the box of the axes by its part around the camera's center that a zoomed or moved picture shows. If the
+ * center is far outside the box, take a box of this size around the center. */
+static void narrow_to_picture(axes *a)
+{
+    const scene *s = a->scene;
+    const double part = (s->view.camera == CAMERA_FOLLOW ? FOLLOWED_PART : 1) / s->view.zoom;
+    for (int i = 0; i < 3; i++) {
+        const double reach = (a->box.max[i] / 2 - a->box.min[i] / 2) * part;
+        const double low = s->camera.center[i] - reach, high = s->camera.center[i] + reach;
+        const bool outside = low >= a->box.max[i] || high <= a->box.min[i];
+        a->box.min[i] = outside ? low : fmax(a->box.min[i], low);
+        a->box.max[i] = outside ? high : fmin(a->box.max[i], high);
+        a->half[i] = (a->box.max[i] * s->camera.scale - a->box.min[i] * s->camera.scale) / s->camera.size;
+    }
+}
+
+/* Add a bar with a round length at the lower left of the space view. */
+static void add_scale(scene *s)
+{
+    const camera_window w = layout_space_area(s);
+    const int margin = SCALE_BAR_MARGIN * s->unit;
+    scale_bar_add(s, LAYER_WORLD, SCALE_ID, (const int[]){(int)w.x + margin, (int)(w.y + w.height) - margin},
+                  w.width / 6, "");
+}
+
+/* Add three axes along edges of the box that the camera frames, or of its part in a zoomed picture. Each axis has its
+ * name. If the view shows text, it also has tick marks with round numbers. The step between numbers depends on the box
+ * and the kind of camera, so it stays the same while the camera orbits. */
 static void add_axes(scene *s, const octree_box *world)
 {
-    const bool fitted = s->view.fit == FIT_BOX;
-    axes a = {.scene = s, .box = fitted ? &s->view.focus : world, .whole = true};
+    const bool fitted = s->view.fit == FIT_BOX, zoomed = s->view.zoom > 1 || s->view.center.given,
+               numbered = view_shows_layer(&s->view, LAYER_TEXT);
+    axes a = {.scene = s, .box = fitted ? s->view.focus : *world, .whole = true};
     axis_edge edges[3];
+    memcpy(a.half, s->camera.half, sizeof a.half);
+    if (zoomed && numbered)
+        add_scale(s);
+    if (zoomed)
+        narrow_to_picture(&a);
+    a.words = text_space_make(s);
     for (unsigned i = 0; i < 8; i++) {
         double at[3];
-        box_corner(a.box, i, at);
+        box_corner(&a.box, i, at);
         a.whole &= camera_find_pixel(&s->camera, at, a.corners[i]);
     }
     for (int axis = 0; axis < 3; axis++) {
         edges[axis] = choose_edge(&a, axis);
-        add_axis(&a, &edges[axis], fitted);
+        add_axis(&a, &edges[axis], fitted || zoomed);
     }
-    for (int axis = 0; view_shows_layer(&s->view, LAYER_TEXT) && axis < 3; axis++)
+    for (int axis = 0; numbered && axis < 3; axis++)
         add_ticks(&a, &edges[axis]);
 }
 
@@ -264,6 +307,8 @@ static void describe_world_element(description *d, const described_element *elem
     if (element->kind == SCENE_BOX) {
         append_text(d, "%s", boxes[element->id]);
         append_box(d, ", box ", &element->box);
+    } else if (element->id >= SCALE_ID && element->id < FIRST_ID) {
+        append_text(d, element->kind == SCENE_LABEL ? ", the scale" : "the scale");
     } else if (element->kind == SCENE_SEGMENT && element->id < 3) {
         append_text(d, "the %c axis", "xyz"[element->id]);
     } else if (element->kind == SCENE_SEGMENT) {

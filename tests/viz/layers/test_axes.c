@@ -9,6 +9,7 @@
 #include <string.h>
 
 #define FIRST_ID 1000
+#define SCALE_ID 100
 
 static scene scene_of_world(const octree_box *world, const view *v)
 {
@@ -249,6 +250,43 @@ static void axes_run_along_the_fitted_box_and_not_the_world(void **state)
     octree_destroy(tree);
 }
 
+/* The axes of a zoomed picture have at least two numbers each, also where no edge of the world is in the picture. At a
+ * corner of the world, where the axes are half as long, they have at least one. A bar shows the scale: its length
+ * in pixels is the number beside it. */
+static void zoomed_picture_keeps_axis_numbers_and_has_a_scale_bar(void **state)
+{
+    (void)state;
+    static const double places[][3] = {{0, 0, 0}, {400, -300, 200}, {1000, 1000, 1000}};
+    const octree_box world = cube(-1000, 1000);
+    for (int i = 0; i < 2 * 3 * 5; i++) {
+        static const view_camera kinds[] = {CAMERA_ISO, CAMERA_ORBIT};
+        view v = view_of(1280, 720, kinds[i % 2], VIEW_DEFAULT_LAYERS);
+        v.zoom = (double[]){1.5, 4, 30, 1000, 1e6}[i / 6];
+        v.center.given = true;
+        memcpy(v.center.place, places[i / 2 % 3], sizeof v.center.place);
+        scene s = scene_of_world(&world, &v);
+        size_t on_axis[3] = {0}, bars = 0;
+        for (size_t k = 0; k < s.labels.count; k++)
+            if (is_number(&s.labels.items[k]))
+                on_axis[s.labels.items[k].id / FIRST_ID - 1]++;
+        for (int axis = 0; axis < 3; axis++)
+            assert_true(on_axis[axis] >= (places[i / 2 % 3][0] < 1000 ? 2 : 1));
+        for (size_t k = 0; k < s.labels.count; k++) {
+            const scene_label *label = &s.labels.items[k];
+            if (label->style.layer != LAYER_WORLD || label->id != SCALE_ID)
+                continue;
+            const double length = strtod(label->text, NULL), pixels = length / camera_world_length_of_pixel(&s.camera);
+            bars++;
+            assert_true(is_round(length, 2000 / v.zoom));
+            for (size_t n = 0; n < s.panels.count; n++)
+                if (s.panels.items[n].style.layer == LAYER_WORLD && s.panels.items[n].id == SCALE_ID + 1)
+                    assert_true(fabs(s.panels.items[n].width - pixels) <= s.unit);
+        }
+        assert_int_equal(bars, 1);
+        scene_release(&s);
+    }
+}
+
 static void axes_have_no_numbers_without_the_text_or_world_layer(void **state)
 {
     (void)state;
@@ -386,6 +424,7 @@ int main(void)
         cmocka_unit_test(axis_numbers_stand_beside_the_box_and_never_on_its_contents),
         cmocka_unit_test(axis_numbers_are_aligned),
         cmocka_unit_test(axes_run_along_the_fitted_box_and_not_the_world),
+        cmocka_unit_test(zoomed_picture_keeps_axis_numbers_and_has_a_scale_bar),
         cmocka_unit_test(axes_have_no_numbers_without_the_text_or_world_layer),
         cmocka_unit_test(axis_seen_end_on_has_no_numbers_and_no_letter),
         cmocka_unit_test(a_letter_stands_beyond_the_end_of_its_axis),
