@@ -4,9 +4,11 @@
  * A close-up is a scene of its own, built from the same layers as the main scene. Its camera looks in the same
  * direction as the camera of the main scene, at the middle of the subject. It cuts off everything that is farther in
  * front of or behind the subject than the close-up reaches to its sides. The main scene gets a frame around the
- * close-up, an outline of the enlarged area, and lines from the area to the frame. The close-up gets a scale. */
+ * close-up, and an outline of the enlarged area in the same colour. A short pointer shows the way from the area to the
+ * close-up; a line as far as the frame would cross the scene. The close-up gets a scale. */
 #include "closeup.h"
 #include "number.h"
+#include "scale_bar.h"
 
 #include <float.h>
 #include <inttypes.h>
@@ -72,16 +74,11 @@ bool closeup_begin(scene *s, const layer_source *in, const double place[3], doub
     return true;
 }
 
+#define POINTER 8 /* the length of the pointer from the enlarged area towards the close-up, in picture units */
+
 /* ---- The frame ----------------------------------------------------------------------------------------------- */
 
-enum {
-    BORDER_ID,
-    GROUND_ID,
-    REGION_ID,
-    LEADER_ID = REGION_ID + 4,
-    SCALE_ID = LEADER_ID + 2,
-    LEFT_OUT_ID = SCALE_ID + 3
-};
+enum { BORDER_ID, GROUND_ID, REGION_ID, POINTER_ID = REGION_ID + 4, SCALE_ID, LEFT_OUT_ID = SCALE_ID + 4 };
 
 /* Find the area of the picture that the close-up enlarges. sides[] becomes its left, top, right and bottom in pixels.
  * The area is cut at the edges of the space view, and is always large enough to be visible. Return false if the area
@@ -105,26 +102,28 @@ static bool find_enlarged_area(const scene *s, double sides[4])
     return sides[0] < sides[2] && sides[1] < sides[3];
 }
 
-/* Outline the enlarged area. Draw lines from two of its corners to the nearest corners of the close-up's frame. */
+/* Outline the enlarged area. Draw a pointer from the middle of a side towards the close-up. */
 static void add_enlarged_area(scene *s, const double frame[4])
 {
     double area[4];
     if (!find_enlarged_area(s, area))
         return;
     const double left = area[0], top = area[1], right = area[2], bottom = area[3];
+    const double x = floor((left + right) / 2) + 0.5, y = floor((top + bottom) / 2) + 0.5;
     const bool beside = right <= frame[0];
     const double lines[][2][2] = {
         {{left, top}, {right, top}}, /* the outline's lines have the ids REGION_ID, REGION_ID + 1 ... */
         {{left, bottom}, {right, bottom}},
         {{left, top}, {left, bottom}},
         {{right, top}, {right, bottom}},
-        /* the lines to the frame have the ids LEADER_ID, LEADER_ID + 1 ... */
-        {{beside ? right : left, beside ? top : bottom}, {frame[0], frame[1]}},
-        {{right, bottom}, {beside ? frame[0] : frame[2], beside ? frame[3] : frame[1]}},
+        /* the pointer has the id POINTER_ID */
+        {{beside ? right : x, beside ? y : bottom},
+         {beside ? fmin(right + POINTER * s->unit, frame[0]) : x,
+          beside ? y : fmin(bottom + POINTER * s->unit, frame[1])}},
     };
     for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++)
         scene_add_picture_line(s, REGION_ID + i, lines[i][0], lines[i][1],
-                               make_role_style(LAYER_CLOSEUP, ROLE_FAINT, STROKE_SOLID, 1));
+                               make_role_style(LAYER_CLOSEUP, ROLE_TEXT, STROKE_SOLID, 1));
 }
 
 static void add_frame(scene *s)
@@ -134,66 +133,18 @@ static void add_frame(scene *s)
     const int width = c->view.width, height = c->view.height;
     add_enlarged_area(s, (double[]){x - line, y - line, x + width + line, y + height + line});
     scene_add_rectangle(s, BORDER_ID, (int[]){x - line, y - line}, (int[]){width + 2 * line, height + 2 * line},
-                        LAYER_CLOSEUP, ROLE_FAINT);
+                        LAYER_CLOSEUP, ROLE_TEXT);
     scene_add_rectangle(s, GROUND_ID, c->place, (int[]){width, height}, LAYER_CLOSEUP, ROLE_BACKGROUND);
-}
-
-/* Return the largest length of the form 1, 2 or 5 times a power of ten that is not above `limit`. Return 0 if that
- * length is too small for a double. */
-static double round_down_scale_length(double limit)
-{
-    double power = 1;
-    while (power > limit)
-        power /= 10;
-    while (power > 0 && power * 10 <= limit)
-        power *= 10;
-    return limit >= 5 * power ? 5 * power : limit >= 2 * power ? 2 * power : power;
-}
-
-/* Remove the labels that a rectangle would cover completely or in part, and the backgrounds of these labels. */
-static void drop_covered_labels(scene *s, const int corner[2], const int size[2])
-{
-    size_t kept = 0;
-    for (size_t i = 0; i < s->labels.count; i++) {
-        const scene_label *label = &s->labels.items[i];
-        const double right = label->at[0] + (double)strlen(label->text) * s->text.width;
-        const bool apart = right < corner[0] || label->at[0] > corner[0] + size[0] ||
-                           label->at[1] + s->text.height < corner[1] || label->at[1] > corner[1] + size[1];
-        if (label->in_world || apart) {
-            s->labels.items[kept++] = *label;
-            continue;
-        }
-        for (size_t k = 0; k < s->panels.count; k++)
-            if (s->panels.items[k].id == label->id && s->panels.items[k].style.layer == label->style.layer)
-                s->panels.items[k].width = 0;
-    }
-    s->labels.count = kept;
 }
 
 /* Add a scale: a bar, the length of the bar in world units, and the magnification. */
 static void add_scale(scene *s)
 {
-    const int unit = s->unit, margin = 6 * unit;
-    const double pixel = camera_world_length_of_pixel(&s->camera),
-                 length = round_down_scale_length(s->view.width / 3.0 * pixel);
-    const double x = margin + 0.5, y = s->view.height - margin + 0.5, end = x + floor(length / pixel), rise = 3 * unit;
-    char number[NUMBER_TEXT], times[NUMBER_TEXT];
-    if (!(length > 0) || !isfinite(end))
-        return;
-    scene_label label =
-        scene_make_label(SCALE_ID, make_role_style(LAYER_CLOSEUP, ROLE_TEXT, STROKE_SOLID, 1), "%s, enlarged %sx",
-                         number_format(length, 6, number), number_format(s->times, 6, times));
-    label.at[0] = margin;
-    label.at[1] = s->view.height - margin - s->text.height - 3 * unit;
-    const int wide = (int)fmax(end - margin, (double)strlen(label.text) * s->text.width);
-    const int corner[2] = {margin - unit, (int)label.at[1] - unit};
-    const int size[2] = {wide + 2 * unit, s->view.height - margin + 2 * unit - (int)label.at[1] + unit};
-    drop_covered_labels(s, corner, size);
-    scene_add_rectangle(s, SCALE_ID, corner, size, LAYER_CLOSEUP, ROLE_BACKGROUND);
-    const double lines[][2][2] = {{{x, y}, {end, y}}, {{x, y - rise}, {x, y + 1}}, {{end, y - rise}, {end, y + 1}}};
-    for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++)
-        scene_add_picture_line(s, SCALE_ID + i, lines[i][0], lines[i][1], label.style);
-    scene_add_label(s, label);
+    const int margin = SCALE_BAR_MARGIN * s->unit;
+    char times[NUMBER_TEXT], words[SCENE_TEXT];
+    snprintf(words, sizeof words, ", enlarged %sx", number_format(s->times, 6, times));
+    scale_bar_add(s, LAYER_CLOSEUP, SCALE_ID, (const int[]){margin, s->view.height - margin}, s->view.width / 3.0,
+                  words);
 }
 
 /* Write how many elements the budget leaves out of the close-up. */
@@ -231,15 +182,15 @@ static void describe_closeup_element(description *d, const described_element *el
     if (element->kind == SCENE_PANEL)
         append_text(d, element->id == BORDER_ID   ? "the close-up's frame"
                        : element->id == GROUND_ID ? "the background of the close-up"
-                                                  : "the background of a text in the close-up");
+                       : element->id > SCALE_ID && element->id < LEFT_OUT_ID
+                           ? "the close-up's scale"
+                           : "the background of a text in the close-up");
     else if (element->kind == SCENE_LABEL)
         append_text(d, element->id == SCALE_ID ? ", the close-up's scale"
                                                : ", the share of points and nodes that the close-up shows");
-    else if (element->id < LEADER_ID)
-        append_text(d, "the outline of the area that the close-up shows");
     else
-        append_text(d,
-                    element->id < SCALE_ID ? "a line from the enlarged area to the close-up" : "the close-up's scale");
+        append_text(d, element->id < POINTER_ID ? "the outline of the area that the close-up shows"
+                                                : "a pointer from the enlarged area to the close-up");
 }
 
 const layer_type layer_CLOSEUP = {.add = add_closeup, .describe = describe_closeup_element};

@@ -17,7 +17,11 @@ uint16_t make_quad_order(unsigned layer, unsigned band, unsigned depth)
 
 uint16_t make_text_order(unsigned layer)
 {
-    return make_quad_order(layer == LAYER_WORLD ? LAYER_POINTS : layer == LAYER_NODES ? LAYER_VELOCITIES : layer, 0, 0);
+    return make_quad_order(layer == LAYER_WORLD      ? LAYER_POINTS
+                           : layer == LAYER_NODES    ? LAYER_VELOCITIES
+                           : layer == LAYER_KNEAREST ? LAYER_SHAPES
+                                                     : layer,
+                           0, 0);
 }
 
 void quads_release(quad_list *list)

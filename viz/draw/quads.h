@@ -58,7 +58,8 @@ uint16_t make_quad_order(unsigned layer, unsigned band, unsigned depth);
 #define QUAD_BANDS THEME_SHADES
 
 /* Returns quad.order for text and panels, which have no view depth and come last in their layer. Text of the axes comes
- * after nodes and points. Text of nodes comes after points and velocities. */
+ * after nodes and points. Text of nodes comes after points and velocities. Ranks of neighbours come after the player.
+ */
 uint16_t make_text_order(unsigned layer);
 
 /* ---- clip.c --------------------------------------------------------------------------------------------------- */

@@ -2,6 +2,7 @@
 /* answer_layers.c - the layers that show a tick's queries: the region or the target of each query, and the points that
  * it found. */
 #include "layer_type.h"
+#include "layout.h"
 #include "number.h"
 #include "text.h"
 
@@ -15,6 +16,7 @@
 #define BALL_CIRCLES 3   /* number of great circles that are drawn for a ball */
 #define BALL_CHORDS 96   /* number of chords that are drawn for a circle */
 #define NUMBERED_RANKS 9 /* the nearest 9 neighbours get a number, their rank */
+#define NEIGHBOR_HALF 2  /* half the size of the mark that a rank keeps free, in halves of a picture unit */
 
 /* ---- All kinds of queries ----------------------------------------------------------------------------------- */
 
@@ -143,32 +145,17 @@ const layer_type layer_RADIUS = {
 
 /* ---- Queries for k nearest points --------------------------------------------------------------------------- */
 
-/* Return whether the number at pixels[earlier] would overlap one of the numbers at pixels[0] to pixels[earlier - 1]. */
-static bool is_crowded(const scene *s, double pixels[][2], size_t earlier)
-{
-    bool crowded = false;
-    for (size_t i = 0; i < earlier; i++)
-        crowded |= fabs(pixels[i][0] - pixels[earlier][0]) < s->text.width + 2 * s->unit &&
-                   fabs(pixels[i][1] - pixels[earlier][1]) < s->text.height;
-    return crowded;
-}
-
-/* Write the rank of each of the nearest neighbours beside its point. A rank that would overlap the rank of a nearer
- * neighbour is left out. */
+/* Write the rank of each of the nearest neighbours beside its point, on a background that hides points and lines behind
+ * the rank. A rank without free room beside its point is left out; nearer neighbours come first. */
 static void add_ranks(scene *s, const octree_answer *answer, size_t place, scene_style style)
 {
-    double pixels[NUMBERED_RANKS][2];
-    size_t numbered = 0;
-    for (size_t i = 0; i < answer->count && i < NUMBERED_RANKS; i++) {
-        /* The space in the text leaves room for the point's marker. */
-        scene_label rank = scene_make_label(part_id(place, i), style, " %zu", i + 1);
-        rank.in_world = true;
-        memcpy(rank.at, answer->neighbors[i].point.position, sizeof rank.at);
-        if (!camera_find_pixel(&s->camera, rank.at, pixels[numbered]) || is_crowded(s, pixels, numbered))
-            continue;
-        numbered++;
-        scene_add_label(s, rank);
-    }
+    text_space words = text_space_make(s);
+    const size_t ranks = answer->count < NUMBERED_RANKS ? answer->count : NUMBERED_RANKS;
+    for (size_t i = 0; i < ranks; i++)
+        text_space_reserve_mark(&words, s, answer->neighbors[i].point.position, NEIGHBOR_HALF);
+    for (size_t i = 0; i < ranks; i++)
+        text_space_add_label_beside(&words, s, scene_make_label(part_id(place, i), style, "%zu", i + 1),
+                                    answer->neighbors[i].point.position, NEIGHBOR_HALF);
 }
 
 static void add_knearest(scene *s, const octree_answer *answer, size_t place, view_layer layer)
@@ -191,6 +178,8 @@ static void describe_knearest(description *d, const described_element *element)
 {
     if (element->kind == SCENE_LABEL)
         append_text(d, ", the rank of a neighbour");
+    else if (element->kind == SCENE_PANEL)
+        append_text(d, "the background of the rank of a neighbour");
     else
         describe_neighbor(d, element->id >> 32, element->id & UINT32_MAX);
 }

@@ -41,28 +41,27 @@ static void check_nearest(const scene *s, const octree_answer *answer, size_t pl
 #define BALL_CIRCLES 3
 #define BALL_CHORDS 96
 
-/* Return the label with this id and rank at a position, or null. */
+/* Return the label with this id and rank, or null. It is next to the point, on a background of its own. */
 static const scene_label *rank_of(const scene *s, uint64_t id, size_t rank, const double at[3])
 {
     char number[24];
-    snprintf(number, sizeof number, " %zu", rank);
+    double pixel[2];
+    snprintf(number, sizeof number, "%zu", rank);
     for (size_t i = 0; i < s->labels.count; i++) {
         const scene_label *label = &s->labels.items[i];
+        size_t grounds = 0;
         if (label->style.layer != LAYER_KNEAREST || label->id != id)
             continue;
-        assert_true(label->in_world && strcmp(label->text, number) == 0 && same_position(label->at, at));
+        pixel_of(s, at, pixel);
+        assert_true(!label->in_world && strcmp(label->text, number) == 0);
+        assert_true(fabs(label->at[0] - pixel[0]) < 3 * s->text.width + 8 * s->unit);
+        assert_true(fabs(label->at[1] - pixel[1]) < 3 * s->text.height);
+        for (size_t k = 0; k < s->panels.count; k++)
+            grounds += s->panels.items[k].style.layer == LAYER_KNEAREST && s->panels.items[k].id == id;
+        assert_int_equal(grounds, 1);
         return label;
     }
     return NULL;
-}
-
-/* Whether two numbers are so close that one would cover the other. */
-static bool are_crowded(const scene *s, const double a[3], const double b[3])
-{
-    double p[2], q[2];
-    pixel_of(s, a, p);
-    pixel_of(s, b, q);
-    return fabs(p[0] - q[0]) < s->text.width + 2 * s->unit && fabs(p[1] - q[1]) < s->text.height;
 }
 
 static bool is_behind_the_eye(const scene *s, const double at[3])
@@ -72,25 +71,19 @@ static bool is_behind_the_eye(const scene *s, const double at[3])
     return s->camera.perspective && seen[2] < s->camera.near;
 }
 
-/* Each neighbour has a line from the target. The first nine have their ranks beside them, except a rank that would
- * cover another. */
+/* Each neighbour has a line from the target. The first nine have their ranks beside them, if there is room. */
 static void check_knearest(const scene *s, const octree_answer *answer, size_t place, layer_counts *due)
 {
-    const double *numbered[9];
-    size_t numbers = 0;
     for (size_t i = 0; i < answer->count; i++) {
         const double *at = answer->neighbors[i].point.position;
         const uint64_t id = (uint64_t)place << 32 | i;
         assert_int_equal(count_lines_between(s, LAYER_KNEAREST, id, answer->target, at), 1);
-        bool room = i < 9 && !is_behind_the_eye(s, at);
-        for (size_t j = 0; room && j < numbers; j++)
-            room = !are_crowded(s, at, numbered[j]);
-        assert_int_equal(rank_of(s, id, i + 1, at) != NULL, room);
-        if (room)
-            numbered[numbers++] = at;
+        const bool ranked = rank_of(s, id, i + 1, at) != NULL;
+        assert_true(!ranked || (i < 9 && !is_behind_the_eye(s, at)));
+        due->labels += ranked;
+        due->panels += ranked;
     }
     due->segments += answer->count;
-    due->labels += numbers;
 }
 
 /* A ball is three closed chains of chords. Each chain lies in a plane through the centre, its corners on the ball. */
@@ -141,7 +134,7 @@ static void check_answers(const scene *s, const octree_tick *tick)
             if ((int)tick->answers[i].kind == kind)
                 kinds[kind].check(s, &tick->answers[i], i, &due);
         assert_true(found.boxes == due.boxes && found.segments == due.segments && found.markers == due.markers &&
-                    found.labels == due.labels && found.panels == 0);
+                    found.labels == due.labels && found.panels == due.panels);
     }
 }
 
@@ -177,8 +170,8 @@ static void every_answer_of_random_sessions_is_shown_in_its_layer(void **state)
     }
 }
 
-/* Of several points at one pixel only the nearest is numbered; points elsewhere are numbered too. */
-static void rank_of_a_neighbour_never_covers_the_rank_of_a_nearer_one(void **state)
+/* Several points at one pixel have their ranks on different sides of it. */
+static void ranks_of_neighbours_never_cover_each_other(void **state)
 {
     (void)state;
     static const octree_body bodies[] = {{.id = 1, .position = {5, 0, 5}},
@@ -194,10 +187,15 @@ static void rank_of_a_neighbour_never_covers_the_rank_of_a_nearer_one(void **sta
     scene s = {0};
     build_tick(&s, &v, game);
     const octree_answer *answer = &octree_game_tick(game)->answers[0];
-    assert_non_null(rank_of(&s, 0, 1, answer->neighbors[0].point.position));
-    assert_null(rank_of(&s, 1, 2, answer->neighbors[1].point.position));
-    assert_null(rank_of(&s, 2, 3, answer->neighbors[2].point.position));
-    assert_non_null(rank_of(&s, 3, 4, answer->neighbors[3].point.position));
+    for (size_t i = 0; i < 4; i++) {
+        const scene_label *rank = rank_of(&s, i, i + 1, answer->neighbors[i].point.position);
+        assert_non_null(rank);
+        for (size_t k = 0; k < i; k++) {
+            const scene_label *other = rank_of(&s, k, k + 1, answer->neighbors[k].point.position);
+            assert_true(fabs(rank->at[0] - other->at[0]) >= s.text.width ||
+                        fabs(rank->at[1] - other->at[1]) >= s.text.height);
+        }
+    }
     octree_game_destroy(game);
     scene_release(&s);
 }
@@ -275,7 +273,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_answer_of_a_session_is_shown_in_its_layer),
         cmocka_unit_test(every_answer_of_random_sessions_is_shown_in_its_layer),
-        cmocka_unit_test(rank_of_a_neighbour_never_covers_the_rank_of_a_nearer_one),
+        cmocka_unit_test(ranks_of_neighbours_never_cover_each_other),
         cmocka_unit_test(chords_of_a_ball_beyond_all_doubles_are_counted_and_left_out),
         cmocka_unit_test(answers_of_a_tree_are_drawn_like_answers_of_a_tick),
         cmocka_unit_test(many_marks_are_smaller_than_few),

@@ -38,6 +38,7 @@ static const struct {
     {LAYER_KNEAREST, SCENE_LABEL, "the rank of a neighbour", false, false},
     {LAYER_NEAREST, SCENE_SEGMENT, "to neighbour 1: point ", false, true},
     {LAYER_NEAREST, SCENE_MARKER, "found by a nearest query", false, true},
+    {LAYER_KNEAREST, SCENE_PANEL, "the background of the rank of a neighbour", false, false},
     {LAYER_PLAYER, SCENE_SEGMENT, "down to the world's floor", false, false},
     {LAYER_PLAYER, SCENE_MARKER, "the player, point 6 at ", false, true},
     {LAYER_BOX, SCENE_BOX, "collision box", false, false},
