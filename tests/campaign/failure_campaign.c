@@ -114,6 +114,7 @@ static const struct {
     {"audit-json", "audit nodes.json --json"},
     {"audit-reports", "audit nodes --html audit.html --junit audit.xml"},
     {"join", "join chunks >times"},
+    {"film", "film film -o moving.png"},
     {"pick", "pick film/frame_000001.png 32 18"},
     {"pick-json", "pick nodes/frame_000001.png 32 18 --json"},
     {"play-cloud", "play cloud.json -o page.html"},

@@ -27,14 +27,15 @@ enum { LONGEST = 40, SHORTEST_BEGINNING = 3 };
 /* Option names of other programs, such as odiff, ffmpeg and make. Beside each name is the name of the same option in
  * Octreel. */
 static const char *const synonyms[][2] = {
-    {"force", "replace"},       {"overwrite", "replace"},   {"clobber", "replace"}, {"continue", "resume"},
-    {"film", "record"},         {"run", "record"},          {"play", "record"},     {"render", "record"},
-    {"check", "verify"},        {"replay", "verify"},       {"compare", "diff"},    {"merge", "join"},
-    {"concat", "join"},         {"view", "inspect"},        {"show", "inspect"},    {"info", "inspect"},
-    {"update", "accept"},       {"approve", "accept"},      {"hash", "digest"},     {"checksum", "digest"},
-    {"threshold", "max-delta"}, {"tolerance", "max-delta"}, {"fuzz", "max-delta"},  {"threads", "jobs"},
-    {"resolution", "size"},     {"width", "size"},          {"height", "size"},     {"step", "every"},
-    {"palette", "color-by"},    {"antialiasing", "aa"},     {"frames", "ticks"},    {"bounds", "world"},
+    {"force", "replace"},       {"overwrite", "replace"}, {"clobber", "replace"}, {"continue", "resume"},
+    {"movie", "film"},          {"video", "film"},        {"gif", "film"},        {"animate", "film"},
+    {"run", "record"},          {"play", "record"},       {"render", "record"},   {"check", "verify"},
+    {"replay", "verify"},       {"compare", "diff"},      {"merge", "join"},      {"concat", "join"},
+    {"view", "inspect"},        {"show", "inspect"},      {"info", "inspect"},    {"update", "accept"},
+    {"approve", "accept"},      {"hash", "digest"},       {"checksum", "digest"}, {"threshold", "max-delta"},
+    {"tolerance", "max-delta"}, {"fuzz", "max-delta"},    {"threads", "jobs"},    {"resolution", "size"},
+    {"width", "size"},          {"height", "size"},       {"step", "every"},      {"palette", "color-by"},
+    {"antialiasing", "aa"},     {"frames", "ticks"},      {"bounds", "world"},
 };
 
 hint hint_create(const char *word, size_t length)

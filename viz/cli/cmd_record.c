@@ -28,15 +28,7 @@ typedef struct arguments {
 static bool read_ticks(const command_option *option, const char *text, void *into)
 {
     film_options *film = into;
-    const char *at = text;
-    film->first = 0;
-    film->last = UINT64_MAX;
-    const bool begins = whole_number_parse(&at, UINT64_MAX - 1, &film->first), open = *at == ':';
-    at += open;
-    const bool ends = open && whole_number_parse(&at, UINT64_MAX, &film->last);
-    if (open && (begins || ends) && *at == 0 && film->first < film->last)
-        return true;
-    return refuse_value(option, "a range of ticks such as 100:200 (ticks 100 to 199), 100: or :200", text);
+    return read_tick_range(option, text, &film->first, &film->last);
 }
 
 static const command_option options[] = {

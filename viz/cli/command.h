@@ -39,8 +39,8 @@ typedef struct command {
     const char *files_pattern;
 } command;
 
-extern const command command_record, command_play, command_join, command_verify, command_audit, command_pick,
-    command_inspect, command_diff, command_accept;
+extern const command command_record, command_play, command_join, command_film, command_verify, command_audit,
+    command_pick, command_inspect, command_diff, command_accept;
 
 /* The program itself, as `octreel help` and the manual octreel(1) describe it. */
 extern const command command_octreel;

@@ -15,8 +15,8 @@
 #include <string.h>
 
 static const command *const commands[] = {
-    &command_record, &command_play,    &command_join, &command_verify, &command_audit,
-    &command_pick,   &command_inspect, &command_diff, &command_accept,
+    &command_record, &command_play, &command_join,    &command_film, &command_verify,
+    &command_audit,  &command_pick, &command_inspect, &command_diff, &command_accept,
 };
 
 const command *command_at(size_t n)

@@ -160,7 +160,9 @@ bool is_folder(const char *path)
 bool fits_output_option(command_option_reader *reader, const char *path)
 {
     const output_kind kind = output_kind_of_name(path);
-    return reader == read_picture ? kind == NAME_PNG : kind == NAME_OPEN || (reader == read_file && kind == NAME_FILE);
+    if (reader == read_picture || reader == read_film)
+        return kind == NAME_PNG || (reader == read_film && kind == NAME_FILM);
+    return kind == NAME_OPEN || (reader == read_file && kind == NAME_FILE);
 }
 
 bool read_folder(const command_option *option, const char *text, void *into)
@@ -175,7 +177,8 @@ bool read_folder(const command_option *option, const char *text, void *into)
                          kind == NAME_FILE   ? "file"
                          : kind == NAME_FILM ? "film"
                                              : "picture",
-                         kind == NAME_FILM ? ": record into a folder, then make a film of its frames with ffmpeg" : "");
+                         kind == NAME_FILM ? ": record into a folder, then make a film of its frames with octreel film"
+                                           : "");
 }
 
 static bool read_file_name(const command_option *option, const char *text, void *into)
@@ -185,15 +188,28 @@ static bool read_file_name(const command_option *option, const char *text, void 
             print_refusal("%s needs a file, but \"%s\" is a folder", option_as_typed(option).text, text));
 }
 
-bool read_picture(const command_option *option, const char *text, void *into)
+static bool read_picture_name(const command_option *option, const char *text, void *into)
 {
-    const output_kind kind = output_kind_of_name(text);
     if (file_is_standard_stream(text) && isatty(STDOUT_FILENO))
         return print_refusal("%s - would print a PNG on the terminal: name a file, or redirect the output with | or >",
                              option_as_typed(option).text);
-    return read_file_name(option, text, into) &&
+    return read_file_name(option, text, into);
+}
+
+bool read_picture(const command_option *option, const char *text, void *into)
+{
+    const output_kind kind = output_kind_of_name(text);
+    return read_picture_name(option, text, into) &&
            (kind == NAME_OPEN || kind == NAME_PNG ||
             print_refusal("%s needs the name of a PNG file, not \"%s\"", option_as_typed(option).text, text));
+}
+
+bool read_film(const command_option *option, const char *text, void *into)
+{
+    return read_picture_name(option, text, into) &&
+           (output_kind_of_name(text) == NAME_OPEN || file_has_ending(text, ".png.apng.mp4.webm") ||
+            print_refusal("%s needs the name of a film that ends with .png, .apng, .mp4 or .webm, not \"%s\"",
+                          option_as_typed(option).text, text));
 }
 
 bool read_file(const command_option *option, const char *text, void *into)
@@ -214,6 +230,19 @@ bool read_whole(const command_option *option, const char *text, void *into)
     else
         memcpy(into, &(uint32_t){(uint32_t)value}, sizeof(uint32_t));
     return true;
+}
+
+bool read_tick_range(const command_option *option, const char *text, uint64_t *first, uint64_t *last)
+{
+    const char *at = text;
+    *first = 0;
+    *last = UINT64_MAX;
+    const bool begins = whole_number_parse(&at, UINT64_MAX - 1, first), open = *at == ':';
+    at += open;
+    const bool ends = open && whole_number_parse(&at, UINT64_MAX, last);
+    if (open && (begins || ends) && *at == 0 && *first < *last)
+        return true;
+    return refuse_value(option, "a range of ticks such as 100:200 (ticks 100 to 199), 100: or :200", text);
 }
 
 bool read_color(const command_option *option, const char *text, void *into)

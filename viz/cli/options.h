@@ -73,6 +73,8 @@ command_option_reader read_folder; /* for a const char *: takes the path of a fo
 /* For a const char *: takes the path of a PNG file to write. Refuses folders and names of other files. "-" is standard
  * output and is refused if standard output is a terminal. */
 command_option_reader read_picture;
+/* For a const char *: takes the path of an animated PNG or a video to write, under the rules of read_picture. */
+command_option_reader read_film;
 /* For a const char *: takes the path of a text file to write. Refuses folders and names of pictures. "-" is standard
  * output. */
 command_option_reader read_file;
@@ -113,6 +115,10 @@ command_option_reader read_quiet;  /* for --quiet: is_quiet() then returns true 
         "max-ticks", "N", "play sessions of up to N ticks (default " NUMBER_AS_TEXT(SESSION_MOST_PLAYED) ")",          \
             .read = read_whole, OPTION_VALUE(type, member), .min = 1, .max = SESSION_LAST_TICK                         \
     }
+
+/* Reads a range of ticks: "100:200", "100:" or ":200". *last is exclusive. If the range is invalid, prints an error and
+ * returns false. */
+bool read_tick_range(const command_option *option, const char *text, uint64_t *first, uint64_t *last);
 
 /* Returns whether -o would accept this path; `reader` is the function that reads the value of -o. If a surplus argument
  * is such a path, the user may have forgotten to type -o. */

@@ -11,8 +11,8 @@
 #include "fixture.h"
 #include "view_options.h"
 
-static const char *const commands[] = {"record", "play",    "join", "verify", "audit",
-                                       "pick",   "inspect", "diff", "accept"};
+static const char *const commands[] = {"record", "play", "join",    "film", "verify",
+                                       "audit",  "pick", "inspect", "diff", "accept"};
 
 enum { COMMANDS = sizeof commands / sizeof commands[0] };
 

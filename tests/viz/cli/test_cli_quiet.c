@@ -35,6 +35,7 @@ static void commands_that_write_files_print_nothing(void **state)
         assert_silent(run_quiet("play -q -o %s/page.html", own->name));
     assert_silent(run_quiet("record " SMALL " -q --ticks :1 -o %s/chunks", own->name));
     assert_silent(run_octreel(NULL, "record " SMALL " -q --ticks 1: -o %s/chunks", own->name));
+    assert_silent(run_quiet("film -q %s/film -o %s/film.png", own->name));
     assert_silent(run_octreel(NULL, "join --quiet %s/chunks", own->name));
     unsetenv("CI"); /* accept refuses to run if CI is set */
     assert_silent(run_octreel(NULL, "accept -q %s/golden %s/film", own->name, own->name));

@@ -19,7 +19,7 @@ static const char *const names[] = {
  * or refuse, but not take longer than the limit of timeout(1), which then ends with status 124. */
 static void assert_nothing_leaves(const temp_folder *folder, const char *make, const char *name)
 {
-    static const char *const commands[] = {"record --resume -o edited", "join edited"};
+    static const char *const commands[] = {"record --resume -o edited", "join edited", "film edited -o film.png"};
     for (size_t i = 0; i < sizeof commands / sizeof commands[0]; i++) {
         command_result result = run_script(
             "cd %s && rm -rf edited && cp -r %s edited && echo kept >kept && set -- edited/%s && rm -f \"$1\" && %s && "
