@@ -281,7 +281,7 @@ const command command_record = {
                 "# film ticks 1000 to 1999; octreel join puts such chunks together\n"
                 "octreel record session.json --ticks 1000:2000 -o frames\n"
                 "# make an animated PNG of all frames\n"
-                "(cd frames && ffmpeg -framerate 15 -pattern_type glob -i 'frame_*.png' -plays 0 film.apng)\n"
+                "octreel film frames -o film.png\n"
                 "# make one picture with every tenth frame\n"
                 "(cd frames && ffmpeg -pattern_type glob -i 'frame_*.png' -vf \"select='not(mod(n,10))',"
                 "scale=320:-1,tile=5x5\" -frames:v 1 -update 1 sheet.png)\n",

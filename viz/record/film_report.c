@@ -14,21 +14,16 @@
 
 /* ---- Commands ----------------------------------------------------------------------------------------------- */
 
-/* Print the commands that show the recording. The ffmpeg command changes into the folder first, because ffmpeg could
- * read characters in the folder's name as a pattern. "./" keeps cd from searching CDPATH. The command uses a glob
- * pattern, because ffmpeg ends a numbered sequence at the first missing number. Most players need yuv420p, which needs
- * an even width and height. */
+/* Print the ways to show the recording. */
 static void print_uses(FILE *out, const film_summary *summary, const char *folder)
 {
     if (summary->frames == 0) {
         fputs(page_plays() ? "its index.html draws it in a browser, and plays on\n" : "", out);
         return;
     }
-    fprintf(out, "its index.html shows it in a browser; as a film: (cd %s", folder[0] == '/' ? "" : "./");
+    fprintf(out, "its index.html shows it in a browser; as a film: %s film ", hint_program_name());
     hint_write_shell_word(out, folder);
-    fputs(" && ffmpeg -framerate 15 -pattern_type glob -i 'frame_*.png' -vf 'pad=ceil(iw/2)*2:ceil(ih/2)*2' -pix_fmt "
-          "yuv420p film.mp4)\n",
-          out);
+    fputs(" -o film.png\n", out);
 }
 
 /* ---- The summary of film_session() ---------------------------------------------------------------------------- */

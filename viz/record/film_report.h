@@ -12,7 +12,7 @@
 #define FILM_LEFT_OUT 48
 const char *film_left_out_text(unsigned left_out, char text[FILM_LEFT_OUT]);
 
-/* Print the summary as a few lines of text, with the ffmpeg command that makes a film, or as one JSON object on one
+/* Print the summary as a few lines of text, with the command that makes a film, or as one JSON object on one
  * line. */
 void film_report(FILE *out, const film_summary *summary, const film_options *options, double seconds, bool json);
 

@@ -92,9 +92,9 @@ static void manual_refers_to_the_commands_it_mentions(void **state)
 {
     static const struct {
         const char *page, *commands;
-    } rows[] = {
-        {"record", ".BR octreel (1),\n.BR octreel\\-join (1),\n.BR octreel\\-verify (1),\n.BR octreel\\-session (5)"},
-        {"octreel", ".BR octreel\\-record (1),\n.BR octreel\\-play (1),\n.BR octreel\\-join (1)"}};
+    } rows[] = {{"record", ".BR octreel (1),\n.BR octreel\\-join (1),\n.BR octreel\\-film (1),\n.BR octreel\\-verify "
+                           "(1),\n.BR octreel\\-session (5)"},
+                {"octreel", ".BR octreel\\-record (1),\n.BR octreel\\-play (1),\n.BR octreel\\-join (1)"}};
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         command_result manual = run_octreel(NULL, "help --man %s", rows[i].page);
