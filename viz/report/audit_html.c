@@ -6,15 +6,14 @@
 #include "audit_print.h"
 #include "file.h"
 #include "frame_file.h"
+#include "link.h"
 #include "number.h"
 #include "text.h"
 
 #include <inttypes.h>
-#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 /* ---- Links -------------------------------------------------------------------------------------------------- */
 
@@ -26,78 +25,14 @@ typedef struct page {
     bool has_viewer; /* the folder of the recording has an index.html, the page that plays the recording */
 } page;
 
-/* Return the relative path from one absolute folder to another. */
-static char *relative_path(const char *from, const char *to)
-{
-    size_t shared = 0;
-    char *path = NULL;
-    text_stream s;
-    for (size_t i = 0;; i++) {
-        if ((from[i] == 0 || from[i] == '/') && (to[i] == 0 || to[i] == '/'))
-            shared = i;
-        if (from[i] != to[i] || from[i] == 0)
-            break;
-    }
-    if (!text_stream_begin(&s))
-        return NULL;
-    fputs("./", s.stream);
-    for (const char *at = from + shared; *at; at++)
-        if (*at == '/')
-            fputs("../", s.stream);
-    if (to[shared])
-        fprintf(s.stream, "%s/", to + shared + 1);
-    return text_stream_end(&s, &path) ? path : NULL;
-}
-
-/* Return the absolute path of a folder. The parts "." and "..", and double slashes, are resolved in the text, as a
- * browser does; symbolic links are not followed. Return null if memory runs out or the current folder is unknown. */
-static char *absolute_path(const char *path)
-{
-    char here[PATH_MAX] = "";
-    if (path[0] != '/' && !getcwd(here, sizeof here))
-        return NULL;
-    char *made = malloc(strlen(here) + strlen(path) + 2);
-    size_t length = 0;
-    const char *const parts[] = {here, path};
-    for (int i = 0; made && i < 2; i++)
-        for (const char *at = parts[i]; *at;) {
-            const size_t size = strcspn(at, "/");
-            if (size == 2 && at[0] == '.' && at[1] == '.') {
-                while (length > 0 && made[--length] != '/')
-                    continue;
-            } else if (size > 1 || (size == 1 && *at != '.')) {
-                made[length++] = '/';
-                memcpy(made + length, at, size);
-                length += size;
-            }
-            at += size + (at[size] == '/');
-        }
-    if (made)
-        made[length] = 0;
-    return made;
-}
-
 /* Set `base` and `has_viewer` of the page. Return false if memory runs out. */
 static bool find_recording(page *p, const char *from)
 {
     if (!p->verdict->recording)
         return true;
-    char *here = absolute_path(from), *there = absolute_path(p->verdict->path);
-    p->base = here && there ? relative_path(here, there) : NULL;
-    p->has_viewer = folder_contains(p->verdict->path, "index.html");
-    free(here);
-    free(there);
+    p->base = link_find_folder(from, p->verdict->path);
+    p->has_viewer = link_has_page(p->verdict->path);
     return p->base;
-}
-
-static void write_url(FILE *out, const char *path)
-{
-    for (; *path; path++)
-        if (strchr("-._~/", *path) || (*path >= '0' && *path <= '9') || (*path >= 'A' && *path <= 'Z') ||
-            (*path >= 'a' && *path <= 'z'))
-            putc(*path, out);
-        else
-            fprintf(out, "%%%02X", (unsigned char)*path);
 }
 
 /* Print the text `before` and begin a link to the frame of a tick. If there is no frame, print nothing and return
@@ -108,21 +43,31 @@ static bool begin_frame_link(const page *p, uint64_t tick, const char *before)
     if (!p->base || !folder_contains(p->verdict->path, frame_print_name(tick, name)))
         return false;
     fprintf(p->out, "%s<a href=\"", before);
-    write_url(p->out, p->base);
-    write_url(p->out, name);
+    link_write_path(p->out, p->base);
+    link_write_path(p->out, name);
     fputs("\">", p->out);
     return true;
 }
 
+/* An element that a link to the recording's page selects: `word` is "point" or "foreign", a foreign node; null: none.
+ */
+typedef struct link_target {
+    const char *word;
+    uint64_t id;
+} link_target;
+
 /* Print the text `before` and begin a link to the recording's page at a tick. If there is no page, print nothing and
  * return false. */
-static bool begin_viewer_link(const page *p, uint64_t tick, const char *before)
+static bool begin_viewer_link(const page *p, uint64_t tick, link_target target, const char *before)
 {
     if (!p->base || !p->has_viewer)
         return false;
     fprintf(p->out, "%s<a href=\"", before);
-    write_url(p->out, p->base);
-    fprintf(p->out, "index.html#t=%" PRIu64 "\">", tick);
+    link_write_path(p->out, p->base);
+    fprintf(p->out, "index.html#t=%" PRIu64, tick);
+    if (target.word)
+        fprintf(p->out, "&amp;select=%s+%" PRIu64, target.word, target.id);
+    fputs("\">", p->out);
     return true;
 }
 
@@ -221,7 +166,8 @@ static const audit_tick *find_worst_tick(const chart *c, size_t point, size_t po
 static void write_point(const page *p, const chart *c, const audit_tick *tick)
 {
     char text[AUDIT_RATIO_TEXT];
-    const bool linked = begin_frame_link(p, tick->tick, "") || begin_viewer_link(p, tick->tick, "");
+    const bool linked =
+        begin_frame_link(p, tick->tick, "") || begin_viewer_link(p, tick->tick, (link_target){NULL}, "");
     fprintf(p->out, "<circle class=\"point%s\" cx=\"%.1f\" cy=\"%.1f\" r=\"%s\"><title>tick %" PRIu64 ": ",
             tick->wrong ? " wrong" : "", chart_x(c, tick->tick), chart_y(c, chart_value(c, tick)),
             tick->wrong ? "5" : "2.5", tick->tick);
@@ -256,20 +202,34 @@ static void write_chart(const page *p, const audit_kind *kind, bool ratio)
 /* ---- Words -------------------------------------------------------------------------------------------------- */
 
 /* Print " (frame, page)" with links to the frame and the page of a tick, if they exist. */
-static void write_links(const page *p, uint64_t tick)
+static void write_links(const page *p, uint64_t tick, link_target target)
 {
     const bool frame = begin_frame_link(p, tick, " (");
     fputs(frame ? "frame</a>" : "", p->out);
-    const bool viewer = begin_viewer_link(p, tick, frame ? ", " : " (");
+    const bool viewer = begin_viewer_link(p, tick, target, frame ? ", " : " (");
     fputs(viewer ? "page</a>" : "", p->out);
     fputs(frame || viewer ? ")" : "", p->out);
+}
+
+/* Return the first point that a wrong answer lacks or has too much. */
+static link_target find_wrong_point(const audit_case *c)
+{
+    const octree_point *first = c->made.missing_count ? c->missing : c->made.extra_count ? c->extra : NULL;
+    return first ? (link_target){"point", first->id} : (link_target){NULL};
+}
+
+/* Return the node that is wrong, or the point that no node holds. */
+static link_target find_wrong_node(const octree_wrong_node *wrong)
+{
+    return wrong->kind == OCTREE_NODE_LOST_POINT ? (link_target){"point", wrong->point}
+                                                 : (link_target){"foreign", wrong->node};
 }
 
 /* Print a wrong answer: first as a sentence, then as the JSON of its line in ticks.jsonl, which has all digits. */
 static void write_worst(const page *p, const audit_case *c, const octree_query_traits *about)
 {
     fprintf(p->out, "<li>tick %" PRIu64, c->tick);
-    write_links(p, c->tick);
+    write_links(p, c->tick, find_wrong_point(c));
     fputs(", ", p->out);
     audit_print_case(p->out, c, about);
     fputs("<details><summary>as in ticks.jsonl</summary><pre>", p->out);
@@ -288,7 +248,7 @@ static void write_nodes(const page *p, const audit_nodes *nodes)
         fputs("<li>", p->out);
         audit_print_wrong_nodes(p->out, nodes, (octree_wrong_node_kind)i);
         if (nodes->first[i].known)
-            write_links(p, nodes->first[i].tick);
+            write_links(p, nodes->first[i].tick, find_wrong_node(&nodes->first[i].node));
         fputs("</li>\n", p->out);
     }
     fputs(nodes->wrong ? "</ul>\n</section>\n" : "</section>\n", p->out);

@@ -6,6 +6,8 @@
  * by block, so that they are never in memory as a whole.
  */
 #include "evidence_page.h"
+#include "frame_file.h"
+#include "link.h"
 #include "report_json.h"
 #include "text.h"
 
@@ -116,6 +118,39 @@ static void write_entries(json_writer *w, const page *p)
     json_write_end_array(w);
 }
 
+/* Write the relative addresses of the pages of the two recordings, as far as they exist. */
+static void write_recordings(json_writer *w, const diff_report *report)
+{
+    const diff_side *const sides[] = {report->a, report->b};
+    json_begin_object_member(w, "recordings");
+    for (int i = 0; i < 2; i++) {
+        char *folder = sides[i]->kind == DIFF_RECORDING && link_has_page(sides[i]->path)
+                           ? link_find_folder(report->evidence->folder, sides[i]->path)
+                           : NULL;
+        if (folder)
+            json_write_text_member(w, evidence_word(i ? EVIDENCE_ACTUAL : EVIDENCE_EXPECTED), folder);
+        free(folder);
+    }
+    json_write_end_object(w);
+}
+
+/* Write the tick of a frame of a recording, and the first point that the cause of its difference is about. */
+static void write_subject(json_writer *w, const page *p, size_t pair)
+{
+    uint64_t tick;
+    if (!frame_parse_name(diff_pair_name(&p->report->result->pairs[pair]), &tick))
+        return;
+    json_write_integer_member(w, "tick", tick);
+    const cause_tick *cause = cause_find_tick(&p->report->why->cause, tick);
+    for (size_t i = 0; cause && i < cause->facts.count; i++) {
+        const cause_group *group = &cause->facts.groups[i];
+        if (cause_count_listed(group) && group->listed[0].id != CAUSE_NO_ID) {
+            json_write_integer_member(w, "point", group->listed[0].id);
+            return;
+        }
+    }
+}
+
 static void write_folder_findings(json_writer *w, const page *p)
 {
     json_write_begin_object(w);
@@ -124,6 +159,7 @@ static void write_folder_findings(json_writer *w, const page *p)
     json_write_text_member(w, "tolerance_words", p->report->groups->tolerance);
     json_write_integer_member(w, "different", p->count + p->left_out);
     json_write_integer_member(w, "left_out", p->left_out);
+    write_recordings(w, p->report);
     write_curve(w, p->report->result);
     write_entries(w, p);
     json_write_end_object(w);
@@ -154,6 +190,7 @@ static void write_group(json_writer *w, const page *p, size_t n)
     json_write_text_member(w, "frames_words", p->report->groups->groups[group].frames);
     diff_json_group(w, p->report, group);
     write_files(w, p->report, first_pair(p, n));
+    write_subject(w, p, first_pair(p, n));
     json_write_bool_member(w, "embedded", p->groups[n].embedded);
     json_write_end_object(w);
     json_write_end_line(w);

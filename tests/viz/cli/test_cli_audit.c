@@ -283,7 +283,7 @@ static void ticks_on_the_page_link_to_their_frames(void **state)
     assert_non_null(strstr(within, "<a href=\"./frame_000002.png\"><circle"));
     assert_non_null(strstr(within, "<title>tick 2: ratio 3.60555, 1 of 1 wrong</title>"));
     assert_non_null(strstr(within, "<li>tick 2 (<a href=\"./frame_000002.png\">frame</a>, <a "
-                                   "href=\"./index.html#t=2\">page</a>), answers[0]: a neighbour"));
+                                   "href=\"./index.html#t=2&amp;select=point+1\">page</a>), answers[0]: a neighbour"));
     assert_null(strstr(within, "<script"));
     free(beside);
     free(within);
@@ -464,7 +464,8 @@ static void wrong_nodes_link_to_their_ticks(void **state)
     command_release(&result);
     char *page = file_read(place_in(*state, "film/audit.html").path, NULL);
     assert_non_null(strstr(page, "<li>3 times: it lists a point more than once (tick 1, node 7, point 2) (<a "
-                                 "href=\"./frame_000001.png\">frame</a>, <a href=\"./index.html#t=1\">page</a>)</li>"));
+                                 "href=\"./frame_000001.png\">frame</a>, <a "
+                                 "href=\"./index.html#t=1&amp;select=foreign+7\">page</a>)</li>"));
     free(page);
 }
 

@@ -240,6 +240,25 @@ static void text_lists_are_cut_but_json_lists_are_whole(void **state)
     command_release(&result);
 }
 
+/* The page of a comparison leads to the pages of the recordings. */
+static void page_links_to_the_compared_recordings(void **state)
+{
+    const char *const keys[] = {"wwd", "wdd"};
+    const place sides[] = {place_in(*state, "a"), place_in(*state, "b")}, evidence = place_in(*state, "evidence");
+    for (int i = 0; i < 2; i++) {
+        command_result recorded = run_octreel(NULL, "record --keys %s --size 64x48 -o %s", keys[i], sides[i].path);
+        assert_done(&recorded);
+        command_release(&recorded);
+    }
+    command_result result = run_octreel(NULL, "diff %s %s -o %s", sides[0].path, sides[1].path, evidence.path);
+    assert_int_equal(result.status, 1);
+    command_release(&result);
+    char *page = file_read(place_below(evidence.path, "report.html").path, NULL);
+    assert_non_null(strstr(page, "\"recordings\": {\"expected\": \"./../a/\", \"actual\": \"./../b/\"}"));
+    assert_non_null(strstr(page, "\"tick\": 2"));
+    free(page);
+}
+
 static void removed_command_digest_names_its_replacement(void **state)
 {
     (void)state;
@@ -309,6 +328,7 @@ int main(void)
         WITH_FOLDER(json_contains_the_whole_result),
         WITH_FOLDER(json_is_printed_for_errors_too),
         WITH_FOLDER(text_lists_are_cut_but_json_lists_are_whole),
+        WITH_FOLDER(page_links_to_the_compared_recordings),
         cmocka_unit_test(removed_command_digest_names_its_replacement),
         WITH_FOLDER(baseline_of_one_picture_is_compared_with_a_picture),
         cmocka_unit_test(help_describes_the_command),

@@ -94,6 +94,21 @@ class Report {
         for (const [name, value] of factsOf(finding))
             byId("facts-of-frame").append(element("dt", name), element("dd", value, {"data-fact": name}));
         this.showFiles(finding);
+        this.showPages(finding);
+    }
+
+    /* Show links to the pages of the recordings, at the tick of the finding and with the point that its cause names. */
+    showPages({tick, point})
+    {
+        const pages = Object.entries(this.findings.whole.recordings);
+        if (tick === undefined || pages.length === 0)
+            return;
+        const value = element("dd", "", {"data-fact": "play"}), select = point === undefined ? "" : `&select=point+${point}`;
+        value.append(...pages.map(([word, folder]) => {
+            const path = folder.split("/").map(encodeURIComponent).join("/");
+            return element("a", word, {href: `${path}index.html#t=${tick}${select}`, title: "Play this recording from this tick"});
+        }));
+        byId("facts-of-frame").append(element("dt", "play"), value);
     }
 
     /* Show links to the picture files in the folder of the page. */

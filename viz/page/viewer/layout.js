@@ -3,20 +3,20 @@
  * which can be folded to a strip. */
 "use strict";
 
-/* The sheets lie at the same place: opening one closes the other. */
-const SHEETS = ["sheet", "tools"];
-
 const LARGE_HEIGHT = 1000; /* CSS pixels; the timeline of a lower window is folded at first */
 const LARGE_WIDTH = 760;   /* CSS pixels; in a narrower window the column of text is closed at first */
+
+/* The parts that lie at the same place, so that opening one closes the others. In a narrow window the column of text lies
+ * there, too. */
+const sheets = () => ["sheet", "tools", ...(innerWidth > LARGE_WIDTH ? [] : ["column"])];
 
 const isOpen = id => !byId(id).hidden;
 
 function setOpen(id, open)
 {
     const opener = document.querySelector(`[data-opens="${id}"]`), leaves = byId(id).contains(document.activeElement);
-    for (const other of open && SHEETS.includes(id) ? SHEETS : [])
-        if (other !== id)
-            setOpen(other, false);
+    if (open && sheets().includes(id))
+        sheets().filter(other => other !== id && isOpen(other)).forEach(other => setOpen(other, false));
     byId(id).hidden = !open;
     opener.setAttribute("aria-expanded", open);
     if (!open && leaves)
@@ -26,7 +26,7 @@ function setOpen(id, open)
 /* Close the open sheet. Returns false if no sheet is open. */
 function closeSheet()
 {
-    const open = SHEETS.find(isOpen);
+    const open = sheets().find(isOpen);
     if (open)
         setOpen(open, false);
     return open !== undefined;
