@@ -13,6 +13,7 @@ const isShown = element => element !== null && !element.closest("[hidden]");
 async function open(text, more)
 {
     const frame = document.createElement("iframe");
+    frame.width = 900; /* wide enough for the column of text */
     frame.srcdoc = BEFORE.replace("MORE", () => more) + text;
     const loaded = new Promise(done => frame.addEventListener("load", done));
     document.body.append(frame);
@@ -37,6 +38,7 @@ async function sayPage({name, text, more = ""})
     await interaction.pressed;
     say(`${name}: after a key`, `tick ${page.document.body.dataset.tick} of ${page.viewer().last}` +
                                 `${interaction.isLive ? ", played" : ""}: ${byId("status").textContent}`);
+    say(`${name}: column`, isShown(byId("column")));
     say(`${name}: keys`, [...byId("help").querySelectorAll("kbd")].some(({textContent}) => textContent === "w"));
 }
 

@@ -100,6 +100,7 @@ static void undamaged_page_plays(void **state)
     assert_reported_value(said, "whole: faults", "");
     assert_reported_value(said, "whole: bar", "true");
     assert_reported_value(said, "whole: keys", "true");
+    assert_reported_value(said, "whole: column", "true");
     assert_reported_value(said, "whole: after a key", "tick 2 of 2, played: ");
 }
 
@@ -110,6 +111,7 @@ static void page_without_webassembly_shows_only_frames(void **state)
     assert_reported_value(said, "without WebAssembly: faults", "");
     assert_reported_value(said, "without WebAssembly: bar", "false");
     assert_reported_value(said, "without WebAssembly: keys", "false");
+    assert_reported_value(said, "without WebAssembly: column", "false");
     assert_reported_value(said, "without WebAssembly: after a key", "tick 1 of 3: ");
 }
 
@@ -137,6 +139,8 @@ static void page_with_a_damaged_module_shows_frames_and_says_so(void **state)
         free(told);
         snprintf(what, sizeof what, "%s: faults", names[i]);
         assert_reported_value(said, what, "");
+        snprintf(what, sizeof what, "%s: column", names[i]);
+        assert_reported_value(said, what, "false");
     }
 }
 

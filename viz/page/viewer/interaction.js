@@ -68,6 +68,7 @@ class Interaction {
     {
         return this.starting ??= this.begin().catch(error => {
             this.starting = undefined;
+            setOpen("column", false);
             this.showStatus(`The page cannot play: ${error.message}`);
             return false;
         });
@@ -436,6 +437,8 @@ class Interaction {
         byId("save").addEventListener("click", () => this.save());
         const held = new Set(); /* ids of the pointers that are down: a click may end before the module has started */
         stage.addEventListener("pointerdown", event => {
+            if (event.target === stage && this.exact)
+                return; /* a scroll bar */
             held.add(event.pointerId);
             this.start().then(begun => begun && (held.has(event.pointerId) ? this.live?.down(event) : this.live?.pickAt(event)));
         });

@@ -119,6 +119,8 @@ function arrange()
         button.addEventListener("click", () => setOpen(button.dataset.opens, !isOpen(button.dataset.opens)));
         setOpen(button.dataset.opens, false);
     }
+    for (const opens of hasModule() ? [] : ["column", "tools"])
+        document.querySelector(`[data-opens="${opens}"]`).hidden = true;
     for (const button of document.querySelectorAll(".close"))
         button.addEventListener("click", closeSheet);
     setOpen("column", hasModule() && innerWidth > LARGE_WIDTH);

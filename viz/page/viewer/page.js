@@ -268,6 +268,7 @@ const PLAYING_KEYS = [
                                    viewer => viewer.interaction.turn(dx, dy)]),
     [["Shift+PageUp"], "Shift Page Up", "zoom in (or scroll)", viewer => viewer.interaction.zoom(1.25)],
     [["Shift+PageDown"], "Shift Page Down", "zoom out", viewer => viewer.interaction.zoom(0.8)],
+    [["o"], "o", "open or close the panel and legend", () => setOpen("column", !isOpen("column"))],
     [["v"], "v", "open or close the controls of the view, and queries", () => setOpen("tools", !isOpen("tools"))],
     [["c"], "c", "identify what is in the middle of the view (or click anywhere)", viewer => viewer.interaction.pick()],
 ];
@@ -290,7 +291,6 @@ const KEYS = [
         [[String(i + 1)], String(i + 1), `select or deselect ${name}`, viewer => viewer.toggle(1 << i)]),
     [["0"], "0", "clear the selection", viewer => viewer.clearFilter()],
     ...(hasModule() ? PLAYING_KEYS : []),
-    [["o"], "o", "open or close the panel and legend", () => setOpen("column", !isOpen("column"))],
     [["i"], "i", "open or close the facts of the tick", () => setOpen("sheet", !isOpen("sheet"))],
     [["p"], "p", "show the recorded pixels, or fill the window",
      viewer => viewer.showExact(!viewer.interaction.exact)],
@@ -319,6 +319,8 @@ function isHandled(event)
         return true;
     if (event.key === "Escape")
         return false;
+    if (event.target.id === "stage" && document.body.classList.contains("exact"))
+        return event.key.startsWith("Arrow"); /* they scroll a frame that is larger than the window */
     if (!control || control.type === "range")
         return false;
     return control.matches("input, select, dialog") || [" ", "Enter"].includes(event.key);
