@@ -141,7 +141,7 @@ async function sayPlayedLink()
     say("played link", decodeURIComponent(location.hash));
     const saw = shown(), link = location.hash;
     await open("#t=3");
-    say("as recorded again", `${interaction.branchText}${octreel.last}`);
+    say("as recorded again", `${interaction.branchText}${octreel.last} ${player().engine.tick}`);
     await open(link);
     say("played link opens the same", shown() === saw);
     await open("#t=0");

@@ -102,7 +102,7 @@ static void link_holds_the_keys_and_the_query_of_the_user(void **state)
 {
     const driven *d = need_page(state);
     assert_reported_value(d->said, "played link", "#t=35&keys=30:wwdnn&ask={\"radius\":300,\"at\":[0,0,0]}");
-    assert_reported_value(d->said, "as recorded again", "252");
+    assert_reported_value(d->said, "as recorded again", "252 3");
     assert_reported_value(d->said, "played link opens the same", "true");
 }
 

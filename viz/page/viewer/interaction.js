@@ -215,7 +215,7 @@ class Interaction {
     restart(view)
     {
         this.asked = undefined;
-        this.player.restart(this.session, view);
+        this.player.restart(view);
         this.viewer.follow(this.recorded);
         this.showView();
         this.showBranch();
@@ -302,15 +302,14 @@ class Interaction {
         const [, branch, keys] = /^(\d{1,9}):([wsadefn.]{1,9999})$/.exec(text) ?? [];
         if (this.player.isBranched)
             this.restart(this.player.engine.view);
-        if (text && !keys)
-            throw new Error(`"${shownName(text)}" are no key presses`);
-        if (!text)
-            return;
-        this.viewer.goTo(Number(branch));
-        for (const key of keys)
+        if (keys)
+            this.viewer.goTo(Number(branch));
+        for (const key of keys ?? "")
             await this.press(key);
         this.viewer.goTo(tick);
         await this.show(this.viewer.tick);
+        if (text && !keys)
+            throw new Error(`"${shownName(text)}" are no key presses`);
     }
 
     /* Select an element by its name, or none. */

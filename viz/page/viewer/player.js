@@ -170,13 +170,15 @@ class Player {
             this.restore(one, this.states.list[0]);
     }
 
-    /* Open the session once more, without the user's key presses and with a view. */
-    restart(session, view)
+    /* Go back to tick 0 of the session itself, without the user's key presses and with a view. */
+    restart(view)
     {
         this.keys = "";
         this.branch = this.given - 1;
+        this.going = {};
+        this.rewind(state => state.isBranched);
         this.engine.view = view;
-        this.reopen(session);
+        this.restore(this.engine, this.states.list[0]);
     }
 
     /* The text of session.json for the session, with the user's key presses. */
