@@ -22,7 +22,8 @@
  * for the layer in sentences; its description in --help; its main colour (theme.h); whether the layer fades with
  * distance as much as the tree does; whether the layer is shown by default. Scene digests hash the names. */
 #define LAYER_MAP(X)                                                                                                   \
-    X(WORLD, "world", "the world", "the world's box, the slice and the region, and axes with numbers", ROLE_WORLD,     \
+    X(WORLD, "world", "the world",                                                                                     \
+      "the world's box, the slice and the region, axes with numbers, and in zoomed pictures a scale bar", ROLE_WORLD,  \
       true, true)                                                                                                      \
     X(NODES, "nodes", "nodes", "the boxes of the nodes", ROLE_NODE_PLAIN, true, true)                                  \
     X(VISIT_HEAT, "visit-heat", "heat", "leaves, by the number of ticks in which queries visited them", ROLE_NODE,     \

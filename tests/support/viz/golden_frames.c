@@ -41,6 +41,7 @@ const golden_frame golden_frames[] = {
     {"fit", "iso", TREE, 0, "clustered", 0, 0},
     {"left_out", "top", TREE ",text", 0, "clustered", 640, 360},
     {"labels", "iso", TREE, 0, NULL, 640, 360},
+    {"zoomed", "iso", TREE ",text", 0, "clustered", 310, 240},
     {"aa", "orbit", SHAPES, 219, NULL, 160, 90},
     {"lod", "orbit", TREE, 0, "clustered", 0, 0},
     {"budget", "iso", TREE ",text", 0, "clustered", 320, 240},
@@ -76,6 +77,7 @@ static const struct {
     {"region", {.filter = {.by_region = true, .region = {{-900, -900, -300}, {100, 0, 300}}}}},
     {"fit", {.fit = FIT_POINTS, .filter = {.by_region = true, .region = {{-900, -900, -900}, {0, 0, 0}}}}},
     {"labels", {.labels = true}},
+    {"zoomed", {.zoom = 6, .center = {.given = true, .place = {-400, -200, -400}}}},
     {"aa", {.aa = 4}},
     {"closeup", {.closeup = true}},
     {"lod", {.lod = 12}},
@@ -98,7 +100,7 @@ static view view_of_frame(const golden_frame *frame)
             v = views[i].view;
     v.width = frame->width ? frame->width : 320;
     v.height = frame->height ? frame->height : 180;
-    v.zoom = 1;
+    v.zoom = v.zoom > 0 ? v.zoom : 1;
     v.aa = v.aa > 0 ? v.aa : 1;
     return v;
 }

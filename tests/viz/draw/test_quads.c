@@ -21,6 +21,16 @@ static void quads_are_sorted_by_layer_then_band_then_depth(void **state)
     }
 }
 
+/* No point, player or collision box hides the rank of a neighbour. */
+static void ranks_of_neighbours_lie_above_points_and_boxes(void **state)
+{
+    (void)state;
+    static const unsigned below[] = {LAYER_POINTS,  LAYER_VELOCITIES, LAYER_RANGE, LAYER_RADIUS,
+                                     LAYER_NEAREST, LAYER_PLAYER,     LAYER_BOX,   LAYER_KNEAREST};
+    for (size_t i = 0; i < sizeof below / sizeof below[0]; i++)
+        assert_true(make_text_order(LAYER_KNEAREST) > make_quad_order(below[i], 0, 0));
+}
+
 static quad random_quad(uint64_t *random, int number)
 {
     quad q = {.color = (uint8_t)random_below(random, 256)};
@@ -177,6 +187,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(quads_are_sorted_by_layer_then_band_then_depth),
+        cmocka_unit_test(ranks_of_neighbours_lie_above_points_and_boxes),
         cmocka_unit_test(sorting_keeps_every_quad_and_the_order_of_equals),
         cmocka_unit_test(quads_of_every_tick_are_in_painters_order_within_23_bits),
         cmocka_unit_test(points_on_one_pixel_are_one_quad_in_the_nearest_band),
