@@ -175,10 +175,12 @@ class Live {
         return x >= left && y >= top && x < left + width && y < top + height ? {...this.camera, ...closeup} : this.camera;
     }
 
-    /* The center of a camera after the picture has been moved by a number of pixels. */
+    /* The center of a camera after the picture has been moved by a number of pixels, rounded to about a hundredth of a
+     * pixel, so that addresses stay short. */
     moved(dx, dy, {right, up, center, pixel} = this.camera)
     {
-        return center.map((at, i) => roundedPlace(at - (right[i] * dx - up[i] * dy) * pixel));
+        const decimals = clamp(Math.ceil(2 - Math.log10(pixel)) || 0, 0, 100);
+        return center.map((at, i) => roundedPlace(Number((at - (right[i] * dx - up[i] * dy) * pixel).toFixed(decimals))));
     }
 
     move(dx, dy)
