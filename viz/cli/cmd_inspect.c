@@ -2,6 +2,7 @@
 /* cmd_inspect.c - octreel inspect: builds the tree of a point cloud, and prints or draws the tree, its nodes and the
  * answers to queries. */
 #include "cloud.h"
+#include "cloud_page.h"
 #include "command.h"
 #include "file.h"
 #include "film.h"
@@ -25,7 +26,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The files that the command can write: a picture and a CSV file of the nodes. */
+/* The files that the command can write: a picture or a page, and a CSV file of the nodes. */
 enum { PICTURE, NODES, OUTPUTS };
 
 typedef struct arguments {
@@ -39,6 +40,12 @@ typedef struct arguments {
     view view;
     renderer_choice renderer;
 } arguments;
+
+/* Returns true if -o names a page and not a picture. */
+static bool is_page(const arguments *a)
+{
+    return a->outputs[PICTURE].path && file_has_ending(a->outputs[PICTURE].path, ".html");
+}
 
 static bool read_depth(const command_option *option, const char *text, void *into)
 {
@@ -97,8 +104,11 @@ static const command_option options[] = {
     {"world", "BOX", "x0,y0,z0,x1,y1,z1 (default: the smallest cube around the points)", .read = read_world,
      .size = sizeof(arguments)},
     {.help = "What is printed and written:"},
-    {"output", "FILE", "draw the tree into this PNG; - is standard output, and the report then goes to standard error",
-     .read = read_picture, OPTION_VALUE(arguments, outputs[PICTURE].path)},
+    {"output", "FILE",
+     "draw the tree into this PNG, or make a page that shows it in a browser if the name ends with .html; - is a PNG "
+     "on "
+     "standard output, and the report then goes to standard error",
+     .read = read_picture_or_page, OPTION_VALUE(arguments, outputs[PICTURE].path)},
     {"node", "ADDRESS", "print the box and the points of one node, such as 0/3/7 or root; a picture marks it",
      .read = read_node, OPTION_VALUE(arguments, node)},
     {"nodes", "FILE.csv", "write all nodes as CSV; - is standard output, and the report then goes to standard error",
@@ -127,6 +137,36 @@ typedef struct report {
     char chosen[INSPECT_CHOICE]; /* a sentence about the view options that the program chose by itself, or "" */
 } report;
 
+static void note_missing_value(const report *r)
+{
+    const char *missing = point_scale_missing_value(&r->view, &r->made->values);
+    if (missing)
+        print_note("no point has %s: --color-points %s shows all points alike", missing,
+                   view_point_color_name(r->view.point_color));
+}
+
+static bool write_page(const report *r, octreel_error *error)
+{
+    const arguments *a = r->a;
+    const char *path = a->outputs[PICTURE].path;
+    const cloud_page page = {.title = r->name,
+                             .node = a->node ? r->node.address : 0,
+                             .made = r->made,
+                             .view = &r->view,
+                             .queries = a->queries.items,
+                             .query_count = a->queries.count};
+    file_writer file;
+    progress bar = progress_start("");
+    progress_say(&bar, "writing %s", path);
+    const bool ok =
+        file_writer_open(&file, path, error) &&
+        (cloud_page_write(&page, file.stream, error) ? file_writer_close(&file, error) : file_writer_discard(&file));
+    progress_end(&bar);
+    if (ok)
+        note_missing_value(r);
+    return ok;
+}
+
 static bool draw_picture(const report *r, octreel_error *error)
 {
     film_summary drawn = {0};
@@ -146,9 +186,7 @@ static bool draw_picture(const report *r, octreel_error *error)
         return false;
     if (*drawn.checks.reason.text)
         print_note("%s was not checked: %s", picture, drawn.checks.reason.text);
-    if (point_scale_missing_value(&r->view, &r->made->values))
-        print_note("no point has %s: --color-points %s shows all points alike",
-                   point_scale_missing_value(&r->view, &r->made->values), view_point_color_name(r->view.point_color));
+    note_missing_value(r);
     if (drawn.over_budget)
         print_note("%s leaves out %s beyond --budget", picture, film_left_out_text(drawn.beyond, left_out));
     /* If the picture has the text layer, the picture itself contains this note. */
@@ -169,6 +207,15 @@ static FILE *print_wrote(const char *path, FILE *out)
     return out;
 }
 
+static void print_picture_size(const report *r, FILE *out)
+{
+    const char *more = *r->chosen ? "; " : "";
+    if (is_page(r->a))
+        fprintf(out, "open it in a browser%s%s\n", more, r->chosen);
+    else
+        fprintf(out, "%d x %d pixels%s%s\n", r->a->view.width, r->a->view.height, more, r->chosen);
+}
+
 /* Prints the node of --node and the answers to queries. If neither was asked for, prints the statistics. With --json,
  * does not mention the written files, because the output must be JSON only. */
 static void print_report(const report *r)
@@ -183,8 +230,7 @@ static void print_report(const report *r)
     if (!a->node && !a->queries.count)
         inspect_print(r->made, r->name, a->json, out);
     if (picture && !a->json && !is_quiet())
-        fprintf(print_wrote(picture, out), "%d x %d pixels%s%s\n", a->view.width, a->view.height,
-                *r->chosen ? "; " : "", r->chosen);
+        print_picture_size(r, print_wrote(picture, out));
     if (nodes && !a->json && !is_quiet())
         fputs("all nodes\n", print_wrote(nodes, out));
 }
@@ -201,7 +247,7 @@ static bool make_report(report *r, octreel_error *error)
     const bool ok = (!a->outputs[PICTURE].path ||
                      (inspect_choose_view(r->made, has_view_option(&a->view_options, "color-points"),
                                           has_view_option(&a->view_options, "shade"), &r->view, r->chosen, error) &&
-                      draw_picture(r, error))) &&
+                      (is_page(a) ? write_page : draw_picture)(r, error))) &&
                     (!a->outputs[NODES].path || inspect_write_nodes(r->made, a->outputs[NODES].path, error));
     if (ok)
         print_report(r);
@@ -271,11 +317,15 @@ static int inspect_and_report(const arguments *a)
 /* If -o is missing, refuses the options of the picture, because they would have no effect. */
 static bool check_picture(const arguments *a)
 {
-    const char *first = find_first_view_option(&a->view_options);
-    if (!first && a->renderer.fill != DRAW_FILL_CHECKED)
-        first = "fill";
-    if (!first)
-        first = a->renderer.any_renderer ? "any-renderer" : a->renderer.context != DRAW_AUTO ? "context" : NULL;
+    const char *first = find_first_view_option(&a->view_options),
+               *drawing = a->renderer.fill != DRAW_FILL_CHECKED ? "fill"
+                          : a->renderer.any_renderer            ? "any-renderer"
+                          : a->renderer.context != DRAW_AUTO    ? "context"
+                                                                : NULL;
+    if (is_page(a) && drawing)
+        return print_refusal("--%s changes how a PNG is drawn, but %s is a page, which draws by itself", drawing,
+                             a->outputs[PICTURE].path);
+    first = first ? first : drawing;
     if (a->outputs[PICTURE].path || !first)
         return true;
     return print_refusal("--%s changes the picture, but no picture is drawn: add -o FILE.png", first);
@@ -293,7 +343,8 @@ static int run(int argc, char **argv)
         return status;
     a.cloud = argv[optind];
     const bool ok = check_renderer(&a.renderer) && check_picture(&a) && read_view(&a.view_options, &a.view) &&
-                    check_outputs(a.outputs, OUTPUTS, argv + optind, 1, a.json, a.force);
+                    check_outputs(a.outputs, OUTPUTS, argv + optind, 1, a.json, a.force) &&
+                    (!is_page(&a) || check_page_output(&a.outputs[PICTURE], a.force));
     return ok ? inspect_and_report(&a) : EXIT_TROUBLE;
 }
 
@@ -301,11 +352,14 @@ const command command_inspect = {
     .name = "inspect",
     .run = run,
     .options = options,
-    .line = "show how a point cloud subdivides: a picture, statistics, nodes, queries",
-    .usage = "CLOUD [-o PICTURE.png] [OPTION ...]",
-    .about = "Build an octree from a point cloud (" CLOUD_NAMES ") and print its statistics. With -o, "
-             "draw the tree as well. CLOUD may be -, standard input. The format is recognized by the content, not by "
-             "the name.\n",
+    .line = "show how a point cloud subdivides: a picture, a page, statistics, nodes, queries",
+    .usage = "CLOUD [-o PICTURE.png | -o PAGE.html] [OPTION ...]",
+    .about =
+        "Build an octree from a point cloud (" CLOUD_NAMES ") and print its statistics. With -o, "
+        "draw the tree as well, or make a page that shows the same picture and can turn it, zoom, name what is under "
+        "the mouse, measure and ask queries. CLOUD may be -, standard input. The format is recognized by the content, "
+        "not by "
+        "the name.\n",
     .more = "Text may begin with column names or, as .pts files do, with the number of points. Without column names, "
             ".xyzrgb files have colours after the coordinates, .xyzn files normals, and .pts files that begin with the "
             "number of points an intensity, a colour or both. Points are numbered from 0 in file order. Points without "
@@ -315,6 +369,8 @@ const command command_inspect = {
     .statuses = {"done", NULL, "error"},
     .examples = "# draw the tree of a scan whose leaves hold at most 32 points\n"
                 "octreel inspect scan.pcd -o tree.png --capacity 32\n"
+                "# make a page that shows the scan in a browser\n"
+                "octreel inspect scan.pcd -o scan.html\n"
                 "# print one node, its box and its points, as JSON\n"
                 "octreel inspect points.txt --node 0/3 --json\n"
                 "# print and draw the 8 nearest neighbours of a place in each of many clouds\n"

@@ -53,14 +53,8 @@ static void make_page_name(const char *session, char name[NAME_MAX + 1])
 static bool check_page(const arguments *a)
 {
     const output_file output = {.option = "-o", .path = a->page};
-    struct stat status;
-    if (!check_outputs(&output, 1, &a->session, a->session != NULL, false, a->force))
-        return false;
-    return a->force || file_is_standard_stream(a->page) || stat(a->page, &status) != 0 || !S_ISREG(status.st_mode) ||
-           status.st_size == 0 || file_kind_of(a->page) == KIND_PAGE ||
-           print_refusal("%s: exists and was not written by octreel play: name another file with -o, or add --force to "
-                         "overwrite it",
-                         a->page);
+    return check_outputs(&output, 1, &a->session, a->session != NULL, false, a->force) &&
+           check_page_output(&output, a->force);
 }
 
 /* Prints a path as a part of a URL (RFC 3986). A byte that a URL cannot contain becomes %XX. */

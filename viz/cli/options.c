@@ -160,6 +160,8 @@ bool is_folder(const char *path)
 bool fits_output_option(command_option_reader *reader, const char *path)
 {
     const output_kind kind = output_kind_of_name(path);
+    if (reader == read_picture_or_page)
+        return kind == NAME_PNG || file_has_ending(path, ".html");
     if (reader == read_picture || reader == read_film)
         return kind == NAME_PNG || (reader == read_film && kind == NAME_FILM);
     return kind == NAME_OPEN || (reader == read_file && kind == NAME_FILE);
@@ -202,6 +204,14 @@ bool read_picture(const command_option *option, const char *text, void *into)
     return read_picture_name(option, text, into) &&
            (kind == NAME_OPEN || kind == NAME_PNG ||
             print_refusal("%s needs the name of a PNG file, not \"%s\"", option_as_typed(option).text, text));
+}
+
+bool read_picture_or_page(const command_option *option, const char *text, void *into)
+{
+    return read_picture_name(option, text, into) &&
+           (output_kind_of_name(text) == NAME_OPEN || file_has_ending(text, ".png.html") ||
+            print_refusal("%s needs the name of a PNG file or an .html page, not \"%s\"", option_as_typed(option).text,
+                          text));
 }
 
 bool read_film(const command_option *option, const char *text, void *into)

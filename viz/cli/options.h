@@ -73,6 +73,8 @@ command_option_reader read_folder; /* for a const char *: takes the path of a fo
 /* For a const char *: takes the path of a PNG file to write. Refuses folders and names of other files. "-" is standard
  * output and is refused if standard output is a terminal. */
 command_option_reader read_picture;
+/* As read_picture, and also takes the path of a page, which ends with .html. */
+command_option_reader read_picture_or_page;
 /* For a const char *: takes the path of an animated PNG or a video to write, under the rules of read_picture. */
 command_option_reader read_film;
 /* For a const char *: takes the path of a text file to write. Refuses folders and names of pictures. "-" is standard

@@ -192,3 +192,13 @@ bool check_outputs(const output_file *outputs, size_t count, char *const *inputs
         ok = check_folder(&outputs[i]) && check_file(&outputs[i], inputs, input_count);
     return ok;
 }
+
+bool check_page_output(const output_file *output, bool force)
+{
+    struct stat status;
+    return force || file_is_standard_stream(output->path) || stat(output->path, &status) != 0 ||
+           !S_ISREG(status.st_mode) || status.st_size == 0 || file_kind_of(output->path) == KIND_PAGE ||
+           print_refusal("%s: exists and is not a page made by octreel: name another file with %s, or add --force to "
+                         "overwrite it",
+                         output->path, output->option);
+}

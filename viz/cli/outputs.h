@@ -25,6 +25,9 @@ typedef struct output_file {
 bool check_outputs(const output_file *outputs, size_t count, char *const *inputs, int input_count, bool json,
                    bool force);
 
+/* Checks that an output, which is a page, overwrites no file except a page that octreel wrote earlier. */
+bool check_page_output(const output_file *output, bool force);
+
 /* Returns whether one of the output files is standard output. Reports are then printed on standard error or not at
  * all. */
 bool is_standard_output_taken(const output_file *outputs, size_t count);

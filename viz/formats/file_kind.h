@@ -16,7 +16,7 @@
     X(SESSION, "a session", "record", "films it")                                                                      \
     X(PNG, "a PNG", "diff", "compares pictures, and octreel pick names the elements at a pixel of a frame")            \
     X(BASELINE, "a baseline", "diff", "compares frames with it")                                                       \
-    X(CLOUD, "a point cloud", "inspect", "draws it")                                                                   \
+    X(CLOUD, "a point cloud", "inspect", "draws it, and with -o FILE.html makes a page of it")                         \
     X(PAGE, "a page made by octreel", NULL, "open it in a browser")                                                    \
     X(PART, "a file of a recording", NULL, "give the folder that contains it")                                         \
     X(OTHER_PICTURE, "a picture in another format than PNG", NULL, "convert it to PNG first")                          \

@@ -10,8 +10,8 @@
 #include <stdio.h>
 
 /* The largest number of points of a block. A page that shows a cloud needs 32-bit WebAssembly, whose memory ends at 4
- * GiB. A point takes about 330 bytes of it while the page opens. */
-#define POINT_BLOCK_MOST 10000000
+ * GiB. A point takes about 420 bytes of it while the page opens. */
+#define POINT_BLOCK_MOST 8000000
 
 #define POINT_BLOCK_TITLE 256
 

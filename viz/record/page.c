@@ -241,6 +241,35 @@ void page_end(page_writer *w, const char *session, size_t size)
     end_session(w);
 }
 
+/* Write bytes as text: Z85, which has five characters for four bytes, with , _ ~ in place of & < @, which HTML would
+ * interpret. The first character is the count of zero bytes that fill up the last four. unpackLetters() in unpack.js
+ * decodes the text. */
+static void write_letters(FILE *page, const unsigned char *bytes, size_t size)
+{
+    static const char digits[] =
+        "0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ.-:+=^!/*?,_>()[]{}~%$#";
+    putc((int)('0' + (4 - size % 4) % 4), page);
+    for (size_t at = 0; at < size; at += 4) {
+        uint32_t word = 0;
+        char letters[5];
+        for (size_t i = at; i < at + 4; i++)
+            word = word << 8 | (i < size ? bytes[i] : 0u);
+        for (int i = 4; i >= 0; i--, word /= 85)
+            letters[i] = digits[word % 85];
+        fwrite(letters, 1, sizeof letters, page);
+    }
+}
+
+void page_end_with_points(page_writer *w, const char *session, size_t size, const unsigned char *points,
+                          size_t points_size)
+{
+    begin_session(w);
+    write_escaped_json(w->out, session, size);
+    fputs("</script>\n<script type=\"application/gzip;z85\" id=\"points\">", w->out);
+    write_letters(w->out, points, points_size);
+    end_session(w);
+}
+
 void page_release(page_writer *w)
 {
     free(w->rest);

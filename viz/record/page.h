@@ -38,6 +38,10 @@ typedef struct page_writer {
 bool page_begin(page_writer *w, FILE *page, const char *path, const char *recording, size_t size, octreel_error *error);
 bool page_add_tick(page_writer *w, const char *path, const char *line, size_t size, octreel_error *error);
 void page_end(page_writer *w, const char *session, size_t size);
+
+/* End a page whose session has its points in a block: `points` is the block of point_block.h, compressed by gzip. */
+void page_end_with_points(page_writer *w, const char *session, size_t size, const unsigned char *points,
+                          size_t points_size);
 void page_release(page_writer *w);
 
 /* Write the file index.html of a recording, from the other files in its folder. An incomplete last line of ticks.jsonl

@@ -76,9 +76,17 @@ bool playback_open_picture(playback *p, const playback_target *target, octreel_e
     return target->every == 0 || picture_open(&p->picture, &p->view, &target->renderer, error);
 }
 
+static bool build_cloud_scene(playback *p)
+{
+    const octree_tick *tick = octree_game_tick(p->game);
+    const tree_subject subject = {p->cloud->title, p->cloud->node, tick->answers, tick->answer_count, p->values};
+    return tree_scene_build(&p->scene, &p->view, octree_game_tree(p->game), &subject);
+}
+
 bool playback_compose_scene(playback *p, octreel_error *error)
 {
-    return tick_scene_build(&p->scene, &p->view, p->game, &p->history, p->values) || error_no_memory(error);
+    return (p->cloud ? build_cloud_scene(p) : tick_scene_build(&p->scene, &p->view, p->game, &p->history, p->values)) ||
+           error_no_memory(error);
 }
 
 static uint64_t find_session_digest(playback *p)

@@ -50,7 +50,10 @@ typedef struct playback {
     view view; /* the view, with its camera and scales fitted to tick 0 */
     octree_game *game;
     const point_values *values; /* values of the session's points; may be null */
-    tick_history history;       /* history of all ticks played so far */
+    /* Null, or: the session is a cloud, and its scenes are those of a tree without a game. The answers and values of
+     * the subject are not read. Not owned. */
+    const tree_subject *cloud;
+    tick_history history; /* history of all ticks played so far */
     scene scene;
     playback_target target;
     film_share share;           /* the share of the ticks that playback_run() films */

@@ -189,7 +189,7 @@ static void errors_about_outputs_name_option_and_kind_of_file(void **state)
         {"record my.json -o my.json", "-o needs a folder, but \"my.json\" names a file"},
         {"record my.json -o .", "-o needs a folder of its own, but \".\" is or contains the current folder"},
         {"record my.json -o ../\"$(basename \"$(pwd)\")\"/", "is or contains the current folder"},
-        {"inspect cloud.txt -o x.jpg", "-o needs the name of a PNG file, not \"x.jpg\""},
+        {"inspect cloud.txt -o x.jpg", "-o needs the name of a PNG file or an .html page, not \"x.jpg\""},
         {"inspect cloud.txt -o .", "-o needs a file, but \".\" is a folder"},
         {"inspect cloud.txt --nodes x.png", "--nodes writes text, but \"x.png\" names a picture"},
         {"diff a.png a.png -o x.html", "-o needs a folder"},

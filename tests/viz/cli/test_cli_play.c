@@ -147,7 +147,7 @@ static void only_pages_of_play_are_overwritten(void **state)
 {
     need_pages_that_play();
     static const char *const rows[][2] = {
-        {"-o mine.html", "mine.html: exists and was not written by octreel play"},
+        {"-o mine.html", "mine.html: exists and is not a page made by octreel"},
         {"mine.json -o new.html", "mine.json:1: "},
         {"s.json -o s.json", "s.json"},
         {"-o film/index.html", "-o film/index.html is a file of the recording in film: name another file"},

@@ -278,7 +278,7 @@ static void question_mark_lists_the_keys(void **state)
             ? "\xe2\x86\x92 \xe2\x86\x90 Page Down Page Up Home End space + - j k 1 2 3 4 5 6 0 i p l b z x t Esc ?"
             : "\xe2\x86\x92 \xe2\x86\x90 Page Down Page Up Home End space + - j k 1 2 3 4 5 6 0 "
               "w s d a e f n . q Shift \xe2\x86\x90 Shift \xe2\x86\x92 Shift \xe2\x86\x91 Shift \xe2\x86\x93 "
-              "Shift Page Up Shift Page Down o v c i p l b z x t Esc ?");
+              "Shift Page Up Shift Page Down o v m c i p l b z x t Esc ?");
 }
 
 /* The page has hundreds of elements, however many ticks there are. */

@@ -19,6 +19,7 @@
 #include "octree/octree.h"
 #include "pick.h"
 #include "playback.h"
+#include "point_block.h"
 #include "recording_file.h"
 #include "renderer.h"
 #include "session_file.h"
@@ -30,6 +31,8 @@
 
 typedef struct web {
     session_file session;
+    point_block points; /* the title and the marked node of a cloud; its points and values are those of the session */
+    tree_subject cloud;
     playback playback;
     bool open, drawn;       /* true: the playback is open; true: the current tick is drawn */
     bool has_fitted_scale;  /* true: the point scale was fitted to the points, not given in the view */
@@ -114,15 +117,32 @@ static void close_game_and_picture(void)
     page.open = page.drawn = page.has_fitted_scale = false;
 }
 
+/* Give the session the points of a block. */
+static bool take_points(const char *block, size_t size)
+{
+    session_file *s = &page.session;
+    if (!point_block_read(block, size, &page.points, &page.error))
+        return false;
+    free((octree_body *)s->session.bodies);
+    point_values_release(&s->values);
+    s->session.bodies = page.points.bodies;
+    s->session.body_count = page.points.count;
+    s->values = page.points.values;
+    page.cloud = (tree_subject){.title = page.points.title, .node = page.points.node};
+    return true;
+}
+
 /* Open a session and play its tick 0. The input buffer holds `session` bytes of a session.json, followed by `recording`
- * bytes of a recording.json. A session that is already open is closed first. */
-bool web_open(size_t session, size_t recording)
+ * bytes of a recording.json and `points` bytes of a block of points (point_block.h), 0 if the session is not a cloud. A
+ * session that is already open is closed first. */
+bool web_open(size_t session, size_t recording, size_t points)
 {
     view v;
     uint64_t every;
     close_game_and_picture();
     if (!recording_parse("the view", page.room + session, recording, &v, &every, &page.error) ||
-        !session_parse("the session", "", page.room, session, &page.session, &page.error))
+        !session_parse("the session", "", page.room, session, &page.session, &page.error) ||
+        (points > 0 && !take_points(page.room + session + recording, points)))
         return report_error_text();
     free(page.room);
     page.room = NULL;
@@ -132,6 +152,7 @@ bool web_open(size_t session, size_t recording)
     page.summed_layers = v.layers & VIEW_HEAT_LAYERS ? VIEW_HEAT_LAYERS : 0;
     page.open = playback_open(&page.playback, &page.session.session, &page.session.values, &v, &page.error);
     page.playback.history.changes.tracked = page.open;
+    page.playback.cloud = points > 0 ? &page.cloud : NULL;
     if (!page.open)
         close_game_and_picture();
     return page.open || report_error_text();

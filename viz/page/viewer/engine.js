@@ -47,15 +47,17 @@ class Engine {
         for (const {module: from, name} of WebAssembly.Module.imports(module))
             (imports[from] ??= {})[name] = () => NO_FILE;
         const json = new JsonValues(() => this.wasm.memory);
-        imports.page = {parse_json: (...text) => json.parse(...text), write_json: at => json.write(at)};
+        imports.page = {parse_json: (text, size, alone, error) => json.parse(text >>> 0, size, alone, error >>> 0),
+                        write_json: at => json.write(at >>> 0)};
         this.wasm = new WebAssembly.Instance(module, imports).exports;
         this.wasm._initialize?.();
         this.tick = -1; /* -1: no tick is played yet */
     }
 
+    /* The module returns addresses as signed integers: those beyond 2 GiB are negative. */
     bytes(at, size)
     {
-        return new Uint8Array(this.wasm.memory.buffer, at, size);
+        return new Uint8Array(this.wasm.memory.buffer, at >>> 0, size >>> 0);
     }
 
     text()
@@ -77,7 +79,7 @@ class Engine {
     {
         const parts = texts.map(text => typeof text === "string" ? new TextEncoder().encode(text) : text);
         const size = parts.reduce((sum, part) => sum + part.length, 0);
-        let at = this.wasm.web_reserve_buffer(size);
+        let at = this.wasm.web_reserve_buffer(size) >>> 0;
         if (!at)
             throw new Error("out of memory");
         for (const part of parts) {
@@ -87,9 +89,10 @@ class Engine {
         return parts.map(part => part.length);
     }
 
-    open(session, view)
+    /* Open a session. The points of a cloud are a block of bytes. */
+    open(session, view, points = NO_POINTS)
     {
-        this.textAfter(this.wasm.web_open(...this.writeInput(session, JSON.stringify(view))));
+        this.textAfter(this.wasm.web_open(...this.writeInput(session, JSON.stringify(view), points)));
         this.view = view;
         this.tick = 0;
         this.length = this.wasm.web_length() + 1;
@@ -140,7 +143,7 @@ class Engine {
         if (!at)
             throw new Error(this.text());
         const [width, height] = this.size;
-        return new ImageData(new Uint8ClampedArray(this.wasm.memory.buffer, at, 4 * width * height), width, height);
+        return new ImageData(new Uint8ClampedArray(this.wasm.memory.buffer, at >>> 0, 4 * width * height), width, height);
     }
 
     /* The size of the last picture. */
@@ -162,7 +165,7 @@ class Engine {
     /* The corners of the session's world. */
     world()
     {
-        const at = new Float64Array(this.wasm.memory.buffer, this.wasm.web_world(), 6);
+        const at = new Float64Array(this.wasm.memory.buffer, this.wasm.web_world() >>> 0, 6);
         return {min: [...at.slice(0, 3)], max: [...at.slice(3)]};
     }
 
@@ -181,7 +184,7 @@ class Engine {
     {
         this.writeInput(new Uint8Array(new Float64Array(places.flat()).buffer));
         this.wasm.web_project(places.length);
-        const numbers = new Float64Array(this.wasm.memory.buffer, this.wasm.web_reserve_buffer(0), 2 * places.length);
+        const numbers = new Float64Array(this.wasm.memory.buffer, this.wasm.web_reserve_buffer(0) >>> 0, 2 * places.length);
         return places.map((place, i) => [numbers[2 * i], numbers[2 * i + 1]]);
     }
 
@@ -189,7 +192,7 @@ class Engine {
     point(id)
     {
         const at = this.wasm.web_point(id);
-        return at ? [...new Float64Array(this.wasm.memory.buffer, at, 3)] : null;
+        return at ? [...new Float64Array(this.wasm.memory.buffer, at >>> 0, 3)] : null;
     }
 
     /* An element of the tick by its name: "node 0/3", "foreign 12" or "point 7". Null if there is no such element. */

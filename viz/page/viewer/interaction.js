@@ -80,21 +80,24 @@ class Interaction {
         this.session ??= byId("session").textContent.trim();
         if (!this.session)
             throw new Error("the session is too large to be in the page; drop its session.json here");
-        await this.play(this.session, this.recorded.about, this.recorded);
+        this.points ??= await unpackPoints();
+        await this.play(this.session, this.recorded.about, this.recorded, this.points);
         this.viewer.address.apply();
         return true;
     }
 
     /* Play a session from now on. While a large session is read, the progress bar shows no value. */
-    async play(session, view, recording)
+    async play(session, view, recording, points = NO_POINTS)
     {
         const bar = byId("ahead");
-        if (session.length > LARGE) {
+        if (session.length + points.length > LARGE) {
             bar.removeAttribute("value");
             bar.hidden = false;
             await new Promise(done => setTimeout(done, 20));
         }
-        const player = this.makePlayer(session, view, recording.length);
+        const player = this.makePlayer(session, view, recording.length, points);
+        if (player.isCloud) /* the page itself has only the counts of the tree */
+            recording = new Recording(recording.about, []);
         if (recording.length === 0)
             recording.append(player.engine.facts());
         this.player?.stop();
@@ -113,6 +116,8 @@ class Interaction {
             showRows,
         });
         this.live.exact = this.exact;
+        this.measure = new Measure(this.live, text => this.showStatus(text));
+        showCloudParts(player.isCloud);
         this.viewer.follow(recording);
         this.showView();
         this.showBranch();
@@ -128,10 +133,10 @@ class Interaction {
             this.playAhead();
     }
 
-    makePlayer(session, view, known)
+    makePlayer(session, view, known, points)
     {
         try {
-            return new Player(this.module, session, view, known, (tick, engine) => this.appendTick(tick, engine));
+            return new Player(this.module, session, view, known, (tick, engine) => this.appendTick(tick, engine), points);
         } finally {
             byId("ahead").hidden = true;
         }
@@ -204,6 +209,7 @@ class Interaction {
     /* Show the first view of the recorded ticks again. */
     goBack()
     {
+        this.measure?.stop();
         if (!this.isLive || byId("live-end").hidden)
             return;
         this.restart(this.firstView);
@@ -242,6 +248,12 @@ class Interaction {
     {
         if (await this.start())
             this.live?.pickAt();
+    }
+
+    async toggleMeasure()
+    {
+        if (await this.start())
+            this.measure?.toggle();
     }
 
     async zoom(factor)
@@ -339,7 +351,8 @@ class Interaction {
     showBackButton()
     {
         const button = byId("live-end");
-        button.textContent = this.recorded.hasFrames ? "Back to the recording" : "Back to the session";
+        button.textContent = this.player.isCloud ? "Reset the view"
+            : this.recorded.hasFrames ? "Back to the recording" : "Back to the session";
         button.hidden = !this.player.isBranched && byId("view-options").hidden;
     }
 
@@ -419,6 +432,8 @@ class Interaction {
 
     showPick(pick, place)
     {
+        if (this.measure.isOn)
+            this.measure.add(pick);
         const {min, max} = this.player.engine.world();
         this.form.setPlace(place, Math.max(...max.map((high, i) => high - min[i])));
         setOpen("sheet", true);

@@ -43,6 +43,7 @@ class Live {
         this.recorded = player.engine.view;
         this.canvas = element("canvas", "", {class: "live", role: "img"});
         this.marks = element("canvas", "", {class: "marks", "aria-hidden": "true"});
+        this.measured = [];  /* the positions between which a line is drawn, at most two */
         this.subject = null; /* the marked element, as {node}, {program_node} or {point}; null: no element */
         this.pointers = new Map();
     }
@@ -320,6 +321,7 @@ class Live {
             this.tracePoint(context, point);
         else if (this.boxOfSubject)
             this.traceBox(context, this.boxOfSubject);
+        traceMeasure(context, this.engine.project(this.measured), this.measured, this.ratio);
         context.stroke();
     }
 

@@ -270,12 +270,13 @@ const PLAYING_KEYS = [
     [["Shift+PageDown"], "Shift Page Down", "zoom out", viewer => viewer.interaction.zoom(0.8)],
     [["o"], "o", "open or close the panel and legend", () => setOpen("column", !isOpen("column"))],
     [["v"], "v", "open or close the controls of the view, and queries", () => setOpen("tools", !isOpen("tools"))],
+    [["m"], "m", "measure between two points", viewer => viewer.interaction.toggleMeasure()],
     [["c"], "c", "identify what is in the middle of the view (or click anywhere)", viewer => viewer.interaction.pick()],
 ];
 
 /* The keys of the page. Each row has the key's names in KeyboardEvent, its name in the help, its help text, and its
  * action. */
-const KEYS = [
+const KEYS = keysOf([
     [["ArrowRight"], "→", "next tick", viewer => viewer.step(1)],
     [["ArrowLeft"], "←", "previous tick", viewer => viewer.step(-1)],
     [["PageDown"], "Page Down", "forward by 5 % of the ticks, at least ten", viewer => viewer.step(viewer.page)],
@@ -302,7 +303,7 @@ const KEYS = [
     [["Escape"], "Esc", "close the facts or the view; then back to the recording or session",
      viewer => closeSheet() || viewer.interaction.goBack()],
     [["?"], "?", "show these keys", () => byId("help").showModal()],
-];
+]);
 
 const BUTTONS = {"previous-match": "k", previous: "ArrowLeft", play: " ", next: "ArrowRight", "next-match": "j"};
 
@@ -355,6 +356,8 @@ function listenToControls(viewer)
     byId("tick").addEventListener("change", event => typeTick(viewer, event.target.valueAsNumber));
     byId("tick").addEventListener("keydown", event => event.key === "Enter" && event.target.blur());
     byId("help-open").addEventListener("click", () => actionOf("?")(viewer));
+    byId("measure").hidden = !hasModule();
+    byId("measure").addEventListener("click", () => viewer.interaction.toggleMeasure());
     byId("pixels").addEventListener("click", () => actionOf("p")(viewer));
     byId("fold").addEventListener("click", () => actionOf("t")(viewer));
 }
@@ -378,7 +381,8 @@ function describeRecording(recording)
 {
     const {size: [width, height], camera} = recording.about, name = recordingName();
     const frames = recording.filmed.reduce((count, filmed, i) => count + (filmed === i ? 1 : 0), 0);
-    const parts = [counted(recording.length, "tick"), frames && counted(frames, "frame"), `${width} × ${height}`, camera];
+    const {points} = recording.tick(0).tree ?? {};
+    const parts = [isCloudPage && points !== undefined ? counted(points, "point") : counted(recording.length, "tick"), frames && counted(frames, "frame"), `${width} × ${height}`, camera];
     byId("about").append(element("strong", name), " ", parts.filter(Boolean).join(" · "));
     document.title = name ? `${name} – Octreel` : "Octreel recording";
 }
@@ -405,6 +409,7 @@ function openRecording()
     byId("message").hidden = true;
     byId("viewer").hidden = false;
     arrange();
+    showCloudParts(isCloudPage);
     describeRecording(recording);
     fillControls();
     const viewer = new Viewer(recording);

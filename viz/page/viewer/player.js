@@ -14,9 +14,10 @@ const nextTask = () => new Promise(done => setTimeout(done));
 
 class Player {
     /* `known` is the number of ticks whose facts the recording has. `played(tick, engine)` is called for each tick that
-     * is played ahead. */
-    constructor(module, session, view, known, played)
+     * is played ahead. `points` is the block of points of a cloud, otherwise empty. */
+    constructor(module, session, view, known, played, points = NO_POINTS)
     {
+        this.points = points;
         this.module = module;
         this.maxTicks = Math.max(MAX_TICKS, known);
         this.played = played;
@@ -24,10 +25,11 @@ class Player {
         this.keys = ""; /* the user's key presses, played after tick `branch` */
         this.run = 0;   /* number of the current run of the scout; a new run ends the previous run */
         this.engine = new Engine(module);
-        this.engine.open(session, view);
+        this.engine.open(session, view, points);
         this.given = this.length; /* number of ticks of the session itself, without the user's ticks */
         this.branch = this.given - 1;
-        this.states.keep(this.engine, false);
+        if (!this.isCloud) /* a cloud has one tick: its state is kept before the first query */
+            this.states.keep(this.engine, false);
         this.playsAhead = this.engine.used().length <= MOST_AHEAD;
         this.scout = null; /* the engine that plays ahead; created after the first picture is drawn */
     }
@@ -41,6 +43,11 @@ class Player {
     get isCut()
     {
         return !this.isBranched && this.engine.length > this.maxTicks;
+    }
+
+    get isCloud()
+    {
+        return this.points.length > 0;
     }
 
     get isBranched()
@@ -60,7 +67,7 @@ class Player {
         const run = ++this.run;
         let since = 0;
         await nextTask();
-        const scout = run === this.run ? this.scout ?? this.makeScout() : null;
+        const scout = run === this.run && !this.isCloud ? this.scout ?? this.makeScout() : null;
         while (scout && run === this.run && scout.tick + 1 < this.length) {
             const start = performance.now();
             let now = start;
@@ -101,7 +108,7 @@ class Player {
     {
         const going = this.going = {};
         const state = this.states.before(tick), engine = this.engine;
-        if (engine.tick > tick || state.tick > engine.tick)
+        if (engine.tick > tick || state?.tick > engine.tick)
             this.restore(engine, state);
         for (let start = performance.now(); engine.tick < tick && engine.tick + 1 < this.length;) {
             this.step(engine);
@@ -118,7 +125,9 @@ class Player {
     /* Play the shown tick once more, without the user's query. */
     replay()
     {
-        const {engine} = this, {tick} = engine;
+        const {engine, states} = this, {tick} = engine;
+        if (states.list.length === 0)
+            states.keep(engine, false);
         for (this.restore(engine, this.states.before(tick)); engine.tick < tick;)
             this.step(engine);
     }
@@ -163,7 +172,7 @@ class Player {
         const {engine} = this;
         this.stop();
         this.going = {};
-        engine.open(session, engine.view);
+        engine.open(session, engine.view, this.points);
         this.states = new States();
         this.states.keep(engine, false);
         for (const one of this.scout ? [engine, this.scout] : [engine])
@@ -173,6 +182,12 @@ class Player {
     /* Go back to tick 0 of the session itself, without the user's key presses and with a view. */
     restart(view)
     {
+        if (this.isCloud) { /* opening it once more would take seconds */
+            if (this.states.list.length > 0)
+                this.replay();
+            this.engine.look(view);
+            return;
+        }
         this.keys = "";
         this.branch = this.given - 1;
         this.going = {};

@@ -6,13 +6,14 @@
 /* Decode a text that module/pack_module encoded: Z85 with some digits replaced. */
 function unpackLetters(text)
 {
-    const digits = new Map([..."0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ.-:+=^!/*?,_>()[]{}~%$#"]
-        .map((letter, digit) => [letter, digit]));
+    const digits = new Uint8Array(128); /* by the code of the letter: the points of a cloud have millions of letters */
+    [..."0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ.-:+=^!/*?,_>()[]{}~%$#"]
+        .forEach((letter, digit) => digits[letter.charCodeAt(0)] = digit);
     const words = new DataView(new ArrayBuffer(Math.floor(text.length / 5) * 4));
-    for (let at = 0; at < words.byteLength; at += 4) {
+    for (let at = 0, from = 1; at < words.byteLength; at += 4) {
         let word = 0;
-        for (const letter of text.substr(1 + at / 4 * 5, 5))
-            word = word * 85 + digits.get(letter);
+        for (const end = from + 5; from < end; from++)
+            word = word * 85 + digits[text.charCodeAt(from)];
         words.setUint32(at, word);
     }
     return new Uint8Array(words.buffer, 0, words.byteLength - text[0]);
