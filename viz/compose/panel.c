@@ -15,6 +15,7 @@
  * rule may follow a rule or end the rows.
  *
  * This layer is added last, because it counts the elements that the other layers left out (scene_tally). */
+#include "caption.h"
 #include "foreign_nodes.h"
 #include "judgement.h"
 #include "layer_type.h"
@@ -444,9 +445,9 @@ static void write_tick_rows(pen *p, const layer_source *in)
     write_player(p, in);
     write_statistics(p, in, &tick->stats);
     write_view_limits(p);
-    if (tick->has_player || in->answer_count || tick->refusal_count)
+    if (tick->hit_count || in->answer_count || tick->refusal_count)
         write_rule(p);
-    if (tick->has_player)
+    if (tick->hit_count)
         write_ids(p, "box hits", tick->hits, tick->hit_count);
     write_wrong_answers(p, in);
     write_wrong_nodes(p, in);
@@ -482,6 +483,27 @@ static void add_corner_lines(scene *s, const layer_source *in, const char *title
     cut_rows_beyond_panel(&p);
 }
 
+/* Write the caption on a strip below the scene. A page gets it as a row. */
+static void add_caption(pen *p, const layer_source *in)
+{
+    char text[CAPTION_TEXT];
+    const scene *s = p->scene;
+    const int column = layout_panel_width(&s->view), height = layout_caption_height(&s->view);
+    const int x = column - p->left, y = s->view.height - height - p->y;
+    if (!p->rows && height == 0)
+        return;
+    caption_write(in, text);
+    make_printable(text);
+    if (!p->rows)
+        fill_rectangle(p, x, y, s->view.width - column, height, ROLE_PANEL);
+    pen strip = *p;
+    strip.left = column + LAYOUT_MARGIN * s->text.width;
+    strip.y = p->y + y + (height - s->text.height) / 2;
+    strip.letters = (s->view.width - column) / s->text.width - 2 * LAYOUT_MARGIN;
+    write_caption(&strip, text);
+    p->next_id = strip.next_id;
+}
+
 static void add_column(scene *s, const layer_source *in, const char *title)
 {
     pen p = pen_in_column(s);
@@ -498,6 +520,7 @@ static void add_column(scene *s, const layer_source *in, const char *title)
     write_broken_node(&p, in);
     cut_rows_beyond_panel(&p);
     write_legend(&p, in);
+    add_caption(&p, in);
 }
 
 static void add_panel(scene *s, const layer_source *in, view_layer layer)

@@ -5,6 +5,7 @@
 #include "layer_type.h"
 #include "layout.h"
 #include "octree/octree.h"
+#include "point_names.h"
 
 #define LAYER_TYPE(layer, ...) &layer_##layer,
 const layer_type *const layer_types[LAYER_ALL] = {LAYER_MAP(LAYER_TYPE)};
@@ -21,34 +22,10 @@ view_layer layer_of_query(octree_query_kind kind)
     return layers[kind];
 }
 
-/* Return whether a query of a layer's kind was made at some tick so far, or is certain to come. If key presses move the
- * player, a key press may ask for the nearest point, and the queries that are made at every tick are known in advance.
- * In other sessions a query counts only once it is made: a session that is filmed while it is written does not contain
- * later queries yet. */
-static bool has_query_of(const layer_source *in, view_layer layer)
-{
-    const bool known = in->game && in->session->player.kind == OCTREE_PLAYER_KEYS;
-    bool asked = known && layer == LAYER_NEAREST;
-    for (size_t i = 0; i < in->answer_count; i++)
-        asked |= layer_of_query(in->answers[i].kind) == layer;
-    for (int kind = 0; in->game && kind < OCTREE_QUERY_KINDS; kind++)
-        asked |= (in->tick->asked >> kind & 1) && layer_of_query((octree_query_kind)kind) == layer;
-    for (size_t i = 0; known && i < in->session->query_count; i++)
-        asked |=
-            in->session->queries[i].tick == OCTREE_EVERY_TICK && layer_of_query(in->session->queries[i].kind) == layer;
-    return asked;
-}
-
-bool layer_applies(const layer_source *in, view_layer layer)
-{
-    const layer_type *type = layer_types[layer];
-    return type->applies ? type->applies(in) : !type->add_answer || has_query_of(in, layer);
-}
-
 static void add_layer(scene *s, const layer_source *in, view_layer layer)
 {
     const layer_type *type = layer_types[layer];
-    if (!layer_applies(in, layer))
+    if (type->applies && !type->applies(in))
         return;
     if (type->add)
         type->add(s, in, layer);
@@ -57,12 +34,14 @@ static void add_layer(scene *s, const layer_source *in, view_layer layer)
             type->add_answer(s, &in->answers[i], i, layer);
 }
 
-/* Add all layers. The panel comes last because it counts what the other layers left out. */
+/* Add all layers. The names of points take the room that other labels leave. The panel comes last because it counts
+ * what the other layers left out. */
 static void add_layers(scene *s, const layer_source *in)
 {
     for (int i = 0; i < LAYER_ALL; i++)
         if (i != LAYER_TEXT)
             add_layer(s, in, (view_layer)i);
+    add_point_names(s, in);
     add_layer(s, in, LAYER_TEXT);
 }
 

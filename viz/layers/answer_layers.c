@@ -86,7 +86,7 @@ static void describe_range(description *d, const described_element *element)
 const layer_type layer_RANGE = {
     .add_answer = add_range,
     .write_answer = write_range,
-    .legend = {.order = 120, .sign = SIGN_DASHES, .text = "range query, dashed", .drop_order = DROP_LATE},
+    .legend = {.order = 120, .sign = SIGN_DASHES, .text = "range query", .drop_order = DROP_LATE},
     .describe = describe_range};
 
 /* ---- Radius queries ----------------------------------------------------------------------------------------- */
@@ -140,7 +140,7 @@ static void describe_radius(description *d, const described_element *element)
 const layer_type layer_RADIUS = {
     .add_answer = add_ball,
     .write_answer = write_radius,
-    .legend = {.order = 130, .sign = SIGN_LINE, .text = "radius query, round", .drop_order = DROP_LATE},
+    .legend = {.order = 130, .sign = SIGN_LINE, .text = "radius query", .drop_order = DROP_LATE},
     .describe = describe_radius};
 
 /* ---- Queries for k nearest points --------------------------------------------------------------------------- */
@@ -187,7 +187,7 @@ static void describe_knearest(description *d, const described_element *element)
 const layer_type layer_KNEAREST = {
     .add_answer = add_knearest,
     .write_answer = write_knearest,
-    .legend = {.order = 140, .sign = SIGN_LINE, .text = "k nearest, numbered", .drop_order = DROP_LATE},
+    .legend = {.order = 140, .sign = SIGN_LINE, .text = "k nearest", .drop_order = DROP_LATE},
     .describe = describe_knearest};
 
 /* ---- Queries for the nearest point -------------------------------------------------------------------------- */
@@ -224,5 +224,5 @@ static void describe_nearest(description *d, const described_element *element)
 const layer_type layer_NEAREST = {
     .add_answer = add_nearest,
     .write_answer = write_nearest,
-    .legend = {.order = 150, .sign = SIGN_DASHES, .text = "nearest point, dashed", .drop_order = DROP_LATE},
+    .legend = {.order = 150, .sign = SIGN_DASHES, .text = "nearest point", .drop_order = DROP_LATE},
     .describe = describe_nearest};

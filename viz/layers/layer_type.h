@@ -34,7 +34,7 @@ typedef struct layer_source {
 
 /* A layer's lines in the legend: either one line with `sign` and `text`, or the lines that add_lines() adds. */
 typedef struct legend_entry {
-    int order; /* position of the layer in the legend, 1 to LEGEND_LAST; 0: no lines */
+    int order; /* position of the layer in the legend from below, 1 to LEGEND_LAST; 0: no lines */
     legend_sign sign;
     const char *text;
     legend_drop_order drop_order;
@@ -44,9 +44,7 @@ typedef struct legend_entry {
 /* The functions and data of a layer. A layer that does not need a member leaves it null or 0. The argument `layer` is
  * the layer itself, because some files define several layers. */
 typedef struct layer_type {
-    /* Return whether the layer can have elements in this frame or in another frame of the same recording. If so, the
-     * legend explains the layer. A null `applies` means: always. For a layer of answers, null means: if a query of the
-     * layer's kind was made at some tick so far, or is made at every tick. */
+    /* Return whether the layer can have elements in this frame. A null `applies` means: always. */
     bool (*applies)(const layer_source *in);
 
     /* Return whether a session can have elements for the layer. Null means that every session can. If neither of two
@@ -77,8 +75,6 @@ extern const layer_type *const layer_types[LAYER_ALL];
 
 /* The member `applies` of layers whose elements exist only in scenes of a game, not in scenes of a tree. */
 bool is_layer_of_games(const layer_source *in);
-
-bool layer_applies(const layer_source *in, view_layer layer);
 
 /* Return the layer that shows the answers of a query kind. */
 view_layer layer_of_query(octree_query_kind kind);

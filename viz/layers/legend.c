@@ -1,15 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /* legend.c - collects the lines of the legend, drops lines that do not fit, and draws the other lines.
  *
- * The legend stands at the bottom of the text column. The number of rows above the legend changes from tick to tick,
- * and with it the room for the legend. Three rules keep the legend steady:
- *    - Lines are sorted by legend_entry.order. A layer that can have elements in the recording keeps its line in all
- *      frames, also in frames without such elements. So lines do not come and go.
- *    - If there are too many lines, whole groups are dropped; a group is a line with its continuation lines. The groups
- *      of layers without elements in this frame are dropped first. Next are groups that readers understand without the
- *      legend, and then groups of layers whose answer the panel shows. If that is not enough, lines are dropped from
- *      the end. A final line counts the dropped lines.
- *    - The legend is aligned with the bottom of the picture.
+ * The legend lists only layers that have elements in the frame. It stands at the bottom of the text column, so that
+ * the number of rows above it does not move it. Layers that nearly every frame has come last, so lines that come and go
+ * do not move their lines.
+ *
+ * If there are too many lines, whole groups are dropped; a group is a line with its continuation lines. Groups that
+ * readers understand without the legend are dropped first, and then groups of layers whose answer the panel shows. If
+ * that is not enough, lines are dropped from the end. A final line counts the dropped lines.
+ *
  * The signs are drawn in whole dots from tables of rectangles, so they are sharp at every font size. */
 #include "legend.h"
 #include "layer_type.h"
@@ -58,12 +57,10 @@ static void add_layer_line(legend *l, const layer_source *in, view_layer layer)
 {
     const legend_entry *entry = &layer_types[layer]->legend;
     const scene *s = l->scene;
-    const bool in_diagram = is_in_diagram(s, layer);
-    if (!in_diagram && (layer == LAYER_DIAGRAM || !view_shows_layer(&s->view, layer) || !layer_applies(in, layer)))
+    if (!is_in_diagram(s, layer) && !(layer < LAYER_COUNT && l->in_frame >> layer & 1))
         return;
-    l->next = (legend_line){.layer = layer,
-                            .drop_order = in_diagram || l->in_frame >> layer & 1 ? entry->drop_order : DROP_FIRST,
-                            .role = (theme_role)layer_rows[layer].role};
+    l->next =
+        (legend_line){.layer = layer, .drop_order = entry->drop_order, .role = (theme_role)layer_rows[layer].role};
     if (entry->add_lines)
         entry->add_lines(l, in);
     else
@@ -219,7 +216,7 @@ void write_legend(pen *p, const layer_source *in)
     const int line = p->text.line, foot = s->view.height - LAYOUT_MARGIN * s->text.width;
     const int room = (foot - p->y - line / 2) / line;
     legend l = {.scene = s, .in_frame = layers_in_frame(s)};
-    for (int order = 1; order <= LEGEND_LAST; order++)
+    for (int order = LEGEND_LAST; order > 0; order--)
         for (int i = 0; i < LAYER_ALL; i++)
             if (layer_types[i]->legend.order == order)
                 add_layer_line(&l, in, (view_layer)i);

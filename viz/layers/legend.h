@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* legend.h - the legend at the bottom of the text column explains the colours, lines and markers. Layers add their own
- * lines (layer_type.h). */
+/* legend.h - the legend at the bottom of the text column explains the colours, lines and markers that occur in the
+ * frame. Layers add their own lines (layer_type.h). */
 #ifndef LAYERS_LEGEND_H
 #define LAYERS_LEGEND_H
 
@@ -49,8 +49,7 @@ typedef struct legend_scale {
 typedef enum legend_drop_order {
     DROP_LAST,
     DROP_LATE,  /* the panel shows the layer's answer in the layer's colour */
-    DROP_EARLY, /* readers understand the layer without its legend line */
-    DROP_FIRST, /* the layer has no elements in this frame */
+    DROP_FIRST, /* readers understand the layer without its legend line */
 } legend_drop_order;
 
 typedef struct legend_line {

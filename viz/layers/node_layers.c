@@ -27,6 +27,7 @@
 #include "layer_type.h"
 #include "layout.h"
 #include "node_boxes.h"
+#include "point_names.h"
 #include "octree/octree.h"
 #include "point_colors.h"
 
@@ -407,7 +408,7 @@ static void add_nodes_and_points(scene *s, const layer_source *in, view_layer la
     const size_t expected = in->game ? in->session->body_count : octree_count(in->tree);
     tree_walk w = {.scene = s, .world = in->world, .values = in->values, .deepest = OCTREE_MAX_DEPTH};
     w.capacity = octree_definition(in->tree).leaf_capacity;
-    w.point_width = expected <= 500 ? 2 : expected <= 20000 ? 1 : 0;
+    w.point_width = expected <= MOST_NAMED_POINTS ? 3 : expected <= 500 ? 2 : expected <= 20000 ? 1 : 0;
     w.shows_nodes = view_shows_layer(&s->view, LAYER_NODES) && shows_octreel_nodes(in);
     w.filter = s->view.filter;
     if (!shows_octreel_nodes(in))
@@ -479,4 +480,13 @@ const layer_type layer_NODES = {.add = add_nodes_and_points,
                                 .legend = {.order = 50, .add_lines = add_node_legend},
                                 .describe = describe_node_element};
 
-const layer_type layer_POINTS = {.legend = {.order = 30, .add_lines = add_point_legend, .drop_order = DROP_EARLY}};
+static void describe_point_element(description *d, const described_element *element)
+{
+    if (element->kind == SCENE_MARKER)
+        describe_point(d, "", element->id, element->at);
+    else
+        append_text(d, element->kind == SCENE_PANEL ? "the background of the id of a point" : ", the id of a point");
+}
+
+const layer_type layer_POINTS = {.describe = describe_point_element,
+                                 .legend = {.order = 30, .add_lines = add_point_legend, .drop_order = DROP_FIRST}};

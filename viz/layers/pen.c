@@ -148,6 +148,19 @@ void write_title_text(pen *p, theme_role role, const char *text)
         add_text(p, 0, role, 2, (size_t)(p->letters * p->text.width / p->scene->title.width), text);
 }
 
+void write_caption(pen *p, const char *text)
+{
+    char line[SCENE_TEXT * 8];
+    if (p->rows) {
+        write_text_row(p, "caption", ROLE_TEXT, text);
+        return;
+    }
+    snprintf(line, sizeof line, "%s", text);
+    cut_text(line, (size_t)p->letters);
+    for (size_t at = 0; at < strlen(line); at += SCENE_TEXT - 1)
+        add_text(p, (int)at * p->text.width, ROLE_TEXT, 1, SCENE_TEXT - 1, line + at);
+}
+
 void write_line(pen *p, theme_role role, const char *text)
 {
     write_text(p, 0, role, "%s", text);

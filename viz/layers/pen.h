@@ -48,6 +48,9 @@ void write_right_aligned(pen *p, theme_role role, const char *text);
 /* Write a title in characters of twice the usual width and height. */
 void write_title_text(pen *p, theme_role role, const char *text);
 
+/* Write a text that may be longer than a label can be. */
+void write_caption(pen *p, const char *text);
+
 /* Write a line of text and move to the next line. */
 void write_line(pen *p, theme_role role, const char *text);
 

@@ -34,7 +34,7 @@ static void describe_player(description *d, const described_element *element)
 const layer_type layer_PLAYER = {
     .applies = session_has_player,
     .add = add_player,
-    .legend = {.order = 10, .sign = SIGN_SQUARE, .text = "player and its box", .drop_order = DROP_EARLY},
+    .legend = {.order = 10, .sign = SIGN_SQUARE, .text = "player", .drop_order = DROP_FIRST},
     .describe = describe_player};
 
 /* ---- The collision box -------------------------------------------------------------------------------------- */
@@ -106,9 +106,11 @@ static void add_collision_box(scene *s, const layer_source *in, view_layer layer
 
 static void add_collision_legend(legend *l, const layer_source *in)
 {
-    legend_add(l, SIGN_CROSS, "collision, crossed");
-    if (in->session->player.sweep)
-        legend_add(l, SIGN_DASHES, "path to a hit, dashed");
+    if (in->tick->hit_count == 0)
+        return;
+    legend_add(l, SIGN_CROSS, "collision");
+    if (in->tick->swept)
+        legend_add(l, SIGN_DASHES, "path to a hit");
 }
 
 static void describe_collision_box(description *d, const described_element *element)
@@ -129,5 +131,5 @@ static void describe_collision_box(description *d, const described_element *elem
 
 const layer_type layer_BOX = {.applies = session_has_player,
                               .add = add_collision_box,
-                              .legend = {.order = 20, .add_lines = add_collision_legend},
+                              .legend = {.order = 155, .add_lines = add_collision_legend},
                               .describe = describe_collision_box};

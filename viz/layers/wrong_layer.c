@@ -128,12 +128,18 @@ static void add_wrong_answers(scene *s, const layer_source *in, view_layer layer
 
 static void add_wrong_legend(legend *l, const layer_source *in)
 {
-    if (in->tick->judged) {
-        legend_add(l, SIGN_RING, "wrong answer");
-        legend_add(l, SIGN_TRIANGLE, "missing point")->role = ROLE_MISSED;
-        legend_add(l, SIGN_WEDGE, "extra point");
+    size_t worst, missing = 0, extra = 0;
+    for (size_t i = 0; i < in->answer_count; i++) {
+        missing += in->answers[i].judgement.missing_count;
+        extra += in->answers[i].judgement.extra_count;
     }
-    if (shows_foreign_nodes(in))
+    if (judgement_count_wrong(in->answers, in->answer_count, &worst))
+        legend_add(l, SIGN_RING, "wrong answer");
+    if (missing)
+        legend_add(l, SIGN_TRIANGLE, "missing point")->role = ROLE_MISSED;
+    if (extra)
+        legend_add(l, SIGN_WEDGE, "extra point");
+    if (shows_foreign_nodes(in) && in->tick->foreign.wrong_count)
         legend_add(l, SIGN_DASHES, "wrong node");
 }
 
@@ -202,5 +208,5 @@ static void describe_mark(description *d, const described_element *element)
 const layer_type layer_WRONG = {.applies = has_judged_tick,
                                 .in_session = is_in_session,
                                 .add = add_wrong_answers,
-                                .legend = {.order = 5, .add_lines = add_wrong_legend},
+                                .legend = {.order = 195, .add_lines = add_wrong_legend},
                                 .describe = describe_mark};

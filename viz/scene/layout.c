@@ -23,11 +23,17 @@ int layout_panel_width(const view *v)
     return view_shows_layer(v, LAYER_TEXT) && !v->text_apart && v->width >= 2 * width ? width : 0;
 }
 
-/* Returns the area of the picture without the column of text. */
+int layout_caption_height(const view *v)
+{
+    const int height = lettering_choose(v, false).line * 3 / 2;
+    return layout_panel_width(v) && v->height >= 8 * height ? height : 0;
+}
+
+/* Returns the area of the picture without the column of text and the caption. */
 static camera_window find_area_beside_text(const view *v)
 {
     const int column = layout_panel_width(v);
-    return (camera_window){column, 0, v->width - column, v->height};
+    return (camera_window){column, 0, v->width - column, v->height - layout_caption_height(v)};
 }
 
 /* Returns the area of the picture without the column of text and the diagram. */
@@ -81,6 +87,8 @@ camera_window layout_camera_area(const scene *s, const octree_box *world)
     const double beside = fmax(fmin(room, w.width * MOST_NUMBERS), 0);
     w.x += beside;
     w.width -= 2 * beside;
+    if (layout_caption_height(&s->view)) /* the caption takes the room that numbers below the world need */
+        w.height -= s->text.height;
     return w;
 }
 

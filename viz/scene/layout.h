@@ -15,6 +15,10 @@
  * picture is too small for the column. */
 int layout_panel_width(const view *v);
 
+/* Returns the height of the strip below the space view and the diagram, which holds the caption, in pixels. Returns 0
+ * if the picture has no column of text or is too low. */
+int layout_caption_height(const view *v);
+
 /* Returns the area of the space view, in which the world is drawn. */
 camera_window layout_space_area(const scene *s);
 

@@ -29,16 +29,23 @@ bool has_swatch(const scene *s, unsigned role)
     return false;
 }
 
+bool is_in_caption(const scene *s, const scene_label *label)
+{
+    return label->style.layer == LAYER_TEXT && layout_caption_height(&s->view) > 0 &&
+           label->at[0] >= layout_panel_width(&s->view);
+}
+
 void assert_inside_column(const scene *s)
 {
-    const int width = layout_panel_width(&s->view);
+    const int width = layout_panel_width(&s->view), strip = s->view.height - layout_caption_height(&s->view);
     for (size_t i = 0; i < s->labels.count; i++) {
         const scene_label *label = &s->labels.items[i];
         if (label->style.layer != LAYER_TEXT)
             continue;
         assert_non_null(memchr(label->text, 0, SCENE_TEXT));
         assert_false(label->in_world);
-        assert_true(label->at[0] >= 0 && label->at[1] >= 0 && (width == 0 || label->at[0] < width));
+        assert_true(label->at[0] >= 0 && label->at[1] >= 0);
+        assert_true(width == 0 || label->at[0] < width || (label->at[1] >= strip && label->at[0] < s->view.width));
         for (size_t j = 0; j < i; j++)
             assert_true(s->labels.items[j].style.layer != LAYER_TEXT || s->labels.items[j].id != label->id);
     }
@@ -46,7 +53,8 @@ void assert_inside_column(const scene *s)
         const scene_panel *panel = &s->panels.items[i];
         if (panel->style.layer != LAYER_TEXT)
             continue;
-        assert_true(panel->x >= 0 && panel->width > 0 && panel->height > 0 && panel->x + panel->width <= width);
+        assert_true(panel->x >= 0 && panel->width > 0 && panel->height > 0);
+        assert_true(panel->x + panel->width <= (width > 0 && panel->y >= strip ? s->view.width : width));
         for (size_t j = 0; j < i; j++)
             assert_true(s->panels.items[j].style.layer != LAYER_TEXT || s->panels.items[j].id != panel->id);
     }

@@ -17,7 +17,10 @@ int find_legend_text_x(const scene *s);
 /* Whether a panel has this colour. */
 bool has_swatch(const scene *s, unsigned role);
 
-/* The test fails unless ids are unique, texts are terminated, and every element begins in the column. */
+/* Whether a label is a part of the caption. */
+bool is_in_caption(const scene *s, const scene_label *label);
+
+/* The test fails unless ids are unique, texts are terminated, and every element begins in the column or the caption. */
 void assert_inside_column(const scene *s);
 
 #endif

@@ -33,8 +33,9 @@ static void assert_row(const json_t *row)
 {
     const json_t *sign = json_object_get(row, "sign");
     assert_true(json_is_object(row));
-    assert_true(json_is_string(json_object_get(row, "title")) || json_is_string(json_object_get(row, "text")) ||
-                json_is_string(json_object_get(row, "name")) || json_is_true(json_object_get(row, "rule")));
+    assert_true(json_is_string(json_object_get(row, "title")) || json_is_string(json_object_get(row, "caption")) ||
+                json_is_string(json_object_get(row, "text")) || json_is_string(json_object_get(row, "name")) ||
+                json_is_true(json_object_get(row, "rule")));
     for (size_t i = 0; i < json_array_size(sign); i++) {
         const json_t *part = json_array_get(sign, i);
         const size_t count = json_array_size(part);

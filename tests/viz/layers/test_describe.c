@@ -29,6 +29,8 @@ static const struct {
     {LAYER_MERGES, SCENE_SEGMENT, "that merged at this tick, node ", true, false},
     {LAYER_SPLITS, SCENE_SEGMENT, "that split at this tick, node ", true, false},
     {LAYER_POINTS, SCENE_MARKER, "point ", false, true},
+    {LAYER_POINTS, SCENE_LABEL, ", the id of a point", false, false},
+    {LAYER_POINTS, SCENE_PANEL, "the background of the id of a point", false, false},
     {LAYER_VELOCITIES, SCENE_SEGMENT, "the velocity of point 700 at (", false, true},
     {LAYER_RANGE, SCENE_BOX, "the box of the range query", false, false},
     {LAYER_RANGE, SCENE_MARKER, "found by a range query", false, true},

@@ -9,18 +9,15 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The layers that have a line in the legend, what colour its swatch has and what its words say. */
+/* The layers that have a line in the legend, from its last line up; what colour its swatch has and what its words say.
+ */
 static const struct legend_row {
     view_layer layer;
     unsigned role;
     bool shared; /* other layers have this colour too */
     const char *text;
 } legend_rows[] = {
-    {LAYER_WRONG, ROLE_WRONG, false, "wrong answer"},
-    {LAYER_WRONG, ROLE_MISSED, false, "missing point"},
-    {LAYER_WRONG, ROLE_WRONG, false, "extra point"},
-    {LAYER_PLAYER, ROLE_PLAYER, false, "player and its box"},
-    {LAYER_BOX, ROLE_COLLISION, false, "collision, crossed"},
+    {LAYER_PLAYER, ROLE_PLAYER, false, "player"},
     {LAYER_POINTS, ROLE_POINT, true, "point"},
     {LAYER_VELOCITIES, ROLE_FAINT, true, "velocity, "},
     {LAYER_NODES, ROLE_NODE, true, "nodes, depth 0"},
@@ -33,9 +30,13 @@ static const struct legend_row {
     {LAYER_RADIUS, ROLE_RADIUS, false, "radius query"},
     {LAYER_KNEAREST, ROLE_KNEAREST, false, "k nearest"},
     {LAYER_NEAREST, ROLE_NEAREST, false, "nearest point"},
+    {LAYER_BOX, ROLE_COLLISION, false, "collision"},
     {LAYER_SHAPES, ROLE_SHAPE, false, "4 shapes"},
     {LAYER_VISIT_HEAT, ROLE_NODE + 9, true, "+ visits"},
     {LAYER_POINT_HEAT, ROLE_NODE + 9, true, "+ points"},
+    {LAYER_WRONG, ROLE_WRONG, false, "extra point"},
+    {LAYER_WRONG, ROLE_MISSED, false, "missing point"},
+    {LAYER_WRONG, ROLE_WRONG, false, "wrong answer"},
 };
 
 #define LEGEND_ROWS (sizeof legend_rows / sizeof legend_rows[0])
@@ -54,53 +55,66 @@ static bool is_explained(const scene *s, const struct legend_row *row)
     return false;
 }
 
-/* Play to the first tick by which each kind of query has been asked. */
-static octree_game *start_asking(const octree_session *session)
+static size_t count_shapes(const scene *s, scene_shape shape)
 {
-    octree_game *game = start_game(session);
-    while (!(octree_game_tick(game)->asked >> OCTREE_QUERY_RANGE & 1))
-        play_tick(game);
-    return game;
+    size_t count = 0;
+    for (size_t i = 0; i < s->markers.count; i++)
+        count += s->markers.items[i].style.layer == LAYER_WRONG && s->markers.items[i].shape == shape;
+    return count;
 }
 
-/* A layer shown alone has its line and no other. If one layer is hidden, all others have theirs. There is room for all.
+/* Whether the frame has what a row explains. */
+static bool occurs(const scene *s, const octree_game *game, const struct legend_row *row)
+{
+    const layer_counts found = count_layer(s, row->layer);
+    if (row->layer == LAYER_BOX)
+        return octree_game_tick(game)->hit_count > 0 && found.boxes > 0;
+    if (row->layer == LAYER_WRONG)
+        return count_shapes(s, row->role == ROLE_MISSED           ? SHAPE_TRIANGLE
+                               : strcmp(row->text, "extra point") ? SHAPE_RING
+                                                                  : SHAPE_WEDGE) > 0;
+    return found.boxes + found.segments + found.markers > 0;
+}
+
+/* At every tick, with another layer hidden, each row is there if the frame has what it explains. There is room for all.
  */
-static void legend_lists_the_shown_layers(void **state)
+static void legend_lists_what_occurs(void **state)
 {
     (void)state;
     const octree_session session = session_with_all_layers();
-    octree_game *game = start_asking(&session);
+    octree_game *game = start_game(&session);
+    size_t seen[LEGEND_ROWS] = {0};
+    heat h = {0};
     scene s = {0};
-    for (size_t i = 0; i < LEGEND_ROWS; i++) {
-        for (unsigned text = 0; text < 2; text++) {
-            const unsigned words = text << LAYER_TEXT, own = 1u << legend_rows[i].layer;
-            view v = view_of(1280, 1440, CAMERA_ISO, own | words);
-            build_tick(&s, &v, game);
-            for (size_t j = 0; j < LEGEND_ROWS; j++)
-                assert_int_equal(is_explained(&s, &legend_rows[j]),
-                                 text && legend_rows[i].layer == legend_rows[j].layer);
-            assert_int_equal(has_swatch(&s, legend_rows[i].role), text);
-            v.layers = VIEW_ALL_LAYERS & ~own & ~(text ? 0 : 1u << LAYER_TEXT);
-            build_tick(&s, &v, game);
-            for (size_t j = 0; j < LEGEND_ROWS; j++)
-                assert_int_equal(is_explained(&s, &legend_rows[j]),
-                                 text && legend_rows[i].layer != legend_rows[j].layer);
-            assert_true(legend_rows[i].shared || !has_swatch(&s, legend_rows[i].role));
+    for (size_t tick = 0; !octree_game_over(game); tick++) {
+        const view_layer hidden = legend_rows[tick % LEGEND_ROWS].layer;
+        const unsigned text = tick % 3 ? 1u << LAYER_TEXT : 0;
+        const view v =
+            view_of(1280, 1440, CAMERA_ISO, (VIEW_ALL_LAYERS & ~(1u << LAYER_TEXT) & ~(1u << hidden)) | text);
+        play_tick(game);
+        assert_true(heat_add_tick(&h, game));
+        build_hot_tick(&s, &v, game, &h);
+        for (size_t i = 0; i < LEGEND_ROWS; i++) {
+            const bool occurring = occurs(&s, game, &legend_rows[i]);
+            assert_int_equal(is_explained(&s, &legend_rows[i]), text && occurring);
+            assert_true(!(text && occurring) || has_swatch(&s, legend_rows[i].role));
+            assert_true(text || !has_swatch(&s, legend_rows[i].role) || legend_rows[i].shared);
+            seen[i] += occurring;
         }
     }
+    for (size_t i = 0; i < LEGEND_ROWS; i++)
+        if (seen[i] == 0)
+            fail_msg("no frame has a line \"%s\"", legend_rows[i].text);
+    heat_release(&h);
     octree_game_destroy(game);
     scene_release(&s);
 }
 
-/* The order in which rows are dropped: layers without elements in the frame, self-explanatory layers, layers whose
- * answer the panel shows, all others. */
-static unsigned worth_of(const scene *s, const struct legend_row *row)
+/* The order in which rows are dropped: self-explanatory layers, layers whose answer the panel shows, all others. */
+static unsigned worth_of(const struct legend_row *row)
 {
     static const unsigned answers = 1u << LAYER_RANGE | 1u << LAYER_RADIUS | 1u << LAYER_KNEAREST | 1u << LAYER_NEAREST;
-    const layer_counts found = count_layer(s, row->layer);
-    if (found.boxes + found.segments + found.markers == 0)
-        return 0;
-    return row->layer == LAYER_POINTS || row->layer == LAYER_PLAYER ? 1 : answers >> row->layer & 1 ? 2 : 3;
+    return row->layer == LAYER_POINTS || row->layer == LAYER_PLAYER ? 0 : answers >> row->layer & 1 ? 1 : 2;
 }
 
 /* A row is dropped only after all rows with an earlier drop order. The rows dropped last go from the end. The last line
@@ -109,28 +123,29 @@ static void legend_drops_lines_in_drop_order(void **state)
 {
     (void)state;
     const octree_session session = session_with_all_layers();
-    octree_game *game = start_asking(&session);
+    octree_game *game = start_game(&session);
+    while (!(octree_game_tick(game)->asked >> OCTREE_QUERY_RANGE & 1))
+        play_tick(game);
     scene s = {0};
     size_t whole = 0, partial = 0, cut = 0, none = 0;
     for (int height = 100; height <= 1440; height += 10) {
         const view v = view_of(1280, height, CAMERA_ISO, VIEW_DEFAULT_LAYERS);
-        size_t there[4] = {0}, missing[4] = {0};
+        size_t there[3] = {0}, missing[3] = {0};
         char more[SCENE_TEXT];
         build_tick(&s, &v, game);
         assert_inside_column(&s);
-        for (size_t i = 0; i < LEGEND_ROWS; i++) {
-            const unsigned worth = worth_of(&s, &legend_rows[i]);
+        for (size_t i = LEGEND_ROWS; i-- > 0;) {
+            const unsigned worth = worth_of(&legend_rows[i]);
             const bool listed = is_explained(&s, &legend_rows[i]);
-            if (!(v.layers >> legend_rows[i].layer & 1))
+            if (!occurs(&s, game, &legend_rows[i]))
                 continue;
-            assert_true(!listed || worth < 3 || missing[3] == 0);
+            assert_true(!listed || worth < 2 || missing[2] == 0);
             there[worth] += listed;
             missing[worth] += !listed;
         }
-        for (unsigned worth = 1; worth < 4; worth++)
+        for (unsigned worth = 1; worth < 3; worth++)
             assert_true(missing[worth] == 0 || there[worth - 1] == 0);
-        const size_t all = there[0] + there[1] + there[2] + there[3];
-        const size_t gone = missing[0] + missing[1] + missing[2] + missing[3];
+        const size_t all = there[0] + there[1] + there[2], gone = missing[0] + missing[1] + missing[2];
         snprintf(more, sizeof more, "and %zu more", gone);
         bool told = false;
         for (size_t i = 0; i < s.labels.count; i++)
@@ -138,8 +153,8 @@ static void legend_drops_lines_in_drop_order(void **state)
                    (strcmp(s.labels.items[i].text, more) == 0 && s.labels.items[i].at[0] == find_legend_text_x(&s));
         assert_int_equal(told, all > 0 && gone > 0);
         whole += missing[0] == 0;
-        partial += missing[3] == 0 && missing[0] > 0;
-        cut += all > 0 && missing[3] > 0;
+        partial += missing[2] == 0 && missing[0] > 0;
+        cut += all > 0 && missing[2] > 0;
         none += all == 0;
     }
     assert_true(whole > 0 && partial > 0 && cut > 0 && none > 0);
@@ -147,31 +162,8 @@ static void legend_drops_lines_in_drop_order(void **state)
     scene_release(&s);
 }
 
-static void legend_lists_queries_of_every_tick_but_no_later_ones(void **state)
-{
-    (void)state;
-    static const theme_role roles[OCTREE_QUERY_KINDS] = {ROLE_RANGE, ROLE_NEAREST, ROLE_KNEAREST, ROLE_RADIUS};
-    const view v = view_make_default();
-    scene s = {0};
-    for (int kind = -1; kind < OCTREE_QUERY_KINDS; kind++) {
-        const octree_query asked[] = {
-            {.tick = 99, .kind = (octree_query_kind)((kind + 1) % OCTREE_QUERY_KINDS)},
-            {.tick = OCTREE_EVERY_TICK, .kind = (octree_query_kind)(kind < 0 ? 0 : kind)},
-        };
-        octree_session session = small_session(NULL, 0);
-        session.queries = asked;
-        session.query_count = kind < 0 ? 1 : 2;
-        octree_game *game = start_game(&session);
-        build_tick(&s, &v, game);
-        for (int i = 0; i < OCTREE_QUERY_KINDS; i++) /* the key n can ask for the nearest point in every session */
-            assert_int_equal(has_swatch(&s, roles[i]), i == kind || i == OCTREE_QUERY_NEAREST);
-        octree_game_destroy(game);
-    }
-    scene_release(&s);
-}
-
-/* The later queries of a program are unknown while its session is recorded. */
-static void legend_without_a_player_lists_queries_asked_so_far(void **state)
+/* A query is listed only at its tick. A player that is away has no line. */
+static void legend_lists_a_query_at_its_tick(void **state)
 {
     (void)state;
     const view v = view_make_default();
@@ -186,10 +178,8 @@ static void legend_without_a_player_lists_queries_asked_so_far(void **state)
         scene s = {0};
         for (int tick = 0; tick < 4; tick++) {
             build_tick(&s, &v, game);
-            assert_int_equal(has_swatch(&s, ROLE_RADIUS), tick >= 2);
-            assert_false(has_swatch(&s, ROLE_NEAREST));
-            assert_int_equal(has_swatch(&s, ROLE_PLAYER), kind == OCTREE_PLAYER_BODY);
-            assert_int_equal(count_layer(&s, LAYER_PLAYER).markers, 0);
+            assert_int_equal(has_swatch(&s, ROLE_RADIUS), tick == 2);
+            assert_false(has_swatch(&s, ROLE_NEAREST) || has_swatch(&s, ROLE_PLAYER));
             assert_int_equal(find_text(&s, "away") != NULL, kind == OCTREE_PLAYER_BODY);
             if (tick < 3)
                 play_tick(game);
@@ -252,10 +242,9 @@ static void every_query_kind_has_a_layer_and_a_panel_row(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(legend_lists_the_shown_layers),
+        cmocka_unit_test(legend_lists_what_occurs),
         cmocka_unit_test(legend_drops_lines_in_drop_order),
-        cmocka_unit_test(legend_lists_queries_of_every_tick_but_no_later_ones),
-        cmocka_unit_test(legend_without_a_player_lists_queries_asked_so_far),
+        cmocka_unit_test(legend_lists_a_query_at_its_tick),
         cmocka_unit_test(legend_lists_the_elements_of_the_diagram),
         cmocka_unit_test(every_listed_layer_has_a_place_and_text),
         cmocka_unit_test(every_query_kind_has_a_layer_and_a_panel_row),

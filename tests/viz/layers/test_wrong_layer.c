@@ -241,14 +241,14 @@ static void texts_at_one_place_do_not_overlap(void **state)
     scene_release(&s);
 }
 
-/* Nothing is added for right answers but lines of the legend, and nothing at all where no program answered. */
-static void right_or_missing_answers_add_only_legend_lines(void **state)
+/* Nothing is added for right answers, nor where no program answered. */
+static void right_or_missing_answers_add_nothing(void **state)
 {
     (void)state;
     static const uint64_t right[] = {1};
     octree_query query = nearest_of(right, 1);
     scene s = scene_of(&query, 1, CAMERA_ISO);
-    assert_true(is_empty(&s) && has_swatch(&s, ROLE_WRONG));
+    assert_true(is_empty(&s) && !has_swatch(&s, ROLE_WRONG));
     scene_release(&s);
     query.answered = false;
     s = scene_of(&query, 1, CAMERA_ISO);
@@ -292,7 +292,7 @@ int main(void)
         cmocka_unit_test(worst_of_many_wrong_answers_has_the_large_ring),
         cmocka_unit_test(texts_without_room_are_left_out),
         cmocka_unit_test(texts_at_one_place_do_not_overlap),
-        cmocka_unit_test(right_or_missing_answers_add_only_legend_lines),
+        cmocka_unit_test(right_or_missing_answers_add_nothing),
         cmocka_unit_test(ratio_near_one_is_printed_as_a_percentage),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -171,28 +171,33 @@ static size_t elements(layer_counts of)
     return of.boxes + of.segments + of.markers + of.labels + of.panels;
 }
 
-/* Compare elements by the digests of scenes that contain only them. */
+/* The layers whose labels stand where other layers leave room. */
+#define LABELLED (1u << LAYER_POINTS | 1u << LAYER_KNEAREST | 1u << LAYER_SHAPES | 1u << LAYER_WRONG)
+
+/* Compare elements by the digests of scenes that contain only them, without labels that avoid other layers. */
 static uint64_t layer_digest(const scene *s, unsigned layer)
 {
     scene alone = {.view = {.layers = 1u << layer}};
+    const bool labels = !(LABELLED >> layer & 1);
     for (size_t i = 0; i < s->boxes.count; i++)
         scene_add_box(&alone, s->boxes.items[i]);
     for (size_t i = 0; i < s->segments.count; i++)
         scene_add_segment(&alone, s->segments.items[i]);
     for (size_t i = 0; i < s->markers.count; i++)
         scene_add_marker(&alone, s->markers.items[i]);
-    for (size_t i = 0; i < s->labels.count; i++)
+    for (size_t i = 0; labels && i < s->labels.count; i++)
         scene_add_label(&alone, s->labels.items[i]);
-    for (size_t i = 0; i < s->panels.count; i++)
+    for (size_t i = 0; labels && i < s->panels.count; i++)
         scene_add_panel(&alone, s->panels.items[i]);
-    assert_int_equal(elements(count_layer(&alone, layer)), elements(count_layer(s, layer)));
+    assert_true(!labels || elements(count_layer(&alone, layer)) == elements(count_layer(s, layer)));
     const uint64_t digest = scene_digest(&alone);
     scene_release(&alone);
     return digest;
 }
 
 /* Only the text layer may change when another layer is hidden, because it describes the others. The numbers of the axes
- * are text as well, and the labels of wrong answers and of shapes avoid the panel. */
+ * are text as well, and the squares of leaves with heat are left out where they are small: the picture without text has
+ * more room for them. */
 static void check_without_layer(const scene *all, const octree_game *game, const heat *h, unsigned off)
 {
     const view v = view_of(640, 360, CAMERA_ISO, VIEW_ALL_LAYERS & ~(1u << off));
@@ -200,8 +205,7 @@ static void check_without_layer(const scene *all, const octree_game *game, const
     build_hot_tick(&s, &v, game, h);
     assert_int_equal(elements(count_layer(&s, off)), 0);
     for (unsigned layer = 0; layer < LAYER_TEXT; layer++)
-        if (layer != off &&
-            !(off == LAYER_TEXT && (layer == LAYER_WORLD || layer == LAYER_WRONG || layer == LAYER_SHAPES)))
+        if (layer != off && !(off == LAYER_TEXT && (layer == LAYER_WORLD || VIEW_HEAT_LAYERS >> layer & 1)))
             assert_true(layer_digest(&s, layer) == layer_digest(all, layer));
     scene_release(&s);
 }

@@ -83,9 +83,12 @@ function rowElement({title, text, sign, name, detail = "", value, name_color, co
     return row;
 }
 
-/* Show the rows of the column of text. A rule that follows a rule or is last, and an empty line, are left out. */
-function showRows(rows)
+/* Show the rows of the column of text. A rule that follows a rule or is last, and an empty line, are left out. The
+ * caption stands below the picture. */
+function showRows(all)
 {
+    const rows = all.filter(({caption}) => caption === undefined), {caption} = all.find(row => row.caption) ?? {};
+    byId("words").textContent = caption ?? "";
     const isNeeded = (row, i) => row.rule ? rows[i + 1] && !rows[i + 1].rule : !row.sign || row.text || row.sign.length > 0;
     byId("column").replaceChildren(...rows.filter(isNeeded).map(rowElement));
 }
