@@ -8,7 +8,7 @@ const INPUTS_A_CHECK = 150, MOST_FINDINGS = 20;
 const NASTY = ["", "NaN", "-1", "1e308", "0", "1,2", "z=0", "x=nan", "2:5", "9:1", "1,1,1,-1,-1,-1", "-400,-400,-400,400,400,400",
                "100", "0.5", "<b>", "2,2,2"];
 const KEYS_PRESSED = ["ArrowRight", "ArrowLeft", "PageDown", "PageUp", "Home", "End", " ", "+", "-", "j", "k", "1", "2", "3",
-                      "4", "5", "6", "0", ..."wsdaefn.qwsdaef", "c", "Escape", "?", "x", ..."oivtpl"];
+                      "4", "5", "6", "0", ..."wsdaefn.qwsdaef", "c", "Escape", "?", "x", ..."oivtplbz"];
 const ADDRESSES = ["#", "#t=7", "#t=1e9&filter=full,x", "#t=40&view=--camera+top+--zoom+3", "#t=3&view=--zoom+nan&pixels=recorded",
                    "#t=35&keys=30:wwdnnq.&select=node+7/7", "#t=2&keys=999:ww&ask={\"radius\":300,\"at\":[0,0,0]}",
                    "#t=12&select=point+3&view=--slice+z=100+--layers+none", "#t=9&ask=[&select=node+%00", "#%E0%A4%A"];
@@ -115,6 +115,20 @@ function wheel()
                                                  deltaMode: random(2), clientX: random(800), clientY: random(500)}));
 }
 
+function wheelOverLanes()
+{
+    fire(byId("scrub"), new WheelEvent("wheel", {bubbles: true, cancelable: true, deltaX: random(3) ? 0 : random(400) - 200,
+                                                 deltaY: random(4000) - 2000, clientX: random(900)}));
+}
+
+function followLink()
+{
+    const links = [...document.querySelectorAll("[data-select], [data-go], [data-tick], .raw summary")];
+    inputs++;
+    if (links.length > 0)
+        oneOf(links).click();
+}
+
 function clickButton()
 {
     const buttons = [...document.querySelectorAll("button")].filter(button => !button.disabled);
@@ -125,7 +139,8 @@ function clickButton()
 /* The inputs, and how often each is made. */
 const ACTS = [
     [30, press], [20, () => drag(byId("stage"))], [12, () => click(byId("stage"))], [12, wheel], [10, scrub],
-    [6, () => drag(byId("scrub"))], [2, () => { location.hash = oneOf(ADDRESSES); }], [3, type], [5, clickButton], [6, ask], [1, () => drop(oneOf(FILES))],
+    [6, () => drag(byId("scrub"))], [2, () => { location.hash = oneOf(ADDRESSES); }], [3, type], [4, wheelOverLanes],
+    [6, followLink], [1, () => drag(byId("range"))], [5, clickButton], [6, ask], [1, () => drop(oneOf(FILES))],
     [8, () => {
         const controls = [...byId("view-rows").querySelectorAll("input, select")];
         if (controls.length > 0)
