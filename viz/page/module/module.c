@@ -22,6 +22,7 @@
 #include "point_block.h"
 #include "recording_file.h"
 #include "renderer.h"
+#include "rgba.h"
 #include "session_file.h"
 #include "text.h"
 
@@ -279,31 +280,6 @@ static bool open_picture(void)
     return page.rgba || error_no_memory(&page.error);
 }
 
-static uint32_t rgba_word(image_color color)
-{
-    const uint8_t bytes[4] = {color.r, color.g, color.b, 255};
-    uint32_t word;
-    memcpy(&word, bytes, sizeof word);
-    return word;
-}
-
-/* Convert the pixels of a frame to RGBA. This takes a large part of a frame's time. Each pixel is therefore written as
- * one 32-bit word, and palette indices are looked up in a table. */
-static void color_pixels(const image *frame)
-{
-    const size_t pixels = (size_t)frame->width * (size_t)frame->height;
-    const uint8_t *from = frame->pixels;
-    uint32_t words[256] = {0};
-    for (int i = 0; i < frame->palette.count; i++)
-        words[i] = rgba_word(frame->palette.colors[i]);
-    if (frame->channels == 1)
-        for (size_t i = 0; i < pixels; i++)
-            page.rgba[i] = words[from[i]];
-    else
-        for (size_t i = 0; i < pixels; i++, from += 3)
-            page.rgba[i] = rgba_word((image_color){from[0], from[1], from[2]});
-}
-
 /* Compose the scene of the current tick, and write the rows of its text column if the view has its text apart. */
 static bool compose_and_write_rows(FILE *out)
 {
@@ -325,7 +301,7 @@ static const uint32_t *draw_picture(void)
         report_error_text();
         return NULL;
     }
-    color_pixels(&p->picture.frame);
+    rgba_convert(&p->picture.frame, page.rgba);
     page.drawn = true;
     return page.rgba;
 }
