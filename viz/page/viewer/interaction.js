@@ -187,7 +187,7 @@ class Interaction {
     show(tick)
     {
         this.wanted = Math.min(tick, this.player.length - 1);
-        return this.showing ??= this.showWanted().finally(() => this.showing = undefined);
+        return this.showing ??= this.showWanted();
     }
 
     async showWanted()
@@ -204,6 +204,7 @@ class Interaction {
         } catch (error) {
             this.showStatus(error.message);
         }
+        this.showing = undefined; /* at once: show() must not wait for a loop that has ended */
     }
 
     /* Show the first view of the recorded ticks again. */
