@@ -85,6 +85,24 @@ async function sayTouch()
     await settled();
 }
 
+/* A view that moves has fewer pixels if a picture takes long, until it rests. */
+async function sayCoarse()
+{
+    const {live} = interaction, {width} = canvas();
+    point("pointerdown", 1, 100, 100);
+    await settled();
+    live.cost = 1000;
+    point("pointermove", 1, 160, 100);
+    say("coarse while it moves", Math.abs(canvas().width - width / 2) <= 1);
+    await until(fills, "all pixels");
+    live.cost = 0;
+    point("pointermove", 1, 200, 100);
+    say("all pixels if they are fast", fills());
+    point("pointerup", 1, 200, 100);
+    interaction.goBack();
+    await settled();
+}
+
 function sayHelp()
 {
     press("?");
@@ -181,6 +199,7 @@ run(async () => {
     await sayColumn();
     await sayExact();
     await sayTouch();
+    await sayCoarse();
     sayHelp();
     sayNames();
     await sayLink();

@@ -76,6 +76,13 @@ static void tap_opens_the_facts_and_fingers_turn_and_zoom(void **state)
     assert_reported_value(d->said, "two fingers zoom", "true");
 }
 
+static void slow_pictures_lose_pixels_while_the_view_moves(void **state)
+{
+    const driven *d = need_page(state);
+    assert_reported_value(d->said, "coarse while it moves", "true");
+    assert_reported_value(d->said, "all pixels if they are fast", "true");
+}
+
 static void help_opens_at_its_beginning(void **state)
 {
     assert_reported_value(need_page(state)->said, "help begins", "0 help-title");
@@ -129,6 +136,7 @@ int main(void)
         cmocka_unit_test(picture_fills_the_window_beside_its_text),
         cmocka_unit_test(recorded_pixels_are_those_of_the_frame),
         cmocka_unit_test(tap_opens_the_facts_and_fingers_turn_and_zoom),
+        cmocka_unit_test(slow_pictures_lose_pixels_while_the_view_moves),
         cmocka_unit_test(help_opens_at_its_beginning),
         cmocka_unit_test(every_control_has_a_name_and_the_keyboard_reaches_it),
         cmocka_unit_test(link_opens_exactly_the_view),

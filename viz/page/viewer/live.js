@@ -10,6 +10,9 @@ const CLICK = 4;             /* CSS pixels: if a pointer moves less between down
 const PICK_RADIUS = 5;       /* CSS pixels */
 const MARK_RADIUS = 9;       /* CSS pixels */
 const KEY_STEP = 16;         /* pixels of the picture: a key turns the camera as much as dragging by this distance */
+const SMOOTH = 10;           /* ms for a picture; if it takes longer, a moving view is drawn with fewer pixels */
+const COARSE = 0.5;          /* the scale of the picture then */
+const REST = 100;            /* ms after which a view that moved is drawn with all pixels */
 const SUITED_HEIGHT = 720;   /* lines and letters of the picture look as in a frame of this height, in CSS pixels */
 const MOST_SIDE = 16384;     /* the longest side of a picture in samples (VIEW_MAX_SIDE in scene/view.h) */
 
@@ -37,7 +40,8 @@ class Live {
         this.appears = appears;
         this.showRows = showRows;
         this.exact = false; /* true: the picture has the size and the text of a recorded frame */
-        this.scale = 1;     /* pixels of the picture for each pixel of the screen, on one axis */
+        this.scale = 1;     /* pixels of the picture for each pixel of the screen, on one axis; see glide() */
+        this.cost = 0;      /* ms that the last picture with all pixels took */
         this.observer = new ResizeObserver(() => this.isShown && !this.exact && this.draw());
         this.observer.observe(stage);
         this.recorded = player.engine.view;
@@ -97,9 +101,11 @@ class Live {
     /* Draw the picture at the next animation frame, so that several changes make only one picture. */
     draw()
     {
+        this.stale = true; /* until drawNow(), which may come first */
         this.waiting ??= new Promise(done => requestAnimationFrame(() => {
             this.waiting = undefined;
-            this.drawNow();
+            if (this.stale)
+                this.drawNow();
             done();
         }));
         return this.waiting;
@@ -107,6 +113,8 @@ class Live {
 
     drawNow()
     {
+        const start = performance.now();
+        this.stale = false;
         if (this.ended)
             return;
         try {
@@ -114,7 +122,7 @@ class Live {
                                        : this.engine.drawAt(...this.size, Math.round(SUITED_HEIGHT * this.ratio));
             if (this.canvas.width !== picture.width || this.canvas.height !== picture.height)
                 Object.assign(this.canvas, {width: picture.width, height: picture.height});
-            this.canvas.getContext("2d").putImageData(picture, 0, 0);
+            this.canvas.getContext("2d", {alpha: false}).putImageData(picture, 0, 0);
             this.canvas.dataset.tick = this.engine.tick;
             this.canvas.setAttribute("aria-label", `The picture of tick ${this.engine.tick}`);
             this.seen = this.engine.camera();
@@ -125,9 +133,26 @@ class Live {
             if (!this.exact && this.rows !== this.engine.rows)
                 this.showRows(JSON.parse(this.rows = this.engine.rows));
             this.mark();
+            if (this.scale === 1)
+                this.cost = performance.now() - start;
         } catch (error) {
             this.showStatus(error.message);
         }
+    }
+
+    /* Change the view while it moves. A slow picture loses pixels until the view rests. */
+    glide(changes)
+    {
+        if (!this.exact && this.cost > SMOOTH)
+            this.scale = COARSE;
+        clearTimeout(this.resting);
+        this.resting = setTimeout(() => {
+            const isCoarse = this.scale < 1;
+            this.scale = 1;
+            if (isCoarse)
+                this.draw();
+        }, REST);
+        return this.look(changes);
     }
 
     /* Change the view. If the module refuses the new values, the view stays unchanged. */
@@ -166,7 +191,7 @@ class Live {
     {
         const [azimuth, elevation] = this.direction();
         const turned = ((azimuth - dx * DEGREES_A_PIXEL) % 360 + 540) % 360 - 180;
-        return this.look({look: [rounded(turned), rounded(clamp(elevation + dy * DEGREES_A_PIXEL, -90, 90))]});
+        return this.glide({look: [rounded(turned), rounded(clamp(elevation + dy * DEGREES_A_PIXEL, -90, 90))]});
     }
 
     /* The camera of the view at a pixel: inside the close-up it is the camera of the close-up. */
@@ -186,7 +211,7 @@ class Live {
 
     move(dx, dy)
     {
-        return this.look({center: this.moved(dx, dy)});
+        return this.glide({center: this.moved(dx, dy)});
     }
 
     /* Zoom by a factor. The position at the pixel (x, y) stays at that pixel. */
@@ -195,7 +220,7 @@ class Live {
         const before = this.view.zoom ?? 1, after = clamp(before * factor, ...ZOOMS);
         const {middle} = this.camera, away = after / before - 1;
         const center = this.moved((middle[0] - x) * away / (1 + away), (middle[1] - y) * away / (1 + away));
-        return this.look({zoom: rounded(after), center});
+        return this.glide({zoom: rounded(after), center});
     }
 
     /* ---- The pointer -------------------------------------------------------------------------------------------- */
@@ -312,6 +337,10 @@ class Live {
     mark()
     {
         const {width, height} = this.canvas, point = this.subject?.point && this.engine.point(this.subject.point.id);
+        const wasMarked = this.isMarked;
+        this.isMarked = this.subject !== null || this.measured.length > 0;
+        if (!wasMarked && !this.isMarked)
+            return; /* clearing an empty canvas would take time at each picture */
         Object.assign(this.marks, {width, height});
         const context = this.marks.getContext("2d");
         context.strokeStyle = MARK_COLOR;
