@@ -62,17 +62,23 @@ async function timeScrubbing()
     return longest;
 }
 
-/* Milliseconds per frame while the view turns at a size of the picture, with all work of the browser. */
-async function timeTurning(size)
+/* Milliseconds per frame while the view turns in a window of a size, with all work of the browser. If isFull is false,
+ * the page may draw fewer pixels. Also returns the scale of the last picture. */
+async function timeTurning(window, isFull)
 {
     const {live} = interaction, frames = Math.min(FRAMES, 120);
-    await live.look({size});
+    Object.defineProperty(live, "size",
+                          {get: () => window.map(side => Math.round(side * live.scale)), configurable: true});
+    live.drawNow();
+    await rest(200);
     const start = performance.now();
     for (let i = 0; i < frames; i++) {
+        if (isFull)
+            live.cost = 0;
         live.turnStep(1, 0);
         await live.draw();
     }
-    return (performance.now() - start) / frames;
+    return [(performance.now() - start) / frames, live.scale];
 }
 
 /* The browser's count of JavaScript memory includes buffers, but not the memories of modules. */
@@ -90,7 +96,9 @@ async function measure()
         return `left out: ${document.getElementById("status").textContent}`;
     const first = performance.now();
     const frame = await timeFrames(), draw = await timeDrawing(), scrub = await timeScrubbing(), bytes = countMemory();
-    const turn = [await timeTurning(SIZES[0]), await timeTurning(SIZES[1])];
+    const turn = [];
+    for (const size of SIZES)
+        turn.push((await timeTurning(size, true))[0], ...await timeTurning(size, false));
     return `first ${first} frame ${frame} draw ${draw} scrub ${scrub} turn ${turn.join(" ")} bytes ${bytes} `;
 }
 

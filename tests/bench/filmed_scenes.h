@@ -33,6 +33,13 @@ typedef struct filmed_scene {
 #define PAGE_SIZES 2
 extern const int page_sizes[PAGE_SIZES][2];
 
+/* A page whose view turns, at one of the sizes. */
+typedef struct page_turning {
+    double full_ms; /* a frame with all pixels, until the browser takes the next */
+    double ms;      /* a frame as users see it */
+    double scale;   /* the page draws this part of the pixels of an axis to be fast enough; 1: all */
+} page_turning;
+
 #define FILMED_SCENES 6
 extern const filmed_scene filmed_scenes[FILMED_SCENES];
 

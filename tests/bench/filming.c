@@ -220,7 +220,7 @@ static bool film_page(work *w)
     w->result->frame_ms = t.frame_ms;
     w->result->draw_ms = t.draw_ms;
     w->result->scrub_ms = t.scrub_ms;
-    memcpy(w->result->turn_ms, t.turn_ms, sizeof t.turn_ms);
+    memcpy(w->result->turning, t.turning, sizeof t.turning);
     w->result->mib = t.mib;
     w->result->page_kb = t.kb;
     return true;

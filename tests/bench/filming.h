@@ -34,7 +34,7 @@ typedef struct filming {
     double floor_ms;           /* processor time of the encoder alone for these pixels */
     double mib;                /* peak memory of the process, or of the largest one */
     double scrub_ms, page_kb;  /* see page_timing.h */
-    double turn_ms[PAGE_SIZES];
+    page_turning turning[PAGE_SIZES];
     char trouble[512]; /* reason of a failure; "" if there is none */
 } filming;
 

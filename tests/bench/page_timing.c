@@ -119,9 +119,10 @@ static bool read_times(play *p, const char *told, page_times *times)
     double bytes;
     if (strncmp(told, left_out, sizeof left_out - 1) == 0)
         return fail(p, "%.*s", (int)strcspn(told, "\"\n") - (int)sizeof left_out + 1, told + sizeof left_out - 1);
-    if (sscanf(told, "first %lf frame %lf draw %lf scrub %lf turn %lf %lf bytes %lf", &times->first_ms,
-               &times->frame_ms, &times->draw_ms, &times->scrub_ms, &times->turn_ms[0], &times->turn_ms[1],
-               &bytes) != 7)
+    page_turning *small = &times->turning[0], *large = &times->turning[1];
+    if (sscanf(told, "first %lf frame %lf draw %lf scrub %lf turn %lf %lf %lf %lf %lf %lf bytes %lf", &times->first_ms,
+               &times->frame_ms, &times->draw_ms, &times->scrub_ms, &small->full_ms, &small->ms, &small->scale,
+               &large->full_ms, &large->ms, &large->scale, &bytes) != 11)
         return fail(p, "it says \"%.100s\"", told);
     times->mib = bytes / (1 << 20);
     return true;

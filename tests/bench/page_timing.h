@@ -15,9 +15,9 @@ typedef struct page_times {
     double frame_ms; /* a frame, until the browser takes the next */
     double draw_ms;  /* the part of it that the page takes: the tick, the scene, its pixels, the canvas */
     double scrub_ms; /* to another tick, at worst */
-    double turn_ms[PAGE_SIZES]; /* a frame while the view turns, until the browser takes the next */
-    double mib;                 /* what the page holds: its objects and the memories of its modules */
-    double kb;                  /* 1000 bytes: the size of the file */
+    page_turning turning[PAGE_SIZES];
+    double mib; /* what the page holds: its objects and the memories of its modules */
+    double kb;  /* 1000 bytes: the size of the file */
 } page_times;
 
 /* Play so many frames of FOLDER/index.html, which the script that does it is added to. The browser, a program's name or
