@@ -135,18 +135,20 @@ octree_status octree_remove_many(octree *tree, const octree_point *points, size_
  *
  * Errors: NULL_ARGUMENT, TOO_MANY, NO_MEMORY; the tree is then unchanged, and the statuses are undefined.
  *
- * Cost: for fewer moves than three tenths of the stored points, as octree_remove_many; a point that stays in its leaf
- * is overwritten in place, and if fewer than a sixteenth of the points move, most points change their leaves one by
- * one. For more moves, one pass over all points and a bulk build, with 90 to 140 bytes a point during the call.
+ * Cost: if less than a sixteenth of the points move (three tenths if fewer than 30,000 points are stored), the cost of
+ * single moves, but several leaves are loaded from memory at once; above 32 moves, about 90 bytes a move during the
+ * call. For more moves, as octree_remove_many. For three tenths of the points or more, one pass over all points and a
+ * bulk build, with 90 to 140 bytes a point during the call.
  *
- * Measured with 1e4 to 1e6 points (octree-bench --op move_1%,move_5%,move_20%,move_30%,move_50%,move_100%): if 1, 5,
- * 20, 30, 50 or 100 % of the points move, a call takes at most 1.0, 0.9, 0.7, 0.4, 0.3 or 0.2 of the time of a loop of
- * octree_move. The first call takes up to twice as long as later calls, because its memory is new: at worst about as
- * long as the loop. A call of fewer than 50 moves takes up to a third longer than the loop.
+ * Measured with 1e3 to 1e6 points (octree-bench --op move_1%,move_5%,move_20%,move_30%,move_50%,move_100%): for 1 to 20
+ * % of the points, a call takes 0.6 to 1.15 of the time of a loop of octree_move; for 30, 50 and 100 % at most 0.8, 0.5
+ * and 0.35. Calls of 2 to 200 moves take 0.6 to 1.1 of the time of the loop. The first call takes up to twice as long
+ * as later calls, because its memory is new: with 1e4 points up to 1.8 of the time of the loop, with 1e6 points less
+ * than the loop.
  *
- * Moves depend on one another if an id occurs twice in the batch or among the stored points, if a pair (position, id)
- * would occur twice, or if a leaf may be full under OCTREE_REFUSE. Such moves are first simulated one by one in a hash
- * table, with about 250 bytes a move. */
+ * If more points move than are moved singly, moves may depend on one another: if an id occurs twice in the batch or
+ * among the stored points, if a pair (position, id) would occur twice, or if a leaf may be full under OCTREE_REFUSE.
+ * Such moves are first simulated one by one in a hash table, with about 250 bytes a move. */
 octree_status octree_move_many(octree *tree, const octree_point *points, const double (*to)[3], size_t count,
                                octree_status *statuses, size_t *moved);
 

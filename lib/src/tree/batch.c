@@ -141,15 +141,20 @@ static bool rarely_refuses_points(const octree_def *def)
     return def->full_leaf != OCTREE_REFUSE || def->max_depth >= GRID_DEEPEST + LEVELS_BELOW;
 }
 
-/* Decide whether a batch of moves rebuilds the tree. A rebuild is worth its cost if at least three tenths of the points
- * move. It touches up to 64 bytes of new memory for each stored point. Half of the time of the first rebuild are page
- * faults in this memory: with a fifth of the points, it took longer than a loop of octree_move (octree-bench,
- * move_20%). Without a grid, sorting also finds the points that may meet a full leaf. Returns false if memory runs out.
- */
+/* A rebuild is worth its cost if at least three tenths of the points move. It touches up to 64 bytes of new memory for
+ * each stored point. Half of the time of the first rebuild are page faults in this memory: with a fifth of the points,
+ * it took longer than a loop of octree_move (octree-bench, move_20%). */
+bool is_rebuild_cheaper(const octree *tree, size_t count)
+{
+    return tree->root.count >= LEAST_REMADE && count >= tree->root.count / 10 * 3;
+}
+
+/* Decide whether a batch of moves rebuilds the tree. Without a grid, sorting also finds the points that may meet a full
+ * leaf. Returns false if memory runs out. */
 static bool decide_remake(batch *b)
 {
     const size_t stored = b->tree->root.count;
-    b->remakes = b->to && stored >= LEAST_REMADE && b->count >= stored / 10 * 3;
+    b->remakes = b->to && is_rebuild_cheaper(b->tree, b->count);
     return !b->remakes || !rarely_refuses_points(&b->tree->def) || choose_grid(b, stored);
 }
 

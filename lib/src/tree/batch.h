@@ -42,7 +42,6 @@ typedef struct batch {
     /* true: the batch only inserts points, so that an empty tree may be built with a grid */
     bool inserts;
     bool remakes;               /* true: so many points move that the tree is rebuilt; `valid` is then empty at first */
-    bool moves_singly;          /* true: a point moves at once if no node but its old and new leaf changes */
     bool settled;               /* true: the statuses of the moves are final, and no move meets a full leaf */
     bool may_be_stored;         /* true: an arriving point may already be stored, so each point must be checked */
     bool duplicate;             /* true: an arriving point is already stored */
@@ -94,6 +93,9 @@ static inline size_t unsorted_limit(const octree *tree)
 {
     return tree->def.leaf_capacity < MORTON_UNSORTED ? tree->def.leaf_capacity : MORTON_UNSORTED;
 }
+
+/* Returns whether rebuilding the tree is cheaper than moving this many points. */
+bool is_rebuild_cheaper(const octree *tree, size_t count);
 
 /* prepare_batch() checks all positions, sets the statuses, and sorts the valid points into `valid`. If the batch
  * rebuilds the tree (`remakes`), prepare_batch() does not fill `valid`; collect_batch_points() fills it if the points

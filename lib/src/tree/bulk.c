@@ -59,52 +59,9 @@ static bool have_same_bits(const double a[3], const double b[3])
     return memcmp(a, b, 3 * sizeof *a) == 0;
 }
 
-static void add_to_counts(const path *p, uint32_t change)
-{
-    for (unsigned depth = 0; depth < p->depth; depth++)
-        p->nodes[depth]->count += change;
-}
-
-/* Returns whether the leaf of a path can lose a point without losing a part of its block or merging with other leaves.
- * The leaf is not the root. */
-static bool can_lose_point(const octree *tree, const path *p)
-{
-    const node *leaf = path_end(p);
-    return leaf_block_room(leaf->count - 1) == leaf->room && !fits_leaf(tree, p->nodes[p->depth - 1]->count - 1);
-}
-
-/* Move a point to another leaf now, if only these two leaves change. Returns false if nothing was done. The other leaf
- * must not become a hashed leaf: undo_moves_made() writes to the points of leaves that other points have left. */
-static bool move_between_leaves(batch *b, const morton_item *item, uint32_t index, uint64_t code)
-{
-    octree *tree = b->tree;
-    const path from = find_path(tree, item->code), to = find_path(tree, code);
-    node *old = path_end(&from), *made = path_end(&to);
-    if (!can_lose_point(tree, &from) || made->octants || made->count == POOL_MAX_UNITS ||
-        !fits_leaf(tree, (size_t)made->count + 1))
-        return false;
-    const octree_point moved = arriving_point(b, item);
-    if (leaf_find(made, moved.position, moved.id) != LEAF_NONE || !leaf_append(&tree->store, made, &moved))
-        return false;
-    leaf_points(old)[index] = leaf_points(old)[--old->count];
-    add_to_counts(&to, 1);
-    add_to_counts(&from, UINT32_MAX);
-    return true;
-}
-
-/* A move between leaves has moved the last point of the leaf to an index. Correct the index of this point if it is one
- * of the leaving points of the leaf, which are listed from `first` on. */
-static void correct_leaving_index(const batch *b, size_t first, uint32_t last, uint32_t index)
-{
-    for (size_t i = first; i < b->leaving.count; i++)
-        if (b->leaving.items[i].index == last)
-            b->leaving.items[i].index = index;
-}
-
-/* Move a point that was found in a leaf. If no node changes, move the point now; undo_moves_made() can revert this
- * without allocating memory. Otherwise list the point as leaving and as arriving. The leaving points of the leaf are
- * listed from `first` on. */
-static void move_found_point(batch *b, node *leaf, unsigned depth, morton_item *item, uint32_t index, size_t first)
+/* Move a point that was found in a leaf. If the point stays in its leaf, move it now; undo_moves_made() can revert this
+ * without allocating memory. Otherwise list the point as leaving and as arriving. */
+static void move_found_point(batch *b, node *leaf, unsigned depth, morton_item *item, uint32_t index)
 {
     const double *to = b->to[item->place];
     octree_point *stored = &leaf_points(leaf)[index];
@@ -118,9 +75,6 @@ static void move_found_point(batch *b, node *leaf, unsigned depth, morton_item *
             return;
         }
         memcpy(stored->position, to, sizeof stored->position);
-        item->index = index;
-    } else if (is_simple && b->moves_singly && move_between_leaves(b, item, index, code)) {
-        correct_leaving_index(b, first, leaf->count, index);
         item->index = index;
     } else {
         b->leaving.items[b->leaving.count++] = (morton_item){item->code, item->place, index};
@@ -145,28 +99,14 @@ static uint32_t find_in_leaf_after(const node *leaf, uint32_t last, const octree
 static void find_moved_points(batch *b, node *leaf, unsigned depth, span items)
 {
     uint32_t index = LEAF_NONE;
-    const size_t first = b->leaving.count;
     for (size_t i = 0; i < items.count; i++) {
         morton_item *item = &items.items[i];
         index = find_in_leaf_after(leaf, index, &b->points[item->place]);
         if (index == LEAF_NONE)
             set_item_status(b, item, OCTREE_NOT_FOUND);
         else
-            move_found_point(b, leaf, depth, item, index, first);
+            move_found_point(b, leaf, depth, item, index);
     }
-}
-
-/* Revert a move between two leaves. Its point is the last one of the new leaf again, because all later moves are
- * reverted, and the old leaf has room for it. */
-static void undo_move_between_leaves(const batch *b, const morton_item *item, const path *from, const path *to)
-{
-    node *old = path_end(from), *made = path_end(to);
-    octree_point *points = leaf_points(old);
-    leaf_remove(&b->tree->store, made, made->count - 1);
-    points[old->count++] = points[item->index];
-    points[item->index] = b->points[item->place];
-    add_to_counts(from, 1);
-    add_to_counts(to, UINT32_MAX);
 }
 
 /* Revert the moves that were made at once, the last one first. This is possible because no node has moved or changed
@@ -177,29 +117,16 @@ static void undo_moves_made(batch *b)
         morton_item *item = &b->valid.items[i];
         if (item->index == MORTON_NEW)
             continue;
-        const path from = find_path(b->tree, item->code);
-        const path to = find_path(b->tree, morton_code(b->tree->axes, b->to[item->place]));
-        if (path_end(&from) == path_end(&to))
-            leaf_points(path_end(&from))[item->index] = b->points[item->place];
-        else
-            undo_move_between_leaves(b, item, &from, &to);
+        const path p = find_path(b->tree, item->code);
+        leaf_points(path_end(&p))[item->index] = b->points[item->place];
         item->index = MORTON_NEW;
     }
-}
-
-/* If fewer than a sixteenth of the points move, hardly two moves change the same leaf. Moving points singly is then
- * faster than planning the changes of all leaves (octree-bench, move_1%). Under OCTREE_REFUSE, the moves that meet a
- * full leaf would depend on the order. Tasks must not change one another's leaves. */
-static bool moves_singly(const batch *b)
-{
-    return !b->division && b->tree->def.full_leaf == OCTREE_GROW && b->count < b->tree->root.count / 16;
 }
 
 /* Make moves whose ids differ. *settled becomes false if moves depend on one another; the tree is then unchanged. */
 static octree_status make_independent_moves(batch *b, bool *settled)
 {
     b->may_be_stored = true;
-    b->moves_singly = moves_singly(b);
     visit_batch_leaves(b, find_moved_points);
     morton_sort_tasks(b->tree, &b->tree->store.memory, b->arriving.items, b->spare, b->arriving.count, 0, true);
     const octree_status status = restructure_tree(b);
@@ -427,10 +354,49 @@ octree_status octree_remove_many(octree *tree, const octree_point *points, size_
     return change_many(b, OCTREE_REMOVED, removed);
 }
 
+static octree_status move_one(const batch *b, size_t *moved)
+{
+    const octree_status status = octree_move(b->tree, b->points->position, b->points->id, b->to[0]);
+    if (status == OCTREE_NO_MEMORY)
+        return status;
+    if (b->statuses)
+        *b->statuses = status;
+    if (moved)
+        *moved = status == OCTREE_OK;
+    return OCTREE_OK;
+}
+
+/* Returns whether a batch of moves is made one by one. Its arrays must not lie in the tree's memory, unless move_few()
+ * copies them. */
+static bool moves_one_by_one(const batch *b)
+{
+    return is_small_batch_of_moves(b) &&
+           (b->count <= FEW_AT_ONCE ||
+            (!lies_in_tree_memory(b->tree, b->points->position) && !lies_in_tree_memory(b->tree, b->to[0])));
+}
+
+/* Move few points one by one. At most FEW_AT_ONCE moves are copied, which takes less time than finding out whether they
+ * lie in the tree's memory. */
+static octree_status move_few(batch b, size_t *moved)
+{
+    octree_point points[FEW_AT_ONCE];
+    double to[FEW_AT_ONCE][3];
+    if (b.count <= FEW_AT_ONCE) {
+        b.points = memcpy(points, b.points, b.count * sizeof *points);
+        b.to = (const double(*)[3])memcpy(to, b.to, b.count * sizeof *to);
+    }
+    return move_small_batch(&b, moved);
+}
+
 octree_status octree_move_many(octree *tree, const octree_point *points, const double (*to)[3], size_t count,
                                octree_status *statuses, size_t *moved)
 {
     RETURN_IN_DEFAULT_MODE(octree_status, octree_move_many, tree, points, to, count, statuses, moved);
     const batch b = {.tree = tree, .points = points, .to = to, .count = count, .statuses = statuses};
-    return change_many(b, OCTREE_MOVED, moved);
+    const octree_status status = check_arguments(&b, OCTREE_MOVED);
+    if (status != OCTREE_OK)
+        return status;
+    if (count == 1)
+        return move_one(&b, moved);
+    return moves_one_by_one(&b) ? move_few(b, moved) : change_many(b, OCTREE_MOVED, moved);
 }

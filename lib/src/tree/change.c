@@ -5,16 +5,29 @@
  * capacity. Algorithm 2 (remove): after a removal, a node becomes a leaf if its remaining points fit into one leaf. A
  * move within a leaf overwrites the point; any other move is an insertion and a removal. Memory is allocated before
  * anything changes, so that a failure leaves the tree as it was.
+ *
+ * Functions with a parameter `undo` describe there how to revert the change (undo.h). They then keep the memory that
+ * the change no longer needs; settle_step() frees it. A null pointer means that the change is final.
  */
 #include "../exact/float_mode.h"
-#include "tree.h"
+#include "undo.h"
 
 #include <string.h>
+
+/* Replace a node by another version, which shares no memory with the node. */
+static void replace_node(octree *tree, node *at, const node *made, step *undo)
+{
+    if (undo)
+        *undo = (step){.kind = STEP_REPLACED, .old = *at};
+    else
+        node_release(&tree->store, at);
+    *at = *made;
+}
 
 /* ---- Inserting ---------------------------------------------------------------------------------------------- */
 
 /* Add a leaf with this point as a child of an inner node that has no child in the point's octant. */
-static octree_status add_child_leaf(octree *tree, node *parent, unsigned octant, const octree_point *point)
+static octree_status add_child_leaf(octree *tree, node *parent, unsigned octant, const octree_point *point, step *undo)
 {
     const unsigned children = bits_count8(parent->octants), index = child_index(parent, octant);
     node leaf = {0};
@@ -28,7 +41,10 @@ static octree_status add_child_leaf(octree *tree, node *parent, unsigned octant,
     memcpy(group, parent->below, index * sizeof(node));
     group[index] = leaf;
     memcpy(group + index + 1, children_of(parent) + index, (children - index) * sizeof(node));
-    pool_free(&tree->store.nodes, parent->below, children);
+    if (undo)
+        *undo = (step){.kind = STEP_REGROUPED, .old = *parent};
+    else
+        pool_free(&tree->store.nodes, parent->below, children);
     parent->below = group;
     parent->octants |= (uint8_t)(1u << octant);
     return OCTREE_OK;
@@ -135,10 +151,27 @@ static bool make_parent_chain(octree *tree, node *bottom, uint64_t code, unsigne
     return true;
 }
 
+static octree_status append_to_leaf(octree *tree, node *leaf, const octree_point *point, step *undo)
+{
+    node larger;
+    if (!undo)
+        return leaf_append(&tree->store, leaf, point) ? OCTREE_OK : OCTREE_NO_MEMORY;
+    if (!leaf_is_full(leaf)) {
+        undo->kind = STEP_APPENDED;
+        leaf_append_unchecked(leaf, point);
+        return OCTREE_OK;
+    }
+    if (!leaf_copy_larger(&tree->store, leaf, &larger))
+        return OCTREE_NO_MEMORY;
+    leaf_append_unchecked(&larger, point);
+    replace_node(tree, leaf, &larger, undo);
+    return OCTREE_OK;
+}
+
 /* Add a point to a full leaf of this depth. The new node is complete before it replaces the leaf, so that a lack of
  * memory changes nothing. */
 static octree_status split_or_grow_leaf(octree *tree, node *leaf, const octree_point *point, uint64_t code,
-                                        unsigned depth)
+                                        unsigned depth, step *undo)
 {
     cell bottom = morton_cell(code, depth);
     shares s;
@@ -146,47 +179,55 @@ static octree_status split_or_grow_leaf(octree *tree, node *leaf, const octree_p
     if (!splits && tree->def.full_leaf == OCTREE_REFUSE)
         return OCTREE_FULL;
     if (!splits && bottom.depth == depth)
-        return leaf_append(&tree->store, leaf, point) ? OCTREE_OK : OCTREE_NO_MEMORY;
+        return append_to_leaf(tree, leaf, point, undo);
     node made;
     const bool enough =
         splits ? make_split_node(tree, &made, leaf, point, &s) : make_grown_leaf(tree, &made, leaf, point);
     if (!enough || !make_parent_chain(tree, &made, code, bottom.depth, depth))
         return OCTREE_NO_MEMORY;
-    leaf_release(&tree->store, leaf);
-    *leaf = made;
+    replace_node(tree, leaf, &made, undo);
     return OCTREE_OK;
 }
 
 static octree_status insert_into_leaf(octree *tree, node *leaf, const octree_point *point, uint64_t code,
-                                      unsigned depth, bool divides)
+                                      unsigned depth, bool divides, step *undo)
 {
     if (leaf_find(leaf, point->position, point->id) != LEAF_NONE)
         return OCTREE_DUPLICATE;
     if (leaf->count >= tree->def.leaf_capacity && !divides)
         return OCTREE_FULL;
     if (leaf->count >= tree->def.leaf_capacity)
-        return split_or_grow_leaf(tree, leaf, point, code, depth);
-    return leaf_append(&tree->store, leaf, point) ? OCTREE_OK : OCTREE_NO_MEMORY;
+        return split_or_grow_leaf(tree, leaf, point, code, depth, undo);
+    return append_to_leaf(tree, leaf, point, undo);
+}
+
+/* Insert a point at the end of the path of its code. */
+static octree_status insert_at_end(octree *tree, const path *p, const octree_point *point, uint64_t code, bool divides,
+                                   step *undo)
+{
+    if (tree->root.count == UINT32_MAX)
+        return OCTREE_TOO_MANY;
+    node *end = path_end(p);
+    const bool is_leaf = end->octants == 0;
+    const octree_status status = is_leaf ? insert_into_leaf(tree, end, point, code, p->depth, divides, undo)
+                                         : add_child_leaf(tree, end, morton_octant(code, p->depth), point, undo);
+    if (status != OCTREE_OK)
+        return status;
+    if (undo)
+        undo->depth = (uint8_t)p->depth;
+    /* If the path's last node is a leaf, its count is not increased here: leaf_append() has already counted the
+     * point. */
+    const unsigned inner = is_leaf ? p->depth : p->depth + 1;
+    for (unsigned i = 0; i < inner; i++)
+        p->nodes[i]->count++;
+    tree->version++;
+    return OCTREE_OK;
 }
 
 octree_status insert_point(octree *tree, const octree_point *point, uint64_t code, bool divides)
 {
-    if (tree->root.count == UINT32_MAX)
-        return OCTREE_TOO_MANY;
-    path p = find_path(tree, code);
-    node *end = path_end(&p);
-    const bool is_leaf = end->octants == 0;
-    const octree_status status = is_leaf ? insert_into_leaf(tree, end, point, code, p.depth, divides)
-                                         : add_child_leaf(tree, end, morton_octant(code, p.depth), point);
-    if (status != OCTREE_OK)
-        return status;
-    /* If the path's last node is a leaf, its count is not increased here: leaf_append() has already counted the
-     * point. */
-    const unsigned inner = is_leaf ? p.depth : p.depth + 1;
-    for (unsigned i = 0; i < inner; i++)
-        p.nodes[i]->count++;
-    tree->version++;
-    return OCTREE_OK;
+    const path p = find_path(tree, code);
+    return insert_at_end(tree, &p, point, code, divides, NULL);
 }
 
 octree_status octree_insert(octree *tree, const double position[3], uint64_t id)
@@ -237,22 +278,36 @@ void remove_empty_child(octree *tree, node *parent, node *child)
     parent->octants &= (uint8_t) ~(1u << octant);
 }
 
+/* Remove a point from its leaf, and an empty leaf from its parent. With `undo`, the empty leaf stays. */
+static void remove_from_leaf(octree *tree, const found_point *found, step *undo)
+{
+    const path *p = &found->path;
+    node *leaf = path_end(p);
+    if (undo) {
+        *undo = (step){.kind = STEP_REMOVED, .old = *leaf, .index = found->index};
+        leaf_remove_and_keep(leaf, found->index);
+        return;
+    }
+    leaf_remove(&tree->store, leaf, found->index);
+    if (leaf->count == 0 && p->depth > 0)
+        remove_empty_child(tree, p->nodes[p->depth - 1], leaf);
+}
+
 /* Remove a point that was found. Cannot fail. The leaf `spare` is used or freed. */
-static void remove_found_point(octree *tree, const found_point *found, node *spare)
+static void remove_found_point(octree *tree, const found_point *found, node *spare, step *undo)
 {
     const path *p = &found->path;
     node *leaf = path_end(p);
     const unsigned depth = find_merge_depth(tree, p);
     if (depth < p->depth) {
         leaf_append_all(spare, p->nodes[depth], &leaf_points(leaf)[found->index]);
-        node_release(&tree->store, p->nodes[depth]);
-        *p->nodes[depth] = *spare;
+        replace_node(tree, p->nodes[depth], spare, undo);
     } else {
         leaf_release(&tree->store, spare);
-        leaf_remove(&tree->store, leaf, found->index);
-        if (leaf->count == 0 && p->depth > 0)
-            remove_empty_child(tree, p->nodes[p->depth - 1], leaf);
+        remove_from_leaf(tree, found, undo);
     }
+    if (undo)
+        undo->depth = (uint8_t)depth;
     for (unsigned i = 0; i < depth; i++)
         p->nodes[i]->count--;
     tree->version++;
@@ -267,7 +322,7 @@ octree_status remove_point(octree *tree, octree_point *point)
     if (!allocate_merged_leaf(tree, &found, &spare))
         return OCTREE_NO_MEMORY;
     *point = stored_point(&found);
-    remove_found_point(tree, &found, &spare);
+    remove_found_point(tree, &found, &spare, NULL);
     return OCTREE_OK;
 }
 
@@ -290,39 +345,39 @@ octree_status octree_remove(octree *tree, const double position[3], uint64_t id)
 /* Move a point to another leaf. Only the insertion can be refused, so it comes first. The memory for the removal is
  * allocated before the insertion. This memory is enough: the insertion only adds points, so no more nodes merge than
  * before it. */
-static octree_status move_to_other_leaf(octree *tree, found_point *found, const octree_point *old,
-                                        const octree_point *moved, uint64_t code)
+static octree_status move_to_other_leaf(octree *tree, found_point *found, single_move *m, const path *to, step *undo)
 {
     node spare;
     if (!allocate_merged_leaf(tree, found, &spare))
         return OCTREE_NO_MEMORY;
-    const octree_status status = insert_point(tree, moved, code, true);
+    const bool moves_nodes = path_end(to)->octants != 0; /* a group of nodes gets another node */
+    const octree_status status = insert_at_end(tree, to, &m->moved, m->to, true, undo);
     if (status != OCTREE_OK) {
         leaf_release(&tree->store, &spare);
         return status;
     }
-    /* the insertion may have moved nodes in memory, so the point is searched again */
-    find_point(tree, old->position, old->id, found);
-    remove_found_point(tree, found, &spare);
+    if (moves_nodes)
+        found->path = find_path(tree, m->from);
+    remove_found_point(tree, found, &spare, undo ? undo + 1 : NULL);
     return OCTREE_OK;
 }
 
-/* Move a point. old->position becomes the position as it was stored. */
-static octree_status move_point(octree *tree, octree_point *old, const octree_point *moved)
+octree_status move_along_paths(octree *tree, single_move *m, found_point *found, const path *to, step *undo)
 {
-    found_point found;
-    if (!find_point(tree, old->position, old->id, &found))
+    const node *end = path_end(&found->path);
+    node *leaf = path_end(to);
+    found->index = end->octants ? LEAF_NONE : leaf_find(end, m->old.position, m->old.id);
+    if (found->index == LEAF_NONE)
         return OCTREE_NOT_FOUND;
-    *old = stored_point(&found);
-    const uint64_t code = morton_code(tree->axes, moved->position);
-    const path p = find_path(tree, code);
-    node *leaf = path_end(&p);
-    if (leaf != path_end(&found.path))
-        return move_to_other_leaf(tree, &found, old, moved, code);
-    const uint32_t taken = leaf_find(leaf, moved->position, moved->id);
-    if (taken != LEAF_NONE && taken != found.index)
+    m->old = stored_point(found);
+    if (leaf != end)
+        return move_to_other_leaf(tree, found, m, to, undo);
+    const uint32_t taken = leaf_find(leaf, m->moved.position, m->moved.id);
+    if (taken != LEAF_NONE && taken != found->index)
         return OCTREE_DUPLICATE;
-    leaf_replace(leaf, found.index, moved);
+    leaf_replace(leaf, found->index, &m->moved);
+    if (undo)
+        *undo = (step){.kind = STEP_OVERWRITTEN, .depth = (uint8_t)to->depth};
     tree->version++;
     return OCTREE_OK;
 }
@@ -335,10 +390,13 @@ octree_status octree_move(octree *tree, const double from[3], uint64_t id, const
         status = check_position(tree, to);
     if (status != OCTREE_OK)
         return status;
-    const octree_point moved = {{to[0], to[1], to[2]}, id};
-    octree_point old = {{from[0], from[1], from[2]}, id};
-    status = move_point(tree, &old, &moved);
+    single_move m = {.old = {{from[0], from[1], from[2]}, id}, .moved = {{to[0], to[1], to[2]}, id}};
+    m.from = morton_code(tree->axes, from);
+    m.to = morton_code(tree->axes, to);
+    found_point found = {.path = find_path(tree, m.from)};
+    const path end = find_path(tree, m.to);
+    status = move_along_paths(tree, &m, &found, &end, NULL);
     if (status == OCTREE_OK && change_log_is_on(&tree->changes))
-        change_log_append(tree, OCTREE_MOVED, &old, moved.position);
+        change_log_append(tree, OCTREE_MOVED, &m.old, m.moved.position);
     return status;
 }

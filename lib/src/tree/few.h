@@ -15,6 +15,14 @@ octree_status insert_small_batch(batch *b);
 /* Remove points. All ids of the batch must differ. */
 octree_status remove_small_batch(batch *b);
 
+/* Returns whether a batch of moves is so small that move_small_batch() is faster than sorting. */
+bool is_small_batch_of_moves(const batch *b);
+
+/* Move points one by one and log the moves. *done receives the number of points that moved; `done` may be null. The
+ * caller's arrays must not lie in the tree's memory. Up to FEW_AT_ONCE moves need no memory of their own. */
+enum { FEW_AT_ONCE = 32 };
+octree_status move_small_batch(const batch *b, size_t *done);
+
 /* Insert any number of points in Morton order (bulk.c). */
 octree_status insert_in_morton_order(batch *b);
 

@@ -172,49 +172,76 @@ void leaf_append_hashed(node *leaf, const octree_point *point)
     hash_slots_of(points)[find_hash_slot(points, point->position, point->id)] = ++leaf->count;
 }
 
-/* Move the points of a leaf into a new block with room for `count` points. Returns false if memory runs out. */
-static bool change_leaf_room(store *s, node *leaf, uint32_t count)
+/* Copy a leaf into a new block with room for `count` points. Returns false if memory runs out. */
+static bool copy_leaf(store *s, const node *leaf, node *copy, uint32_t count)
 {
-    node moved;
-    if (!leaf_create(s, &moved, count))
+    if (!leaf_create(s, copy, count))
         return false;
-    append_leaf_points(&moved, leaf, NULL);
-    leaf_release(s, leaf);
-    *leaf = moved;
+    append_leaf_points(copy, leaf, NULL);
     return true;
+}
+
+bool leaf_is_full(const node *leaf)
+{
+    return leaf->count == current_block_room(leaf);
+}
+
+bool leaf_copy_larger(store *s, const node *leaf, node *copy)
+{
+    /* A hashed leaf doubles its room, so that the cost of copying is O(1) per insertion, amortized. */
+    /* unreachable: a test would need 2^31 points in one leaf, 64 GiB */
+    const uint32_t doubled = leaf->count > UINT32_MAX / 2 ? UINT32_MAX : 2 * leaf->count;
+    return copy_leaf(s, leaf, copy, leaf->count < POOL_MAX_UNITS ? leaf->count + 1 : doubled);
 }
 
 bool leaf_append(store *s, node *leaf, const octree_point *point)
 {
-    if (leaf->count == current_block_room(leaf)) {
-        /* A hashed leaf doubles its room, so that the cost of copying is O(1) per insertion, amortized. */
-        /* unreachable: a test would need 2^31 points in one leaf, 64 GiB */
-        const uint32_t doubled = leaf->count > UINT32_MAX / 2 ? UINT32_MAX : 2 * leaf->count;
-        if (!change_leaf_room(s, leaf, leaf->count < POOL_MAX_UNITS ? leaf->count + 1 : doubled))
+    if (leaf_is_full(leaf)) {
+        node larger;
+        if (!leaf_copy_larger(s, leaf, &larger))
             return false;
+        leaf_release(s, leaf);
+        *leaf = larger;
     }
     leaf_append_unchecked(leaf, point);
     return true;
 }
 
-void leaf_remove(store *s, node *leaf, uint32_t index)
+void leaf_remove_and_keep(node *leaf, uint32_t index)
 {
     if (is_hashed(leaf)) {
-        remove_from_hashed(leaf->below, leaf->count, index);
-        leaf->count--;
-        /* A smaller block saves memory. If memory runs out, the leaf keeps its block. */
-        if (leaf->count < hashed_header_of(leaf->below)->room / 4)
-            change_leaf_room(s, leaf, leaf->count);
+        remove_from_hashed(leaf->below, leaf->count--, index);
         return;
     }
-    octree_point *points = leaf_points(leaf);
-    leaf->count--;
-    points[index] = points[leaf->count];
-    const unsigned room = leaf_block_room(leaf->count);
-    pool_free(&s->points, points + room, leaf->room - room);
-    leaf->room = (uint8_t)room;
-    if (room == 0)
+    leaf_points(leaf)[index] = leaf_points(leaf)[--leaf->count];
+    leaf->room = (uint8_t)leaf_block_room(leaf->count);
+    if (leaf->room == 0)
         leaf->below = NULL;
+}
+
+void leaf_free_end(store *s, const node *old)
+{
+    const unsigned room = is_hashed(old) ? old->room : leaf_block_room(old->count - 1);
+    if (room < old->room)
+        pool_free(&s->points, leaf_points(old) + room, old->room - room);
+}
+
+void leaf_shrink_hashed(store *s, node *leaf)
+{
+    node smaller;
+    if (!is_hashed(leaf) || leaf->count >= hashed_header_of(leaf->below)->room / 4 ||
+        !copy_leaf(s, leaf, &smaller, leaf->count))
+        return;
+    leaf_release(s, leaf);
+    *leaf = smaller;
+}
+
+void leaf_remove(store *s, node *leaf, uint32_t index)
+{
+    const node old = *leaf;
+    leaf_remove_and_keep(leaf, index);
+    leaf_free_end(s, &old);
+    leaf_shrink_hashed(s, leaf);
 }
 
 void leaf_replace(node *leaf, uint32_t index, const octree_point *point)

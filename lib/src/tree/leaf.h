@@ -120,6 +120,11 @@ void leaf_release(store *s, const node *leaf);
 /* Append a point that the leaf does not hold yet. Returns false and leaves the leaf unchanged if memory runs out. */
 bool leaf_append(store *s, node *leaf, const octree_point *point);
 
+/* leaf_is_full() returns whether the leaf's block has no room for another point. leaf_copy_larger() makes a copy of the
+ * leaf with room for at least one more point, and returns false if memory runs out. */
+bool leaf_is_full(const node *leaf);
+bool leaf_copy_larger(store *s, const node *leaf, node *copy);
+
 /* Append a point to a leaf that has room. The leaf must not hold the point yet. Cannot fail. */
 void leaf_append_hashed(node *leaf, const octree_point *point);
 static inline void leaf_append_unchecked(node *leaf, const octree_point *point)
@@ -132,6 +137,15 @@ static inline void leaf_append_unchecked(node *leaf, const octree_point *point)
 
 /* Remove the point at an index. The leaf's last point moves to this index. Cannot fail. */
 void leaf_remove(store *s, node *leaf, uint32_t index);
+
+/* As leaf_remove(), but keep the unused end of the leaf's block allocated. leaf_free_end() frees it later; `old` is the
+ * leaf before the removal. A hashed leaf keeps its whole block. */
+void leaf_remove_and_keep(node *leaf, uint32_t index);
+void leaf_free_end(store *s, const node *old);
+
+/* If a hashed leaf uses little of its block, move its points to a smaller block. If memory runs out, the leaf keeps its
+ * block. */
+void leaf_shrink_hashed(store *s, node *leaf);
 
 /* Replace the point at an index. The leaf must not hold the new point yet. Cannot fail. */
 void leaf_replace(node *leaf, uint32_t index, const octree_point *point);

@@ -206,17 +206,22 @@ octree_status check_position(const octree *tree, const double position[3])
     return is_finite_position(position) ? OCTREE_OUTSIDE : OCTREE_NOT_FINITE;
 }
 
+void extend_path(path *p, uint64_t code)
+{
+    for (; path_end(p)->octants; p->depth++) {
+        node *child = child_at(path_end(p), morton_octant(code, p->depth));
+        if (!child)
+            break;
+        p->nodes[p->depth + 1] = child;
+    }
+}
+
 path find_path(const octree *tree, uint64_t code)
 {
     /* The cast removes const, only here. A caller that changes nodes through the path has a tree that is not const. */
     path p;
-    p.nodes[0] = (node *)(uintptr_t)&tree->root;
-    for (p.depth = 0; path_end(&p)->octants; p.depth++) {
-        node *child = child_at(path_end(&p), morton_octant(code, p.depth));
-        if (!child)
-            break;
-        p.nodes[p.depth + 1] = child;
-    }
+    begin_path(&p, (octree *)(uintptr_t)tree);
+    extend_path(&p, code);
     return p;
 }
 

@@ -93,6 +93,16 @@ typedef struct path {
 
 path find_path(const octree *tree, uint64_t code);
 
+/* begin_path() makes a path that ends at the root. extend_path() continues a path towards a code, as far as there are
+ * nodes. */
+static inline void begin_path(path *p, octree *tree)
+{
+    p->nodes[0] = &tree->root;
+    p->depth = 0;
+}
+
+void extend_path(path *p, uint64_t code);
+
 static inline node *path_end(const path *p)
 {
     return p->nodes[p->depth];

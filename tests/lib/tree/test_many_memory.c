@@ -160,7 +160,8 @@ static void changes_of_many_survive_the_failure_of_each_allocation(void **state)
             size_t n = 0;
             while (fails_without_a_trace(&attempts[i], points, n, all_after, expected))
                 n++;
-            if (n == 0 && attempts[i].count > 0)
+            /* few moves need memory only for the leaves that they fill or split */
+            if (n == 0 && attempts[i].count > 0 && attempts[i].kind != MOVE_MANY)
                 fail_msg("%s took no memory", attempts[i].name);
         }
 }

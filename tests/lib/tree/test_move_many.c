@@ -502,18 +502,111 @@ static void moves_of_absent_points_change_nothing(void **state)
 static void moves_survive_the_failure_of_each_allocation(void **state)
 {
     (void)state;
+    size_t reverted = 0; /* calls of few moves that failed */
     for (int grow = 0; grow < 2; grow++)
         for (int ids = 0; ids < 2; ids++)
             for (int far = 0; far < 2; far++)
                 for (size_t capacity = 2; capacity <= 128; capacity *= 4) {
                     const octree_full_leaf full_leaf = grow ? OCTREE_GROW : OCTREE_REFUSE;
-                    size_t n = 0, few = 0;
+                    size_t n = 0;
                     while (fails_without_a_trace(n, full_leaf, capacity, ids ? 50 : MOST, far ? 1 : 0.1, MOST))
                         n++;
-                    while (fails_without_a_trace(few, full_leaf, capacity, ids ? 50 : MOST, far ? 1 : 0.1, MOST / 21))
-                        few++;
-                    assert_true(n > 2 && few > 1);
+                    assert_true(n > 2);
+                    for (size_t count = 7; count < MOST / 4; count += 7) {
+                        n = 0;
+                        while (fails_without_a_trace(n, full_leaf, capacity, ids ? 50 : MOST, far ? 1 : 0.1, count))
+                            n++;
+                        reverted += n;
+                    }
                 }
+    assert_true(reverted > 100);
+}
+
+enum { WALKERS = 600, FILLERS = 3000, STEPPING = 20 };
+
+/* Points that move to and fro, and points that fill the free memory of a tree. */
+typedef struct walk {
+    octree *tree;
+    counting_allocator counts;
+    uint64_t random;
+    octree_point points[WALKERS], fillers[FILLERS];
+    size_t failures;
+} walk;
+
+static void begin_walk(walk *w, size_t capacity)
+{
+    *w = (walk){.random = 4};
+    w->tree = make_counted_tree(&w->counts, cube(-1, 1), capacity, 6, OCTREE_GROW);
+    for (size_t i = 0; i < FILLERS; i++) {
+        w->fillers[i].id = WALKERS + i;
+        drift(&w->random, &(octree_point){.id = 0}, 1, w->fillers[i].position);
+    }
+    for (size_t i = 0; i < WALKERS; i++) {
+        w->points[i].id = i;
+        drift(&w->random, &(octree_point){.id = 0}, 1, w->points[i].position);
+        assert_int_equal(octree_insert(w->tree, w->points[i].position, i), OCTREE_OK);
+    }
+}
+
+/* Move some points. They stay where they are if memory runs out. */
+static void step_walk(walk *w, size_t tick)
+{
+    octree_point batch[STEPPING];
+    double to[STEPPING][3];
+    for (size_t i = 0; i < STEPPING; i++) {
+        batch[i] = w->points[(tick * 7 + i * 29) % WALKERS];
+        drift(&w->random, &(octree_point){.id = 0}, tick / 50 % 2 ? 0.1 : 1, to[i]);
+    }
+    const uint64_t digest = octree_digest(w->tree);
+    const octree_status status = octree_move_many(w->tree, batch, (const double(*)[3])to, STEPPING, NULL, NULL);
+    if (status == OCTREE_OK) {
+        for (size_t i = 0; i < STEPPING; i++)
+            memcpy(w->points[batch[i].id].position, to[i], sizeof to[i]);
+        return;
+    }
+    assert_int_equal(status, OCTREE_NO_MEMORY);
+    assert_true(octree_digest(w->tree) == digest);
+    w->failures++;
+}
+
+/* A step while no memory is to be had: points have filled the free memory of the tree before. */
+static void step_walk_without_memory(walk *w, size_t tick)
+{
+    size_t filled = 0;
+    counting_allocator_fail_at(&w->counts, 0);
+    w->counts.fail_until = SIZE_MAX;
+    while (filled < FILLERS && octree_insert(w->tree, w->fillers[filled].position, WALKERS + filled) == OCTREE_OK)
+        filled++;
+    step_walk(w, tick);
+    counting_allocator_stop_failing(&w->counts);
+    while (filled-- > 0)
+        assert_int_equal(octree_remove(w->tree, w->fillers[filled].position, WALKERS + filled), OCTREE_OK);
+}
+
+/* Few points move for a long time between leaves of all sizes, and every second call finds no memory. */
+static void few_moves_and_reverted_moves_do_not_leak(void **state)
+{
+    (void)state;
+    static walk w;
+    static const size_t capacities[] = {2, 8, 64, 200};
+    for (size_t c = 0; c < sizeof capacities / sizeof capacities[0]; c++) {
+        begin_walk(&w, capacities[c]);
+        size_t limit = 0;
+        for (size_t tick = 0; tick < 1200; tick++) {
+            if (tick % 2)
+                step_walk_without_memory(&w, tick);
+            else
+                step_walk(&w, tick);
+            if (tick == 200)
+                limit = w.counts.bytes * 3 / 2;
+            assert_true(limit == 0 || w.counts.bytes <= limit);
+        }
+        assert_int_equal(octree_count(w.tree), WALKERS);
+        assert_valid(w.tree);
+        assert_true(w.failures > 50);
+        octree_destroy(w.tree);
+        assert_all_returned(&w.counts);
+    }
 }
 
 int main(void)
@@ -531,6 +624,7 @@ int main(void)
         cmocka_unit_test(null_and_oversized_arrays_are_refused),
         cmocka_unit_test(moves_of_absent_points_change_nothing),
         cmocka_unit_test(moves_survive_the_failure_of_each_allocation),
+        cmocka_unit_test(few_moves_and_reverted_moves_do_not_leak),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,59 @@
+/* SPDX-License-Identifier: MIT */
+/* undo.h - single moves that can be reverted.
+ *
+ * Problem: a batch of moves happens completely or not at all. The way back must not need memory, because a batch is
+ * reverted when memory runs out.
+ *
+ * Idea: each change of a node is a step that keeps the memory which the node no longer needs. The blocks of the old
+ * node are not freed, and a leaf that becomes empty stays. So a step is reverted by writing the old node back. Steps
+ * are reverted in the opposite order, so that each one finds the nodes above it as they were. When all moves of the
+ * batch are made, settle_move() frees the memory that the steps kept.
+ *
+ * Cost: 24 bytes a step, two steps a move.
+ */
+#ifndef OCTREE_UNDO_H
+#define OCTREE_UNDO_H
+
+#include "tree.h"
+
+typedef enum step_kind {
+    STEP_NONE,
+    STEP_OVERWRITTEN, /* a point moved within its leaf */
+    STEP_APPENDED,    /* a point was appended to a leaf */
+    STEP_REMOVED,     /* a point was removed from a leaf */
+    STEP_REPLACED,    /* a node was replaced by another version, which shares no memory with it */
+    STEP_REGROUPED,   /* an inner node got a copy of the group of its children, with one more leaf */
+} step_kind;
+
+typedef struct step {
+    node old;       /* the node before the step; of a leaf that got a point, or whose point moved, it is not set */
+    uint32_t index; /* the index of a removed point in its leaf */
+    uint8_t depth;  /* the depth of the changed node */
+    uint8_t kind;   /* a step_kind */
+} step;
+
+typedef struct single_move {
+    octree_point old, moved; /* the point before and after the move */
+    uint64_t from, to;       /* the Morton codes of the two positions */
+} single_move;
+
+/* Move a point. found->path and `to` are the paths of the two positions; found->index is not read. m->old.position
+ * becomes the position as it was stored. If `undo` is not null, it has two steps of the kind STEP_NONE, which receive
+ * how to revert the move: the arrival of the point, or its move within the leaf; and the departure of the point.
+ * Returns the statuses of octree_move(). */
+octree_status move_along_paths(octree *tree, single_move *m, found_point *found, const path *to, step *undo);
+
+/* Returns whether a move has moved or replaced inner nodes, so that the paths of other points may be wrong. If not, the
+ * last node of a path is the same, but may have been split. */
+static inline bool changes_paths(const step undo[2])
+{
+    return undo[0].kind == STEP_REGROUPED || undo[1].kind == STEP_REPLACED;
+}
+
+/* revert_move() restores the tree as it was before a move, after which nothing else has changed. settle_move() frees
+ * the memory that the steps of a move kept; `old` is the point before the move. No move can then be reverted any more.
+ * Neither needs memory. */
+void revert_move(octree *tree, const single_move *m, const step undo[2]);
+void settle_move(octree *tree, const octree_point *old, const step undo[2]);
+
+#endif
