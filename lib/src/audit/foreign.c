@@ -281,7 +281,7 @@ size_t foreign_find_node(const foreign *f, uint64_t id)
     return find_node_place(&f->keys, id);
 }
 
-size_t foreign_first_holding(const foreign *f, uint64_t point)
+size_t foreign_find_first_holding(const foreign *f, uint64_t point)
 {
     return find_item_by_first_word(f->holdings.items, sizeof(foreign_holding), f->holdings.count, point);
 }

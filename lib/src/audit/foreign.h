@@ -73,7 +73,7 @@ size_t foreign_find_node(const foreign *f, uint64_t id);
 
 /* The index, in f->holdings, of the first holding of a point. The holdings of other nodes that list the point
  * follow. */
-size_t foreign_first_holding(const foreign *f, uint64_t point);
+size_t foreign_find_first_holding(const foreign *f, uint64_t point);
 
 /* Whether a position lies in the box of a node. Position and box are compared with the precision of the node. */
 bool foreign_node_contains(const octree_foreign_node *node, const double position[3]);

@@ -38,7 +38,7 @@ typedef struct judge_state {
     bool failed;     /* true: the memory ran out */
 } judge_state;
 
-static bool finds_neighbors(const judge_state *s)
+static bool is_neighbor_query(const judge_state *s)
 {
     return octree_query_about(s->asked.kind)->neighbors;
 }
@@ -107,7 +107,7 @@ static int compare_ranks(const void *a, const void *b)
 
 /* Record how the answer is wrong. If a kind with a lower value is already recorded, that kind is kept. `id` is used
  * only for the kinds that name an id. */
-static void record_wrong(judge_state *s, octree_wrong_kind wrong, uint64_t id)
+static void record_wrong_kind(judge_state *s, octree_wrong_kind wrong, uint64_t id)
 {
     octree_judgement *made = s->made;
     if (made->wrong && (wrong > made->wrong || (wrong == made->wrong && id >= made->wrong_id)))
@@ -124,7 +124,7 @@ static void remove_duplicates(judge_state *s, list *points)
     size_t kept = 0;
     for (size_t i = 0; i < points->count; i++) {
         if (kept > 0 && items[i].point.id == items[kept - 1].point.id)
-            record_wrong(s, OCTREE_WRONG_DUPLICATE, items[i].point.id);
+            record_wrong_kind(s, OCTREE_WRONG_DUPLICATE, items[i].point.id);
         else
             items[kept++] = items[i];
     }
@@ -141,12 +141,12 @@ static void list_foreign_answer(judge_state *s)
         octree_point point;
         s->failed |= !list_push(j->memory, &j->given, &query->answer[i], sizeof *query->answer);
         if (!points->find(points->context, query->answer[i], &point)) {
-            record_wrong(s, OCTREE_WRONG_UNKNOWN, query->answer[i]);
+            record_wrong_kind(s, OCTREE_WRONG_UNKNOWN, query->answer[i]);
             continue;
         }
         judged_point p = judge_point(s, &point);
         if (is_skipped(s, &p))
-            record_wrong(s, OCTREE_WRONG_SKIPPED, point.id);
+            record_wrong_kind(s, OCTREE_WRONG_SKIPPED, point.id);
         else
             append_judged_point(s, &j->foreign, &p);
     }
@@ -169,7 +169,7 @@ static void list_exact_answer(judge_state *s)
 }
 
 /* The largest distance, along one axis, by which rounding to floats moves a point of the world. */
-static double largest_rounding(const octree *tree)
+static double largest_rounding_error(const octree *tree)
 {
     double largest = 0;
     for (int i = 0; i < 3; i++)
@@ -231,7 +231,7 @@ static void collect_nearest(judge_state *s, double slack)
  * sqrt(3) times the largest rounding along one axis. */
 static double rounding_slack(const judge_state *s)
 {
-    return s->rounds ? 2 * largest_rounding(s->about->points->tree) : 0;
+    return s->rounds ? 2 * largest_rounding_error(s->about->points->tree) : 0;
 }
 
 /* Visit all points that may lie in the region after the foreign index rounds their positions. The searched box is
@@ -246,7 +246,7 @@ static void search_region(judge_state *s, octree_point_visitor visit)
 static void list_rounded_exact_answer(judge_state *s)
 {
     s->collected = &s->judge->exact;
-    if (finds_neighbors(s))
+    if (is_neighbor_query(s))
         collect_nearest(s, rounding_slack(s));
     else
         search_region(s, collect_judged_point);
@@ -271,7 +271,7 @@ static void list_wrong_point(judge_state *s, const judged_point *p, size_t *coun
 
 /* Whether the answer is right with or without a point. If `slack` is above 0, this holds for each point that is not
  * in the exact answer but within the distance `slack` of the region. */
-static bool is_optional(const judge_state *s, const judged_point *p, double slack)
+static bool is_point_optional(const judge_state *s, const judged_point *p, double slack)
 {
     return (slack > 0 && query_rules_of(s->asked.kind)->compare(&s->asked, p->at, slack) <= 0) ||
            (s->asked.bounds == OCTREE_BOUNDS_EITHER && is_on_boundary(&s->asked, p->at));
@@ -310,13 +310,13 @@ static void judge_difference(judge_state *s, octree_wrong_kind wrong, const list
         while (j < without->count && compare_ids(&others[j], &items[i]) < 0)
             j++;
         const bool lacks = j == without->count || compare_ids(&others[j], &items[i]) > 0;
-        if (!lacks || is_optional(s, &items[i], slack))
+        if (!lacks || is_point_optional(s, &items[i], slack))
             continue;
         list_wrong_point(s, &items[i], count);
         on_boundary = on_boundary && is_on_boundary(&s->asked, items[i].at);
     }
     if (*count > 0)
-        record_wrong(s, wrong, 0);
+        record_wrong_kind(s, wrong, 0);
     if (*count > 0 && on_boundary)
         s->made->on_boundary = wrong;
 }
@@ -356,7 +356,7 @@ static void judge_ranks(judge_state *s, const judged_point *foreign, const judge
             made->rank = i + 1;
     }
     if (made->rank)
-        record_wrong(s, OCTREE_WRONG_FARTHER, 0);
+        record_wrong_kind(s, OCTREE_WRONG_FARTHER, 0);
 }
 
 /* List the missing and the extra points of a wrong answer for neighbours. A right answer contains all points that
@@ -391,7 +391,7 @@ static void judge_neighbors(judge_state *s, size_t given)
     list_sort(&j->foreign, sizeof(judged_point), compare_ranks);
     judge_ranks(s, j->foreign.items, j->exact.items, ranks);
     if (given != exact)
-        record_wrong(s, OCTREE_WRONG_COUNT, 0);
+        record_wrong_kind(s, OCTREE_WRONG_COUNT, 0);
     if (foreign != exact && s->made->rank == 0)
         s->made->rank = ranks + 1;
     if (s->made->wrong)
@@ -404,7 +404,7 @@ static void judge_neighbors(judge_state *s, size_t given)
  * the number of ids in the foreign answer. */
 static void compare_lists(judge_state *s, size_t given)
 {
-    if (!s->failed && finds_neighbors(s))
+    if (!s->failed && is_neighbor_query(s))
         judge_neighbors(s, given);
     else if (!s->failed)
         judge_region(s);
@@ -455,7 +455,7 @@ static void list_best_answer(judge_state *s, point_test *is_lost, void *context)
 {
     list *foreign = &s->judge->foreign;
     const list *exact = &s->judge->exact;
-    if (!finds_neighbors(s)) {
+    if (!is_neighbor_query(s)) {
         list_sort(foreign, sizeof(judged_point), compare_ids);
         return;
     }

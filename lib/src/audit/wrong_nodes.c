@@ -129,7 +129,7 @@ static bool check_listed_points(foreign *f, const audited_points *points, size_t
     return ok;
 }
 
-static bool is_same_holding(const foreign_holding *a, const foreign_holding *b)
+static bool are_holdings_equal(const foreign_holding *a, const foreign_holding *b)
 {
     return a->id == b->id && a->place == b->place;
 }
@@ -148,7 +148,7 @@ static bool report_repeated_points(foreign *f)
     bool ok = true;
     f->repeated.count = 0;
     for (size_t i = 1; ok && i < f->holdings.count; i++)
-        if (is_same_holding(&items[i], &items[i - 1]) && !(i > 1 && is_same_holding(&items[i], &items[i - 2])))
+        if (are_holdings_equal(&items[i], &items[i - 1]) && !(i > 1 && are_holdings_equal(&items[i], &items[i - 2])))
             ok = list_push(f->memory, &f->repeated, &items[i], sizeof *items);
     const foreign_holding *repeated = f->repeated.items;
     list_sort(&f->repeated, sizeof *repeated, compare_by_place);
@@ -160,11 +160,11 @@ static bool report_repeated_points(foreign *f)
 
 static bool is_listed_by_leaf(const foreign *f, uint64_t point)
 {
-    const size_t first = foreign_first_holding(f, point);
+    const size_t first = foreign_find_first_holding(f, point);
     return first < f->holdings.count && ((const foreign_holding *)f->holdings.items)[first].id == point;
 }
 
-static bool holds_by_box(const octree_foreign_place *place)
+static bool is_leaf_without_list(const octree_foreign_place *place)
 {
     return place->leaf && !place->node->has_points;
 }
@@ -224,7 +224,7 @@ static void mark_points_in_boxes(holding_search *search)
 {
     const octree_foreign_place *places = foreign_places(search->foreign);
     for (size_t i = 0; search->lost > 0 && i < search->foreign->places.count; i++) {
-        if (!holds_by_box(&places[i]))
+        if (!is_leaf_without_list(&places[i]))
             continue;
         const octree_box box = enlarged_box(places[i].node);
         search->leaf = places[i].node;
@@ -348,19 +348,19 @@ static size_t find_pruned_ancestor(const foreign *f, size_t place)
 static size_t find_next_holding_leaf(const foreign *f, const octree_point *point, size_t *at)
 {
     const foreign_holding *items = f->holdings.items;
-    const size_t first = foreign_first_holding(f, point->id);
+    const size_t first = foreign_find_first_holding(f, point->id);
     if (first < f->holdings.count && items[first].id == point->id) {
         const size_t i = first + (*at)++;
         return i < f->holdings.count && items[i].id == point->id ? items[i].place : SIZE_MAX;
     }
     for (const octree_foreign_place *places = foreign_places(f); *at < f->places.count; ++*at)
-        if (holds_by_box(&places[*at]) && foreign_node_contains(places[*at].node, point->position))
+        if (is_leaf_without_list(&places[*at]) && foreign_node_contains(places[*at].node, point->position))
             return (*at)++;
     return SIZE_MAX;
 }
 
 /* Whether the query pruned all nodes that hold the point. False if no node holds the point. */
-static bool is_pruned(const octree_point *point, void *context)
+static bool is_point_pruned(const octree_point *point, void *context)
 {
     const node_query *q = context;
     size_t at = 0, holders = 0;
@@ -374,7 +374,7 @@ static bool is_pruned(const octree_point *point, void *context)
 
 /* A point is lost because the query pruned all nodes that hold it. Report these pruned nodes. For each query, a node
  * is reported only once, with the first point that was lost. */
-static bool report_pruned(const octree_point *point, void *context)
+static bool report_pruned_point(const octree_point *point, void *context)
 {
     const node_query *q = context;
     size_t at = 0;
@@ -399,5 +399,5 @@ bool foreign_record_query(foreign *f, judge *j, const judged_query *about, size_
         for (size_t i = 0; ok && i < query->visits[visit].count; i++)
             ok = record_node_visit(&q, (octree_node_visit)visit, query->visits[visit].ids[i]);
     const bool prunes = query->visits[OCTREE_NODE_PRUNED].count > 0;
-    return ok && (!prunes || judge_without_lost_points(j, about, is_pruned, report_pruned, &q));
+    return ok && (!prunes || judge_without_lost_points(j, about, is_point_pruned, report_pruned_point, &q));
 }

@@ -36,7 +36,7 @@ static decomposed decompose_double(double value)
     };
 }
 
-bool keeps_arithmetic(void)
+bool has_exact_double_arithmetic(void)
 {
     /* volatile, so that the compiler does not compute the results itself */
     static const volatile double inexact = 1 + 0x1p-30, rounded_square = 1 + 0x1p-29, one = 1, tiny = 0x1p-60;
@@ -112,7 +112,7 @@ int exact_sign_of_sum(const double terms[], int count)
 
 /* Returns the exact rounding error of sum = fl(a + b), by Dekker's FastTwoSum. Knuth's TwoSum would not need ordered
  * operands, but one of its intermediate results can overflow. */
-static double sum_error(double a, double b, double sum)
+static double rounding_error_of_sum(double a, double b, double sum)
 {
     return fabs(a) >= fabs(b) ? b - (sum - a) : a - (sum - b);
 }
@@ -122,7 +122,7 @@ double exact_add_down(double a, double b)
     const double sum = a + b;
     if (isinf(sum))
         return sum > 0 ? DBL_MAX : sum;
-    return sum_error(a, b, sum) < 0 ? exact_step_down(sum) : sum;
+    return rounding_error_of_sum(a, b, sum) < 0 ? exact_step_down(sum) : sum;
 }
 
 double exact_add_up(double a, double b)

@@ -42,7 +42,7 @@ double exact_add_up(double a, double b);
 /* Returns whether the compiler left sums and products as they are written. Some options change them without a macro
  * that float_rules.h could test: clang's -ffp-contract=fast, which ignores the pragma, and -funsafe-math-optimizations.
  */
-bool keeps_arithmetic(void);
+bool has_exact_double_arithmetic(void);
 
 /* Returns the next double below a finite value. */
 static inline double exact_step_down(double value)

@@ -11,7 +11,7 @@
 #define OCTREE_FLOAT_RULES_H
 
 /* No product and sum are contracted to a fused multiply-add, which rounds once instead of twice. gcc ignores C's pragma
- * and contracts unless -std=c17 or the like is given. See also keeps_arithmetic() in exact.h. */
+ * and contracts unless -std=c17 or the like is given. See also has_exact_double_arithmetic() in exact.h. */
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC optimize("fp-contract=off")
 #else

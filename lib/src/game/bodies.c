@@ -13,7 +13,7 @@
 
 #include <math.h>
 
-static size_t home_slot_of(const bodies *b, uint64_t id)
+static size_t find_home_slot(const bodies *b, uint64_t id)
 {
     return (size_t)octree_digest_word(OCTREE_DIGEST_START, id) & (b->slot_count - 1);
 }
@@ -21,7 +21,7 @@ static size_t home_slot_of(const bodies *b, uint64_t id)
 /* Return the slot that holds an id, or the empty slot into which the id would be inserted. Requires slot_count > 0. */
 static size_t find_body_slot(const bodies *b, uint64_t id)
 {
-    size_t slot = home_slot_of(b, id);
+    size_t slot = find_home_slot(b, id);
     while (b->slots[slot] && bodies_items(b)[b->slots[slot] - 1].id != id)
         slot = (slot + 1) & (b->slot_count - 1);
     return slot;
@@ -88,7 +88,7 @@ static void clear_slot(bodies *b, size_t gap)
 {
     const size_t mask = b->slot_count - 1;
     for (size_t slot = (gap + 1) & mask; b->slots[slot]; slot = (slot + 1) & mask) {
-        const size_t home = home_slot_of(b, bodies_items(b)[b->slots[slot] - 1].id);
+        const size_t home = find_home_slot(b, bodies_items(b)[b->slots[slot] - 1].id);
         if (((slot - home) & mask) >= ((slot - gap) & mask)) {
             b->slots[gap] = b->slots[slot];
             gap = slot;
@@ -147,7 +147,8 @@ static double reflect_path(double origin, double velocity, double ticks, double 
 
 /* Compute the position and the velocity of a body on one axis. The faces of the world reflect the body. When the body
  * is at a face, its velocity already points back into the world. */
-static void bounce_on_axis(const moving_body *body, const octree_box *world, double ticks, int axis, octree_body *now)
+static void compute_body_on_axis(const moving_body *body, const octree_box *world, double ticks, int axis,
+                                 octree_body *now)
 {
     const double min = world->min[axis], max = world->max[axis];
     int direction;
@@ -171,7 +172,7 @@ static octree_body body_at_tick(const moving_body *body, const octree_box *world
         within &= (now.position[i] > world->min[i]) & (now.position[i] < world->max[i]);
     }
     for (int i = 0; !within && i < 3; i++)
-        bounce_on_axis(body, world, ticks, i, &now);
+        compute_body_on_axis(body, world, ticks, i, &now);
     return now;
 }
 
@@ -190,7 +191,7 @@ static void restart_motion(moving_body *body, const octree_box *world, const dou
 
 /* ---- Changes of the tree ------------------------------------------------------------------------------------ */
 
-static void record_change(octree_game *game, const double place[3])
+static void record_changed_position(octree_game *game, const double place[3])
 {
     tree_summary_record(&game->summary, &game->memory, game->tree, place);
 }
@@ -199,7 +200,7 @@ octree_status game_insert(octree_game *game, const double position[3], uint64_t 
 {
     const octree_status status = octree_insert(game->tree, position, id);
     if (status == OCTREE_OK)
-        record_change(game, position);
+        record_changed_position(game, position);
     return status;
 }
 
@@ -207,7 +208,7 @@ static octree_status game_remove(octree_game *game, const double position[3], ui
 {
     const octree_status status = octree_remove(game->tree, position, id);
     if (status == OCTREE_OK)
-        record_change(game, position);
+        record_changed_position(game, position);
     return status;
 }
 
@@ -216,8 +217,8 @@ octree_status game_move(octree_game *game, const double from[3], uint64_t id, co
     const octree_status status = octree_move(game->tree, from, id, to);
     if (status != OCTREE_OK)
         return status;
-    record_change(game, from);
-    record_change(game, to);
+    record_changed_position(game, from);
+    record_changed_position(game, to);
     return OCTREE_OK;
 }
 
@@ -391,8 +392,8 @@ static bool apply_motion(octree_game *game, motion *m, bool edited)
     for (size_t i = 0; ok && i < m->count; i++) {
         moving_body *body = &bodies_items(&game->bodies)[m->bodies[i]];
         if (m->statuses[i] == OCTREE_OK) {
-            record_change(game, m->points[i].position);
-            record_change(game, m->to[i]);
+            record_changed_position(game, m->points[i].position);
+            record_changed_position(game, m->to[i]);
             store_body_position(body, m->to[i], game->tick.number);
             if (edited)
                 restart_motion(body, &game->session->tree.world, m->to[i], motion_start_tick(game));

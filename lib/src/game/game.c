@@ -201,7 +201,7 @@ static bool list_shapes(octree_game *game, const octree_shape *shapes, size_t co
     return true;
 }
 
-static bool look_up_point(const void *game, uint64_t id, octree_point *point)
+static bool find_point_by_id(const void *game, uint64_t id, octree_point *point)
 {
     return octree_game_find(game, id, point);
 }
@@ -210,7 +210,7 @@ audited_points game_audited_points(const octree_game *game)
 {
     const octree_player *player = &game->session->player;
     return (audited_points){.tree = game->tree,
-                            .find = look_up_point,
+                            .find = find_point_by_id,
                             .context = game,
                             .own_id = player->kind == OCTREE_PLAYER_KEYS ? &player->id : NULL};
 }
@@ -224,12 +224,12 @@ static bool check_foreign_nodes(octree_game *game, const octree_foreign_tree *re
 
 /* Check the foreign nodes. Then ask the queries and list the shapes. Queries and shapes of this tick come first.
  * Queries and shapes that belong to every tick follow. False when there is no memory. */
-static bool ask_queries_and_list_shapes(octree_game *game, const octree_input *input)
+static bool run_queries_and_list_shapes(octree_game *game, const octree_input *input)
 {
     const octree_input always = session_input(game->session, OCTREE_EVERY_TICK);
-    return check_foreign_nodes(game, input->foreign) && game_ask_by_key(game) &&
-           game_ask_queries(game, input->queries, input->query_count) &&
-           game_ask_queries(game, always.queries, always.query_count) && game_finish_queries(game) &&
+    return check_foreign_nodes(game, input->foreign) && game_run_query_of_key(game) &&
+           game_run_queries(game, input->queries, input->query_count) &&
+           game_run_queries(game, always.queries, always.query_count) && game_finish_queries(game) &&
            list_shapes(game, input->shapes, input->shape_count) && list_shapes(game, always.shapes, always.shape_count);
 }
 
@@ -266,13 +266,13 @@ static void publish_tick(octree_game *game)
 }
 
 /* Finish a tick. In a gap, no collision is tested, no query asked and no shape listed. Returns OK or NO_MEMORY. */
-static octree_status ask_and_publish_tick(octree_game *game, const octree_input *input)
+static octree_status run_queries_and_publish_tick(octree_game *game, const octree_input *input)
 {
     bool ok = true;
     game->tick.gap = input->gap ? strcpy(game->gap, input->gap->why) : NULL;
     if (game->tick.number == 0 && game->tick.has_player && !input->gap)
         ok = test_collision(game, game->tick.player);
-    ok = ok && (input->gap ? game_finish_queries(game) : ask_queries_and_list_shapes(game, input));
+    ok = ok && (input->gap ? game_finish_queries(game) : run_queries_and_list_shapes(game, input));
     ok = ok && summarize_tree(game) && game_list_movers(game);
     if (ok)
         publish_tick(game);
@@ -307,7 +307,7 @@ static octree_status start_game(octree_game *game)
         return status;
     update_player(game);
     const octree_input input = session_input(session, 0);
-    return ask_and_publish_tick(game, &input);
+    return run_queries_and_publish_tick(game, &input);
 }
 
 octree_status octree_game_create(const octree_session *session, octree_game **game)
@@ -408,7 +408,7 @@ static octree_status play_tick(octree_game *game, char key, const octree_input *
         update_player(game);
     else if (!play_changes(game, input))
         return OCTREE_NO_MEMORY;
-    return ask_and_publish_tick(game, input);
+    return run_queries_and_publish_tick(game, input);
 }
 
 octree_status octree_game_step(octree_game *game, char key)
@@ -437,7 +437,7 @@ octree_status octree_game_ask(octree_game *game, const octree_query *queries, si
     if (status != OCTREE_OK)
         return status;
     game->hit_leaves.count = 0;
-    if (!game_ask_queries(game, queries, count) || !game_finish_queries(game))
+    if (!game_run_queries(game, queries, count) || !game_finish_queries(game))
         return OCTREE_NO_MEMORY;
     publish_tick(game);
     return OCTREE_OK;

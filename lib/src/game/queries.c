@@ -33,7 +33,7 @@ static bool judge_foreign_query(octree_game *game, const octree_query *query, co
     return foreign_record_query(&game->foreign, &game->judge, &about, game->answers.count - 1);
 }
 
-static bool ask_in_game(octree_game *game, const octree_query *query, bool by_key)
+static bool run_game_query(octree_game *game, const octree_query *query, bool by_key)
 {
     if (query->at_player && !game->tick.has_player)
         return true;
@@ -46,24 +46,24 @@ static bool ask_in_game(octree_game *game, const octree_query *query, bool by_ke
     run.how.skip = query->at_player ? OCTREE_SKIP_ID : OCTREE_SKIP_NONE;
     run.how.skip_id = game->session->player.id;
     const size_t points = game->found_points.count, neighbors = game->found_neighbors.count;
-    const octree_status status = ask_query(&run, query, game->tick.player, answer);
+    const octree_status status = run_query(&run, query, game->tick.player, answer);
     answer->by_key = by_key;
     game->tick.asked |= 1u << query->kind;
     return status == OCTREE_OK && judge_foreign_query(game, query, &run.how, points, neighbors);
 }
 
-bool game_ask_queries(octree_game *game, const octree_query *queries, size_t count)
+bool game_run_queries(octree_game *game, const octree_query *queries, size_t count)
 {
     bool ok = true;
     for (size_t i = 0; ok && i < count; i++)
-        ok = ask_in_game(game, &queries[i], false);
+        ok = run_game_query(game, &queries[i], false);
     return ok;
 }
 
-bool game_ask_by_key(octree_game *game)
+bool game_run_query_of_key(octree_game *game)
 {
     const octree_query nearest = {.kind = OCTREE_QUERY_NEAREST, .at_player = true};
-    return game->tick.key != 'n' || ask_in_game(game, &nearest, true);
+    return game->tick.key != 'n' || run_game_query(game, &nearest, true);
 }
 
 /* Set the pointers of each answer to its part of the lists of results. The lists must not grow any more in this

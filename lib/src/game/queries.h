@@ -10,10 +10,10 @@
  * visits in the tick. */
 octree_search game_search_options(octree_game *game, octree_cost *cost);
 
-/* game_ask_queries() asks `count` queries, which have been checked. If the player's key in this tick is n,
- * game_ask_by_key() asks for the nearest point. Both return false when there is no memory. */
-bool game_ask_queries(octree_game *game, const octree_query *queries, size_t count);
-bool game_ask_by_key(octree_game *game);
+/* game_run_queries() asks `count` queries, which have been checked. If the player's key in this tick is n,
+ * game_run_query_of_key() asks for the nearest point. Both return false when there is no memory. */
+bool game_run_queries(octree_game *game, const octree_query *queries, size_t count);
+bool game_run_query_of_key(octree_game *game);
 
 /* Finish the queries after all searches of a tick. Set the pointers of the answers to their results, sort and count the
  * visited nodes, and list the leaves that hold a result. False when there is no memory. */

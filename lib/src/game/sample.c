@@ -150,7 +150,7 @@ octree_status octree_sample(octree_sample_kind kind, uint64_t seed, const octree
         return OCTREE_NULL_ARGUMENT;
     if ((unsigned)kind >= OCTREE_SAMPLE_KINDS)
         return OCTREE_BAD_OPTION;
-    if (!keeps_arithmetic())
+    if (!has_exact_double_arithmetic())
         return OCTREE_BAD_BUILD;
     if (!is_world(box))
         return OCTREE_BAD_WORLD;

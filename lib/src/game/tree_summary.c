@@ -71,7 +71,7 @@ static bool has_changed(update *u, octree_address address)
     return u->next_touched < count && codes[u->next_touched] - first < UINT64_C(1) << below;
 }
 
-static void keep_inner_nodes(update *u, const subtree *before)
+static void copy_inner_nodes_before(update *u, const subtree *before)
 {
     const octree_address *addresses = u->to->inner_before.items;
     for (size_t i = 0; i < before->inner_count; i++)
@@ -92,7 +92,7 @@ static void add_subtree(update *u, const node *n, octree_address address)
     const size_t first_inner = u->to->inner.count;
     if (before && !has_changed(u, address)) {
         *made = *before;
-        keep_inner_nodes(u, before);
+        copy_inner_nodes_before(u, before);
     } else {
         *made = (subtree){.address = address};
         add_nodes_below(u, &made->stats, &made->sum, n, address, true);

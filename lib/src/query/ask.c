@@ -50,8 +50,8 @@ const char *octree_wrong_name(octree_wrong_kind wrong)
 
 const query_rules *query_rules_of(octree_query_kind kind)
 {
-#define RULES_POINTS(name) {ask_##name, compare_##name, bound_##name},
-#define RULES_NEIGHBORS(name) {ask_##name, NULL, NULL},
+#define RULES_POINTS(name) {run_##name##_query, compare_position_to_##name, find_bounds_of_##name},
+#define RULES_NEIGHBORS(name) {run_##name##_query, NULL, NULL},
 #define RULES(kind, name, members, named_by, result, ...) RULES_##result(name)
     static const query_rules table[] = {OCTREE_QUERY_MAP(RULES)};
 #undef RULES
@@ -177,7 +177,7 @@ void round_answer(octree_answer *answer)
     }
 }
 
-octree_status ask_query(query_run *run, const octree_query *query, const double player[3], octree_answer *answer)
+octree_status run_query(query_run *run, const octree_query *query, const double player[3], octree_answer *answer)
 {
     const bool neighbors = octree_query_about(query->kind)->neighbors;
     const list *found = neighbors ? run->neighbors : run->points;
@@ -233,7 +233,7 @@ octree_status octree_query_answer(const octree *tree, const octree_query *query,
     list points = {0}, neighbors = {0};
     query_run run = {tree, search_or_default(how), &memory, &points, &neighbors, NULL, false};
     octree_answer made;
-    status = ask_query(&run, query, player, &made);
+    status = run_query(&run, query, player, &made);
     made.points = move_to_block(&memory, &points, sizeof(octree_point));
     made.neighbors = move_to_block(&memory, &neighbors, sizeof(octree_neighbor));
     if (status == OCTREE_OK && made.count && !made.points && !made.neighbors)

@@ -24,12 +24,12 @@ typedef struct query_run {
 /* An octree_point_visitor with a query_run as its context: append the point to the result unless the query skips it. */
 bool collect_unless_skipped(const octree_point *point, void *context);
 
-/* Each kind defines a function ask_NAME in kind_NAME.c, which asks the tree and appends the result. A kind whose result
- * is points also defines compare_NAME and bound_NAME. */
+/* Each kind defines a function run_NAME_query in kind_NAME.c, which asks the tree and appends the result. A kind whose
+ * result is points also defines compare_position_to_NAME and find_bounds_of_NAME. */
 #define QUERY_RULE_TYPES(kind, name, ...)                                                                              \
-    octree_status ask_##name(query_run *run, octree_answer *answer);                                                   \
-    int compare_##name(const octree_answer *asked, const double position[3], double slack);                            \
-    octree_box bound_##name(const octree_answer *asked, double slack);
+    octree_status run_##name##_query(query_run *run, octree_answer *answer);                                           \
+    int compare_position_to_##name(const octree_answer *asked, const double position[3], double slack);                \
+    octree_box find_bounds_of_##name(const octree_answer *asked, double slack);
 OCTREE_QUERY_MAP(QUERY_RULE_TYPES)
 #undef QUERY_RULE_TYPES
 
@@ -71,6 +71,6 @@ void round_answer(octree_answer *answer);
 
 /* Ask a query that was checked. The result is appended to the lists of the run, and answer->count receives the number
  * of appended items. The answer's pointers to points and neighbours stay null. */
-octree_status ask_query(query_run *run, const octree_query *query, const double player[3], octree_answer *answer);
+octree_status run_query(query_run *run, const octree_query *query, const double player[3], octree_answer *answer);
 
 #endif

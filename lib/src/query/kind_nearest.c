@@ -3,7 +3,7 @@
 #include "kind.h"
 #include "octree/octree.h"
 
-octree_status ask_knearest(query_run *run, octree_answer *answer)
+octree_status run_knearest_query(query_run *run, octree_answer *answer)
 {
     const size_t first = run->neighbors->count, all = octree_count(run->tree);
     const size_t k = answer->k < all ? answer->k : all;
@@ -17,8 +17,8 @@ octree_status ask_knearest(query_run *run, octree_answer *answer)
     return status;
 }
 
-octree_status ask_nearest(query_run *run, octree_answer *answer)
+octree_status run_nearest_query(query_run *run, octree_answer *answer)
 {
     answer->k = 1;
-    return ask_knearest(run, answer);
+    return run_knearest_query(run, answer);
 }

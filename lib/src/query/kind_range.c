@@ -4,7 +4,7 @@
 #include "kind.h"
 #include "search.h"
 
-octree_status ask_range(query_run *run, octree_answer *answer)
+octree_status run_range_query(query_run *run, octree_answer *answer)
 {
     return octree_range_search(run->tree, &answer->box, &run->how, collect_unless_skipped, run);
 }
@@ -17,7 +17,7 @@ static int compare_gap(double a, double b, double length)
     return exact_sign_of_sum((double[]){a, -b, -length}, 3);
 }
 
-int compare_range(const octree_answer *asked, const double position[3], double slack)
+int compare_position_to_range(const octree_answer *asked, const double position[3], double slack)
 {
     int sign = -1;
     for (int i = 0; i < 3; i++) {
@@ -29,7 +29,7 @@ int compare_range(const octree_answer *asked, const double position[3], double s
     return sign;
 }
 
-octree_box bound_range(const octree_answer *asked, double slack)
+octree_box find_bounds_of_range(const octree_answer *asked, double slack)
 {
     octree_box bound;
     for (int i = 0; i < 3; i++) {

@@ -132,7 +132,7 @@ static void scan_leaf(search *s, const node *leaf)
         scan_points(s, leaf_points(leaf) + i, leaf->count - i < SCAN_POINTS ? leaf->count - i : SCAN_POINTS);
 }
 
-static double square_of_child(const frame *f, unsigned flip)
+static double squared_distance_to_child(const frame *f, unsigned flip)
 {
     return (f->squares[0][flip >> 2] + f->squares[1][flip >> 1 & 1]) + f->squares[2][flip & 1];
 }
@@ -144,7 +144,7 @@ static void search_next_child(search *s)
     while (f->left) {
         const unsigned flip = f->flips[f->next], octant = f->near ^ flip;
         if (f->left >> octant & 1) {
-            if (square_of_child(f, flip) > s->found.node_reach)
+            if (squared_distance_to_child(f, flip) > s->found.node_reach)
                 break;
             const node *child = &children_of(f->node)[child_index(f->node, octant)];
             f->left &= ~(1u << octant);
@@ -187,7 +187,8 @@ static frame *open_path_node(search *s, const node *n, uint64_t code, const uint
 static void search_siblings(search *s, frame *f, unsigned depth)
 {
     const double reach = s->found.node_reach;
-    const double x = square_of_child(f, 4), y = square_of_child(f, 2), z = square_of_child(f, 1);
+    const double x = squared_distance_to_child(f, 4), y = squared_distance_to_child(f, 2),
+                 z = squared_distance_to_child(f, 1);
     /* A single branch: three branches, one per axis, would be unpredictable. */
     if ((x > reach) & (y > reach) & (z > reach)) {
         meter_prune(&s->meter, f->address, f->left);

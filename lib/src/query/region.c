@@ -40,7 +40,7 @@ static bool visit_points_below(region *r, const node *n)
     return true;
 }
 
-static bool take_whole_node(region *r, const node *n, octree_address address)
+static bool visit_whole_node(region *r, const node *n, octree_address address)
 {
     meter_count_whole_node(&r->meter, address);
     if (r->visit)
@@ -99,7 +99,7 @@ static void open_node(descent *d, const node *n, octree_address address, unsigne
 static bool visit_node(descent *d, const node *n, octree_address address, unsigned octant, bool inside)
 {
     if (inside)
-        return take_whole_node(d->region, n, address);
+        return visit_whole_node(d->region, n, address);
     meter_visit(&d->region->meter, address);
     if (n->octants == 0)
         return queue_leaf(d, n);
@@ -169,7 +169,7 @@ box_shape box_shape_make(const octree *tree, const octree_box *box, const octree
     return s;
 }
 
-static bool misses_world(const octree *tree, const octree_box *box)
+static bool is_outside_world(const octree *tree, const octree_box *box)
 {
     for (int i = 0; i < 3; i++)
         if (box->max[i] < tree->axes[i].min || box->min[i] > tree->axes[i].max)
@@ -180,7 +180,7 @@ static bool misses_world(const octree *tree, const octree_box *box)
 octant_masks box_shape_root(const box_shape *s, const octree *tree)
 {
     octant_masks root = {1, 1};
-    if (misses_world(tree, s->box))
+    if (is_outside_world(tree, s->box))
         return (octant_masks){0, 0};
     for (int i = 0; i < 3; i++)
         if (s->whole.min[i] >= 0 || s->whole.max[i] < (int32_t)PLANE_GRID)

@@ -293,7 +293,7 @@ static void log_changes(const batch *b, octree_change_kind kind)
 
 /* Make a batch of changes and log the changes. Points and destinations that lie in the tree's own memory are copied
  * first. Points are also copied if a zero in them may have another sign than the stored zero. */
-static octree_status change_many(batch b, octree_change_kind kind, size_t *done)
+static octree_status apply_batch(batch b, octree_change_kind kind, size_t *done)
 {
     octree_status status = check_arguments(&b, kind);
     if (status != OCTREE_OK)
@@ -340,7 +340,7 @@ octree_status octree_insert_many(octree *tree, const octree_point *points, size_
 {
     RETURN_IN_DEFAULT_MODE(octree_status, octree_insert_many, tree, points, count, statuses, inserted);
     const batch b = {.tree = tree, .points = points, .count = count, .statuses = statuses, .inserts = true};
-    const octree_status status = change_many(b, OCTREE_INSERTED, inserted);
+    const octree_status status = apply_batch(b, OCTREE_INSERTED, inserted);
     if (status == OCTREE_OK)
         tune_if_due(tree);
     return status;
@@ -351,7 +351,7 @@ octree_status octree_remove_many(octree *tree, const octree_point *points, size_
 {
     RETURN_IN_DEFAULT_MODE(octree_status, octree_remove_many, tree, points, count, statuses, removed);
     const batch b = {.tree = tree, .points = points, .count = count, .statuses = statuses};
-    return change_many(b, OCTREE_REMOVED, removed);
+    return apply_batch(b, OCTREE_REMOVED, removed);
 }
 
 static octree_status move_one(const batch *b, size_t *moved)
@@ -398,5 +398,5 @@ octree_status octree_move_many(octree *tree, const octree_point *points, const d
         return status;
     if (count == 1)
         return move_one(&b, moved);
-    return moves_one_by_one(&b) ? move_few(b, moved) : change_many(b, OCTREE_MOVED, moved);
+    return moves_one_by_one(&b) ? move_few(b, moved) : apply_batch(b, OCTREE_MOVED, moved);
 }

@@ -53,7 +53,7 @@ static void find_point_codes(descents *w, const octree *tree, const octree_point
 }
 
 /* Let all points descend together, one level at a time, so that their cache misses overlap. */
-static void descend_together(descents *w, octree *tree, const octree_point *points, size_t count)
+static void find_leaves_of_points(descents *w, octree *tree, const octree_point *points, size_t count)
 {
     size_t going = 0, left[TOGETHER];
     find_point_codes(w, tree, points, count);
@@ -113,7 +113,7 @@ static octree_status insert_point_group(insertions *f, size_t first, size_t coun
     bool moved = false;
     octree *tree = f->batch->tree;
     const octree_point *points = f->batch->points + first;
-    descend_together(&w, tree, points, count);
+    find_leaves_of_points(&w, tree, points, count);
     for (size_t i = 0; i < count; i++) {
         octree_status status = w.statuses[i];
         const bool at_end = status == OCTREE_OK && !moved && !w.nodes[w.depths[i]][i]->octants;
@@ -193,7 +193,7 @@ static void find_point_group(removals *r, size_t first, size_t count)
 {
     descents w;
     const batch *b = r->batch;
-    descend_together(&w, b->tree, b->points + first, count);
+    find_leaves_of_points(&w, b->tree, b->points + first, count);
     for (size_t i = 0; i < count; i++) {
         octree_status status = w.statuses[i];
         const octree_point *point = &b->points[first + i];

@@ -278,18 +278,18 @@ static void write_points_of_share(size_t number, void *context)
 }
 
 /* Correct the counts of a node and the nodes below it after leaves refused some points. Returns the node's count. */
-static uint32_t correct_counts(node *n)
+static uint32_t recount_points_below(node *n)
 {
     const unsigned children = bits_count8(n->octants);
     uint32_t sum = 0;
     for (unsigned i = 0; i < children; i++)
-        sum += correct_counts(&children_of(n)[i]);
+        sum += recount_points_below(&children_of(n)[i]);
     if (children > 0)
         n->count = sum;
     return n->count;
 }
 
-static bool build_crowds(filling *f)
+static bool build_crowded_cells(filling *f)
 {
     batch *b = f->whole;
     const size_t size = 2 * f->crowded * sizeof(morton_item);
@@ -316,10 +316,10 @@ static bool build_tree_from_counts(filling *f, node *made)
     if (!make_grid_node(f, root_cell(), 0, made))
         return false;
     run_tasks(tree, write_points_of_share, f->tasks, f);
-    if (!build_crowds(f))
+    if (!build_crowded_cells(f))
         return false;
     if (f->crowded > 0)
-        correct_counts(made);
+        recount_points_below(made);
     return true;
 }
 

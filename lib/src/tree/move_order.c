@@ -52,7 +52,7 @@ static uint32_t find_stored_index(const octree *tree, const octree_point *point)
 }
 
 /* Returns the index of a point in a leaf that serves as a hash table. A missing point is added at the end. */
-static uint32_t find_or_add(node *table, const octree_point *point)
+static uint32_t find_or_add_point(node *table, const octree_point *point)
 {
     const uint32_t index = leaf_find(table, point->position, point->id);
     if (index != LEAF_NONE)
@@ -64,7 +64,7 @@ static uint32_t find_or_add(node *table, const octree_point *point)
 static pair *find_or_add_pair(simulation *r, const octree_point *point)
 {
     const octree *tree = r->batch->tree;
-    const uint32_t known = r->points.count, at = find_or_add(&r->points, point);
+    const uint32_t known = r->points.count, at = find_or_add_point(&r->points, point);
     if (at == known) {
         const uint32_t index = find_stored_index(tree, point);
         r->pairs[at] =
@@ -96,7 +96,7 @@ static uint32_t count_stored_in_cell(const octree *tree, uint64_t code, octree_a
 static uint32_t *find_or_add_cell_count(simulation *r, uint64_t code)
 {
     const octree_address cell = find_indivisible_cell(r->batch->tree, code);
-    const uint32_t known = r->cells.count, at = find_or_add(&r->cells, &(octree_point){.id = cell});
+    const uint32_t known = r->cells.count, at = find_or_add_point(&r->cells, &(octree_point){.id = cell});
     if (at == known)
         r->counts[at] = count_stored_in_cell(r->batch->tree, code, cell);
     return &r->counts[at];

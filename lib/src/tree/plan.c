@@ -109,7 +109,7 @@ bool is_planned_by_job(const batch *b, size_t count)
     return b->division && b->division->work.ready && count <= b->division->grain;
 }
 
-bool take_job_result(batch *b, node *made)
+bool get_job_result(batch *b, node *made)
 {
     job_list *work = &b->division->work;
     *made = ((const job *)work->jobs.items)[work->next++].made;

@@ -19,7 +19,7 @@
 #include "plane.h"
 
 /* Set sum[0] + sum[1] = a + b exactly (Knuth's TwoSum). */
-static void add_exactly(double a, double b, double sum[2])
+static void add_with_rounding_error(double a, double b, double sum[2])
 {
     sum[0] = a + b;
     const double b_part = sum[0] - a;
@@ -60,8 +60,8 @@ axis axis_make(double min, double max)
         a.unit = a.subnormal ? 0x1p-1074 : 0x1p-100;
     const double low = min / a.unit / 2, high = max / a.unit / 2;
     double half[2];
-    add_exactly(high, low, a.center);
-    add_exactly(high, -low, half);
+    add_with_rounding_error(high, low, a.center);
+    add_with_rounding_error(high, -low, half);
     a.half[0] = keep_high_31_bits(half[0]);
     a.half[1] = half[0] - a.half[0];
     a.half[2] = half[1];
@@ -78,13 +78,13 @@ axis axis_make(double min, double max)
 double plane_at_precisely(const axis *a, double t)
 {
     double sum[2];
-    add_exactly(a->center[0], a->half[0] * t, sum);
+    add_with_rounding_error(a->center[0], a->half[0] * t, sum);
     const double rest = sum[1] + (a->center[1] + (a->half[1] * t + a->half[2] * t));
     return a->subnormal ? subnormal_from_count(sum[0] + rest) : (sum[0] + rest) * a->unit;
 }
 
 /* Find the largest key whose plane is at most x, by binary search. */
-static uint32_t search_key(const axis *a, double x)
+static uint32_t find_key_by_bisection(const axis *a, double x)
 {
     uint32_t key = 0;
     for (uint32_t half = PLANE_GRID / 2; half > 0; half /= 2)
@@ -101,7 +101,7 @@ uint32_t plane_key_near(const axis *a, double x)
     const double guess = plane_guess_key(a, x);
     /* The guess needs no test for negative values, because it is never negative. */
     if (!(a->keys_per_unit > 0 && a->guess_error < 1 && guess < (double)PLANE_GRID))
-        return search_key(a, x);
+        return find_key_by_bisection(a, x);
     uint32_t key = (uint32_t)guess;
     const double fraction = guess - (double)key;
     if (fraction > a->guess_error && fraction < 1 - a->guess_error)

@@ -121,7 +121,7 @@ static void add_free_block(pool *p, void *block, unsigned units)
     p->free_units += units;
 }
 
-static void *take_first_free_block(pool *p, unsigned units)
+static void *remove_first_free_block(pool *p, unsigned units)
 {
     struct free_block *block = p->free_blocks[units - 1];
     p->free_blocks[units - 1] = block->next;
@@ -211,14 +211,14 @@ static void mark_free_blocks(pool *p, struct slab **sorted)
     struct slab *slab = p->slabs;
     for (unsigned units = 1; units <= POOL_MAX_UNITS; units++)
         while (p->free_blocks[units - 1]) {
-            const unsigned char *block = take_first_free_block(p, units);
+            const unsigned char *block = remove_first_free_block(p, units);
             slab = find_slab(p, sorted, block, slab);
             mark_units(bit_map_of_slab(slab), (size_t)(block - slab->first) / p->unit, units);
         }
 }
 
 /* Return the bits of 64 units from `unit` on. Bits beyond the last unit are 0. */
-static uint64_t read_marks(struct slab *slab, size_t unit)
+static uint64_t load_mark_bits(struct slab *slab, size_t unit)
 {
     const uint64_t *bits = bit_map_of_slab(slab) + unit / 64;
     const unsigned shift = unit % 64;
@@ -230,7 +230,7 @@ static uint64_t read_marks(struct slab *slab, size_t unit)
 static void add_free_runs(pool *p, struct slab *slab)
 {
     for (size_t unit = 0; unit < slab->units;) {
-        const uint64_t marks = read_marks(slab, unit);
+        const uint64_t marks = load_mark_bits(slab, unit);
         const unsigned used = marks ? bits_lowest(marks) : 64;
         const unsigned run = used ? 0 : ~marks ? bits_lowest(~marks) : POOL_MAX_UNITS;
         add_free_block(p, slab->first + unit * p->unit, run);
@@ -284,13 +284,13 @@ static bool add_slab(pool *p)
     return true;
 }
 
-static void *take_free_block(pool *p, unsigned units)
+static void *allocate_free_block(pool *p, unsigned units)
 {
     const uint64_t large_enough = p->available >> (units - 1) << (units - 1);
     if (!large_enough)
         return NULL;
     const unsigned found = bits_lowest(large_enough) + 1;
-    unsigned char *block = take_first_free_block(p, found);
+    unsigned char *block = remove_first_free_block(p, found);
     add_free_block(p, block + units * p->unit, found - units);
     return block;
 }
@@ -304,22 +304,22 @@ static bool is_worth_joining(const pool *p)
 }
 
 /* Take a free block from the pool that lends blocks. Returns null if that pool has no suitable block. */
-static void *take_block_of_lender(pool *p, unsigned units)
+static void *allocate_block_of_lender(pool *p, unsigned units)
 {
     arena_lock(p->memory->shared);
-    void *block = take_free_block(p->lender, units);
+    void *block = allocate_free_block(p->lender, units);
     arena_unlock(p->memory->shared);
     return block;
 }
 
 void *pool_allocate(pool *p, unsigned units)
 {
-    void *block = take_free_block(p, units);
+    void *block = allocate_free_block(p, units);
     if (!block && p->borrows) {
-        block = take_block_of_lender(p, units);
+        block = allocate_block_of_lender(p, units);
     } else if (!block && !p->lender && p->fresh_units < units && is_worth_joining(p)) {
         join_free_blocks(p);
-        block = take_free_block(p, units);
+        block = allocate_free_block(p, units);
     }
     if (block)
         return block;

@@ -171,7 +171,7 @@ bool must_be_leaf(const batch *b, cell c, span items)
 bool build_node(batch *b, cell c, span items, node *made)
 {
     if (is_planned_by_job(b, items.count))
-        return take_job_result(b, made);
+        return get_job_result(b, made);
     return must_be_leaf(b, c, items) ? make_leaf_of_items(b, items, made) : build_children(b, c, items, made);
 }
 
@@ -394,7 +394,7 @@ bool change_node(batch *b, const node *old, cell c, span leaving, span arriving,
     if (arriving.count == 0 && (is_emptied || leaving.count == 0))
         return true;
     if (is_planned_by_job(b, leaving.count + arriving.count))
-        return take_job_result(b, made);
+        return get_job_result(b, made);
     if (is_emptied) {
         record_possible_overflow(b, old, c, arriving);
         return build_node(b, c, arriving, made);

@@ -25,7 +25,7 @@ octree_def octree_def_default(void)
 
 static octree_status check_definition(const octree_def *def)
 {
-    if (!keeps_arithmetic())
+    if (!has_exact_double_arithmetic())
         return OCTREE_BAD_BUILD;
     if (!is_world(&def->world))
         return OCTREE_BAD_WORLD;

@@ -23,7 +23,7 @@
  * 128. The fit gave 30, 15 and 1 ns for trees within the caches, and 32, 23 and less than 1 ns for larger trees. */
 static const double inner_weight = 30, leaf_weight = 20, point_weight = 1;
 
-static double weigh_cost(const octree_cost *cost)
+static double weighted_cost(const octree_cost *cost)
 {
     return inner_weight * (double)(cost->nodes - cost->leaves) + leaf_weight * (double)cost->leaves +
            point_weight * (double)cost->points;
@@ -96,7 +96,7 @@ static bool make_sample(sample *s, octree *tree)
     return true;
 }
 
-static const octree_point *target_of(const sample *s, size_t i)
+static const octree_point *sample_target(const sample *s, size_t i)
 {
     return &s->points[i * s->count / TARGETS];
 }
@@ -109,7 +109,7 @@ static void measure_ranges(sample *s, const octree *trial)
 {
     for (size_t i = 0; i < TARGETS; i++) {
         size_t found = 0;
-        octree_nearest_k(trial, target_of(s, i)->position, s->mix.hits, NULL, s->neighbors, &found);
+        octree_nearest_k(trial, sample_target(s, i)->position, s->mix.hits, NULL, s->neighbors, &found);
         s->extents[i] = found ? 0.806 * s->neighbors[found - 1].distance : 0;
     }
 }
@@ -145,7 +145,7 @@ static void add_nodes_below(octree_cost *cost, const node *n)
         add_nodes_below(cost, &children_of(n)[i]);
 }
 
-static void count_taken_nodes(octree_address address, octree_trace_kind touch, void *context)
+static void count_visited_nodes(octree_address address, octree_trace_kind touch, void *context)
 {
     range_cost *r = context;
     if (touch != OCTREE_TRACE_TAKEN)
@@ -157,7 +157,7 @@ static void count_taken_nodes(octree_address address, octree_trace_kind touch, v
 static octree_cost cost_of_range(const octree *trial, const octree_point *target, double extent)
 {
     range_cost r = {.trial = trial};
-    const octree_search how = {.cost = &r.all, .trace = count_taken_nodes, .trace_context = &r};
+    const octree_search how = {.cost = &r.all, .trace = count_visited_nodes, .trace_context = &r};
     octree_box box;
     size_t found;
     if (octree_collision_box(target->position, extent, &box) == OCTREE_OK)
@@ -170,11 +170,11 @@ static double cost_of_mix(const sample *s, const octree *trial)
 {
     double sum = 0;
     for (size_t i = 0; i < TARGETS; i++) {
-        const octree_point *target = target_of(s, i);
+        const octree_point *target = sample_target(s, i);
         const octree_cost change = cost_of_change(trial, target), nearest = cost_of_nearest(s, trial, target);
         const octree_cost range = cost_of_range(trial, target, s->extents[i]);
-        sum += s->mix.changes * weigh_cost(&change) + s->mix.nearest * weigh_cost(&nearest) +
-               s->mix.ranges * weigh_cost(&range);
+        sum += s->mix.changes * weighted_cost(&change) + s->mix.nearest * weighted_cost(&nearest) +
+               s->mix.ranges * weighted_cost(&range);
     }
     return sum;
 }
