@@ -41,7 +41,7 @@ static void skip_blanks(const char **at, const char *limit)
 static json_malloc_t original_malloc;
 static _Thread_local bool allocation_failed;
 
-static void *allocate_and_note_failure(size_t size)
+static void *allocate_and_record_failure(size_t size)
 {
     void *memory = original_malloc(size);
     allocation_failed |= !memory;
@@ -52,7 +52,7 @@ void json_detect_failed_allocations(void)
 {
     json_free_t release;
     json_get_alloc_funcs(&original_malloc, &release);
-    json_set_alloc_funcs(allocate_and_note_failure, release);
+    json_set_alloc_funcs(allocate_and_record_failure, release);
 }
 
 json_t *json_parse(const char *text, size_t size, size_t flags, json_error_t *error)

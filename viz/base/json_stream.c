@@ -77,7 +77,7 @@ static bool scan_character(json_scan *s, char c)
 
 static const char no_room[] = "out of memory while reading an object%s";
 
-static json_stream_state report_broken(json_reader *r, const char *format, const char *reason)
+static json_stream_state report_broken_object(json_reader *r, const char *format, const char *reason)
 {
     json_fail_line(r, r->line, NULL, format, reason);
     return JSON_STREAM_BROKEN;
@@ -118,14 +118,14 @@ static json_stream_state read_more(json_stream *s, json_reader *r)
 {
     ssize_t got;
     if (!make_room_for_block(s))
-        return report_broken(r, no_room, "");
+        return report_broken_object(r, no_room, "");
     do {
         if (!wait_for_input(s))
             return JSON_STREAM_STOPPED;
         got = read(s->file, s->bytes + s->size, BLOCK);
     } while (got < 0 && (errno == EINTR || errno == EAGAIN || errno == EWOULDBLOCK));
     if (got < 0)
-        return report_broken(r, "cannot be read: %s", strerror(errno));
+        return report_broken_object(r, "cannot be read: %s", strerror(errno));
     s->size += (size_t)got;
     s->ended = got == 0;
     return JSON_STREAM_OBJECT;
@@ -164,7 +164,7 @@ json_stream_state json_stream_read_object(json_stream *s, json_reader *r)
     s->scanned = 0;
     s->scan = (json_scan){0};
     if (!s->bytes && !make_room_for_block(s))
-        return report_broken(r, no_room, "");
+        return report_broken_object(r, no_room, "");
     for (;;) {
         if (s->scanned == 0)
             skip_blanks(s, r);
@@ -174,7 +174,7 @@ json_stream_state json_stream_read_object(json_stream *s, json_reader *r)
         if (found || (s->ended && s->scan.bare))
             return JSON_STREAM_OBJECT;
         if (s->ended && s->scanned > 0)
-            return report_broken(r, "the text ends inside the object that begins in this line%s", "");
+            return report_broken_object(r, "the text ends inside the object that begins in this line%s", "");
         if (s->ended)
             return JSON_STREAM_END;
         const json_stream_state state = read_more(s, r);

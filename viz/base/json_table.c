@@ -92,7 +92,7 @@ bool json_has_nonzero_byte(const void *bytes, size_t size)
     return false;
 }
 
-static bool is_set(const json_member *row, const void *structure)
+static bool is_member_set(const json_member *row, const void *structure)
 {
     const char *from = structure;
     return (!row->given || *(const bool *)(from + row->given)) && (!row->is_set || row->is_set(structure)) &&
@@ -102,7 +102,7 @@ static bool is_set(const json_member *row, const void *structure)
 void json_write_members(json_writer *w, const json_member *table, const void *from)
 {
     for (; table->name; table++) {
-        const bool set = is_set(table, from);
+        const bool set = is_member_set(table, from);
         if (!table->codec->write || !(set || table->nullable))
             continue;
         if (table->line)

@@ -205,7 +205,7 @@ void write_escaped(FILE *out, const char *text, escape *how)
     }
 }
 
-char *text_cut_line(char **at)
+char *text_next_line(char **at)
 {
     char *line = *at, *end = line + strcspn(line, "\n");
     if (!*line)

@@ -62,7 +62,7 @@ void write_escaped(FILE *out, const char *text, escape *how);
 
 /* Returns the next line of a text, and moves *at past the line. The line end is replaced by a zero byte. Returns null
  * at the end of the text. */
-char *text_cut_line(char **at);
+char *text_next_line(char **at);
 
 /* Writes the rest of the stream `in` as base64 (RFC 4648), for data URLs. The caller checks both streams for errors. */
 void base64_encode(FILE *in, FILE *out);

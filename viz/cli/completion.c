@@ -5,8 +5,8 @@
  * command line is read. The placeholder of an option says how its value is completed: FILE, DIR, LIST, or else one of
  * `names`. The `inputs` of a command say which file endings it takes.
  *
- * Each shell is a row of templates, which put_template() fills in. The scripts differ in form. For bash, the script is
- * a function that parses the words before the cursor itself, with a case for each command and option. For zsh's
+ * Each shell is a row of templates, which write_template() fills in. The scripts differ in form. For bash, the script
+ * is a function that parses the words before the cursor itself, with a case for each command and option. For zsh's
  * _arguments and fish's complete, the script is a list of declarations, one for each option. A declaration contains the
  * first clause of the option's description.
  */
@@ -21,7 +21,7 @@
 /* The ways to complete the value of an option. */
 typedef enum value_kind { VALUE_NONE, VALUE_ANY, VALUE_ONE, VALUE_LIST, VALUE_FILE, VALUE_FOLDER, VALUES } value_kind;
 
-/* The templates of a shell's script. They are shell code with markers such as %c; put_marker() lists the markers. */
+/* The templates of a shell's script. They are shell code with markers such as %c; write_marker() lists the markers. */
 typedef struct shell {
     const char *name;
     /* The text at the start of the script; `summary` is repeated for each command, between `head` and `middle`. */
@@ -200,7 +200,7 @@ static bool takes_files(const command *c)
 }
 
 /* Returns the length of the first clause of an option's description in bytes. */
-static size_t brief_length(const char *help)
+static size_t first_clause_length(const char *help)
 {
     size_t length = strcspn(help, ";:(");
     const char *stop = strstr(help, ". ");
@@ -222,11 +222,11 @@ typedef struct script {
     const char *ending; /* the file ending for %e; it is not zero-terminated, because the next file ending follows it */
 } script;
 
-static void put_template(const script *s, const char *template);
+static void write_template(const script *s, const char *template);
 
 /* Writes a text that is quoted by '. A backslash is written before each character that is special to the shell. A quote
  * character in the text becomes the characters '\'', which all three shells understand. */
-static void put_quoted(const script *s, const char *text, size_t length)
+static void write_quoted(const script *s, const char *text, size_t length)
 {
     for (size_t i = 0; i < length; i++)
         if (text[i] == '\'')
@@ -236,17 +236,17 @@ static void put_quoted(const script *s, const char *text, size_t length)
 }
 
 /* Writes the shell code that completes the option's value, from a list of words or from files. */
-static void put_value(const script *s)
+static void write_value(const script *s)
 {
     const value_kind kind = find_value_kind(&s->option);
-    put_template(s, s->shell->values[kind].before);
+    write_template(s, s->shell->values[kind].before);
     for (int i = 0; s->option.names && s->option.names(i); i++)
         fprintf(s->out, "%s%s", i ? " " : "", s->option.names(i));
-    put_template(s, s->shell->values[kind].after);
+    write_template(s, s->shell->values[kind].after);
 }
 
 /* Writes the file endings that the command takes. */
-static void put_endings(script s)
+static void write_endings(script s)
 {
     const file_kinds kinds = s.command->inputs[0] | s.command->inputs[1];
     bool begun = false;
@@ -254,13 +254,13 @@ static void put_endings(script s)
         for (s.ending = kind_endings[i].endings; kinds & kind_endings[i].kind && *s.ending;) {
             s.ending++;
             fputs(begun ? s.shell->separator : "", s.out);
-            put_template(&s, s.shell->ending);
+            write_template(&s, s.shell->ending);
             s.ending += strcspn(s.ending, ".");
             begun = true;
         }
 }
 
-static void put_option_names(const script *s)
+static void write_option_names(const script *s)
 {
     command_option o;
     for (size_t n = 0; command_option_at(s->command, n, &o); n++)
@@ -268,43 +268,43 @@ static void put_option_names(const script *s)
             fprintf(s->out, "%s--%s", n ? " " : "", o.name);
 }
 
-static void put_command_names(FILE *out)
+static void write_command_names(FILE *out)
 {
     for (size_t i = 0; command_at(i); i++)
         fprintf(out, "%s ", command_at(i)->name);
 }
 
-static void put_topic_names(FILE *out)
+static void write_topic_names(FILE *out)
 {
     for (size_t i = 0; help_topic_at(i); i++)
         fprintf(out, "%s%s", i ? " " : "", help_topic_at(i)->name);
 }
 
-static void put_marker(const script *s, char marker)
+static void write_marker(const script *s, char marker)
 {
     const command *c = s->command;
     const command_option *o = &s->option;
     switch (marker) {
     case 'C': /* the names of all commands, each followed by a space */
-        put_command_names(s->out);
+        write_command_names(s->out);
         break;
     case 'T': /* the names of all help topics */
-        put_topic_names(s->out);
+        write_topic_names(s->out);
         break;
     case 'c': /* data of the command: %c its name, %d its description, %t its arguments */
         fputs(c->name, s->out);
         break;
     case 'd':
-        put_quoted(s, c->line, strlen(c->line));
+        write_quoted(s, c->line, strlen(c->line));
         break;
     case 't':
-        put_quoted(s, c->takes, strcspn(c->takes, ","));
+        write_quoted(s, c->takes, strcspn(c->takes, ","));
         break;
     case 'O': /* lists for the command: %O the names of all its options, %E all its file endings */
-        put_option_names(s);
+        write_option_names(s);
         break;
     case 'E':
-        put_endings(*s);
+        write_endings(*s);
         break;
     case 'e': /* %e is one file ending of the command */
         fprintf(s->out, "%.*s", (int)strcspn(s->ending, "."), s->ending);
@@ -317,13 +317,13 @@ static void put_marker(const script *s, char marker)
         putc(option_letter(o->name), s->out);
         break;
     case 'p':
-        put_quoted(s, o->value, strlen(o->value));
+        write_quoted(s, o->value, strlen(o->value));
         break;
     case 'h':
-        put_quoted(s, o->help, brief_length(o->help));
+        write_quoted(s, o->help, first_clause_length(o->help));
         break;
     case 'v':
-        put_value(s);
+        write_value(s);
         break;
     case '+': /* %+ is "+" and %= is "=" if the option takes a value; otherwise both are empty */
     case '=':
@@ -335,33 +335,33 @@ static void put_marker(const script *s, char marker)
 }
 
 /* Writes a template with its markers filled in. A null template writes nothing. */
-static void put_template(const script *s, const char *template)
+static void write_template(const script *s, const char *template)
 {
     for (const char *at = template ? template : ""; *at; at++)
         if (*at == '%')
-            put_marker(s, *++at);
+            write_marker(s, *++at);
         else
             putc(*at, s->out);
 }
 
-static void put_command_completions(script s)
+static void write_command_completions(script s)
 {
-    put_template(&s, s.shell->command);
+    write_template(&s, s.shell->command);
     for (size_t n = 0; command_option_at(s.command, n, &s.option); n++)
         if (s.option.name && s.shell->values[find_value_kind(&s.option)].before)
-            put_template(&s, option_letter(s.option.name) ? s.shell->short_option : s.shell->option);
-    put_template(&s, takes_files(s.command) ? s.shell->files : s.shell->folders);
+            write_template(&s, option_letter(s.option.name) ? s.shell->short_option : s.shell->option);
+    write_template(&s, takes_files(s.command) ? s.shell->files : s.shell->folders);
 }
 
-static void put_whole_script(script s)
+static void write_whole_script(script s)
 {
-    put_template(&s, s.shell->head);
+    write_template(&s, s.shell->head);
     for (size_t i = 0; (s.command = command_at(i)); i++)
-        put_template(&s, s.shell->summary);
-    put_template(&s, s.shell->middle);
+        write_template(&s, s.shell->summary);
+    write_template(&s, s.shell->middle);
     for (size_t i = 0; (s.command = command_at(i)); i++)
-        put_command_completions(s);
-    put_template(&s, s.shell->tail);
+        write_command_completions(s);
+    write_template(&s, s.shell->tail);
 }
 
 const char *completion_shell(int n)
@@ -373,6 +373,6 @@ bool completion_write(FILE *out, const char *shell)
 {
     const int found = json_find_name(completion_shell, shell);
     if (found >= 0)
-        put_whole_script((script){.out = out, .shell = &shells[found]});
+        write_whole_script((script){.out = out, .shell = &shells[found]});
     return found >= 0;
 }

@@ -33,22 +33,22 @@ static void begin_line(FILE *out, char first)
         fputs("\\&", out);
 }
 
-static void put_code(FILE *out, const char *text, size_t length)
+static void write_code(FILE *out, const char *text, size_t length)
 {
     for (size_t i = 0; i < length; i++)
         fputs(escape_literal(text[i]).text, out);
 }
 
-static void put_bold(FILE *out, const char *text, size_t length)
+static void write_bold(FILE *out, const char *text, size_t length)
 {
     fputs("\\fB", out);
-    put_code(out, text, length);
+    write_code(out, text, length);
     fputs("\\fR", out);
 }
 
 /* Returns the length of the option with which a word begins: 6 for "--size,", 2 for "-o". Returns 0 if the word is
  * not an option. */
-static size_t option_length(const char *word, size_t length)
+static size_t length_of_option_at_start(const char *word, size_t length)
 {
     size_t end = 0;
     while (end < length && (isalnum((unsigned char)word[end]) || word[end] == '-'))
@@ -69,7 +69,7 @@ static void append_to_word(char set[WORD], const char *text)
 static void format_word(char set[WORD], const char *word, size_t length, bool *code)
 {
     const size_t before = strspn(word, "(\""), quoted = before < length ? before : 0;
-    const size_t option = *code ? 0 : option_length(word + quoted, length - quoted), rest = quoted + option;
+    const size_t option = *code ? 0 : length_of_option_at_start(word + quoted, length - quoted), rest = quoted + option;
     for (size_t i = 0; i < length; i++) {
         const bool plain = word[i] == '\'' || (word[i] == '-' && i > 0 && isalpha((unsigned char)word[i - 1]));
         if (option && i == quoted)
@@ -84,7 +84,7 @@ static void format_word(char set[WORD], const char *word, size_t length, bool *c
 }
 
 /* Writes words as lines of roff source with at most LINE characters each. */
-static void put_words(FILE *out, const char *text, size_t length)
+static void write_words(FILE *out, const char *text, size_t length)
 {
     const char *at = text, *word;
     size_t size, column = 0;
@@ -105,158 +105,158 @@ static void put_words(FILE *out, const char *text, size_t length)
     putc('\n', out);
 }
 
-static void put_sentence(FILE *out, const char *text)
+static void write_sentence(FILE *out, const char *text)
 {
-    put_words(out, text, strlen(text));
+    write_words(out, text, strlen(text));
 }
 
-static void put_lines(FILE *out, const char *text, size_t length, int indent)
+static void write_lines(FILE *out, const char *text, size_t length, int indent)
 {
     const char *at = text, *line;
     size_t size;
     fputs(".EX\n", out);
     while ((line = prose_next_line(&at, text + length, indent, &size))) {
         begin_line(out, *line);
-        put_code(out, line, size);
+        write_code(out, line, size);
         putc('\n', out);
     }
     fputs(".EE\n", out);
 }
 
 /* Begins a section. The section's name ends at the first line end in `name`. */
-static void put_section(FILE *out, const char *name)
+static void write_section(FILE *out, const char *name)
 {
     fputs(".SH ", out);
-    put_code(out, name, strcspn(name, "\n"));
+    write_code(out, name, strcspn(name, "\n"));
     putc('\n', out);
 }
 
-static void put_term(FILE *out, const char *term, size_t length)
+static void write_term(FILE *out, const char *term, size_t length)
 {
     fputs(".TP\n", out);
-    put_bold(out, term, length);
+    write_bold(out, term, length);
     putc('\n', out);
 }
 
-static void put_text(FILE *out, const char *text)
+static void write_text(FILE *out, const char *text)
 {
     prose_block block;
     bool begins = true; /* true: a paragraph has just begun, because the macro .SH also begins a paragraph */
     for (const char *at = text; prose_next_block(&at, &block);) {
         switch (block.kind) {
         case PROSE_HEADING:
-            put_section(out, block.text);
+            write_section(out, block.text);
             break;
         case PROSE_ITEM:
-            put_term(out, block.term, block.term_length);
-            put_words(out, block.text, block.length);
+            write_term(out, block.term, block.term_length);
+            write_words(out, block.text, block.length);
             break;
         case PROSE_VERBATIM:
             fputs(begins ? ".RS 4\n" : ".PP\n.RS 4\n", out);
-            put_lines(out, block.text, block.length, block.indent);
+            write_lines(out, block.text, block.length, block.indent);
             fputs(".RE\n", out);
             break;
         case PROSE_PARAGRAPH:
             fputs(begins ? "" : ".PP\n", out);
-            put_words(out, block.text, block.length);
+            write_words(out, block.text, block.length);
             break;
         }
         begins = block.kind == PROSE_HEADING;
     }
 }
 
-static void put_text_section(FILE *out, const char *name, const char *text)
+static void write_text_section(FILE *out, const char *name, const char *text)
 {
     if (!text)
         return;
-    put_section(out, name);
-    put_text(out, text);
+    write_section(out, name);
+    write_text(out, text);
 }
 
 /* ---- Sections ----------------------------------------------------------------------------------------------- */
 
 /* Writes the name of a command's manual: "octreel-record", or "octreel" for the program itself. */
-static void put_page_name(FILE *out, const char *name)
+static void write_page_name(FILE *out, const char *name)
 {
     fputs("octreel", out);
     if (strcmp(name, command_octreel.name) != 0)
         fprintf(out, "\\-%s", name);
 }
 
-static void put_title(FILE *out, const char *name, int section, const char *line)
+static void write_title(FILE *out, const char *name, int section, const char *line)
 {
     fputs(".TH \"", out);
-    put_page_name(out, name);
+    write_page_name(out, name);
     fprintf(out, "\" %d %s \"Octreel %s\" Octreel\n.nr HY 0\n.ad l\n.SH NAME\n", section, OCTREEL_DATE,
             OCTREEL_VERSION);
-    put_page_name(out, name);
+    write_page_name(out, name);
     fputs(" \\- ", out);
-    put_sentence(out, line);
+    write_sentence(out, line);
 }
 
 /* Writes a usage line with bold options and italic placeholders. */
-static void put_usage(FILE *out, const char *usage)
+static void write_usage(FILE *out, const char *usage)
 {
     for (const char *at = usage; *at;) {
-        const size_t option = at == usage || strchr(" [", at[-1]) ? option_length(at, strlen(at)) : 0;
+        const size_t option = at == usage || strchr(" [", at[-1]) ? length_of_option_at_start(at, strlen(at)) : 0;
         const size_t name = strspn(at, "ABCDEFGHIJKLMNOPQRSTUVWXYZ");
         if (option)
-            put_bold(out, at, option);
+            write_bold(out, at, option);
         else if (name)
             fprintf(out, "\\fI%.*s\\fR", (int)name, at);
         else
-            put_code(out, at, 1);
+            write_code(out, at, 1);
         at += option ? option : name ? name : 1;
     }
     putc('\n', out);
 }
 
-static void put_option(FILE *out, const command_option *o)
+static void write_option(FILE *out, const command_option *o)
 {
     const char letter[] = {'-', option_letter(o->name), 0};
     fputs(".TP\n", out);
     if (letter[1]) {
-        put_bold(out, letter, 2);
+        write_bold(out, letter, 2);
         fputs(", ", out);
     }
-    put_bold(out, "--", 2);
-    put_bold(out, o->name, strlen(o->name));
+    write_bold(out, "--", 2);
+    write_bold(out, o->name, strlen(o->name));
     if (o->value) {
         fputs(" \\fI", out);
-        put_code(out, o->value, strlen(o->value));
+        write_code(out, o->value, strlen(o->value));
         fputs("\\fR", out);
     }
     putc('\n', out);
-    put_sentence(out, o->help);
+    write_sentence(out, o->help);
     if (!o->words)
         return;
     fputs(".RS\n.PD 0\n", out); /* print no empty lines between the possible values */
     for (int i = 0; o->names(i); i++) {
-        put_term(out, o->names(i), strlen(o->names(i)));
-        put_sentence(out, o->words(i));
+        write_term(out, o->names(i), strlen(o->names(i)));
+        write_sentence(out, o->words(i));
     }
     fputs(".PD\n.RE\n", out);
 }
 
-static void put_options(FILE *out, const command *c)
+static void write_options(FILE *out, const command *c)
 {
     command_option option;
     for (size_t n = 0; command_option_at(c, n, &option); n++) {
         if (option.name) {
-            put_option(out, &option);
+            write_option(out, &option);
             continue;
         }
         fputs(n ? ".PP\n" : "", out);
-        put_sentence(out, option.help);
+        write_sentence(out, option.help);
     }
 }
 
-static void put_statuses(FILE *out, const command *c)
+static void write_statuses(FILE *out, const command *c)
 {
     for (int i = EXIT_DONE; i <= EXIT_TROUBLE; i++)
         if (command_status(c, i)) {
-            put_term(out, &"012"[i], 1);
-            put_sentence(out, command_status(c, i));
+            write_term(out, &"012"[i], 1);
+            write_sentence(out, command_status(c, i));
         }
 }
 
@@ -275,45 +275,45 @@ static bool mentions_words(const command *c, const char *words)
 }
 
 /* Writes a reference to another manual. Writes nothing if it is the manual `own`, which is being written. */
-static void put_reference(FILE *out, const char *name, int section, const char *own, bool *begun)
+static void write_reference(FILE *out, const char *name, int section, const char *own, bool *begun)
 {
     if (strcmp(name, own) == 0)
         return;
     fputs(*begun ? ",\n.BR " : ".BR ", out);
-    put_page_name(out, name);
+    write_page_name(out, name);
     fprintf(out, " (%d)", section);
     *begun = true;
 }
 
 /* Writes the section SEE ALSO in the manual of a command or a topic. The section refers to octreel(1), to the commands
  * that the texts mention, and to all topics. */
-static void put_see_also(FILE *out, const command *c, const help_topic *topic)
+static void write_see_also(FILE *out, const command *c, const help_topic *topic)
 {
     const char *own = c ? c->name : topic->name;
     char words[64];
     bool begun = false;
-    put_section(out, "SEE ALSO");
-    put_reference(out, command_octreel.name, 1, own, &begun);
+    write_section(out, "SEE ALSO");
+    write_reference(out, command_octreel.name, 1, own, &begun);
     for (size_t i = 0; command_at(i); i++) {
         snprintf(words, sizeof words, "octreel %s", command_at(i)->name);
         if (c == &command_octreel || (c ? mentions_words(c, words) : strstr(topic->text, words) != NULL))
-            put_reference(out, command_at(i)->name, 1, own, &begun);
+            write_reference(out, command_at(i)->name, 1, own, &begun);
     }
     for (size_t i = 0; help_topic_at(i); i++)
-        put_reference(out, help_topic_at(i)->name, 5, own, &begun);
+        write_reference(out, help_topic_at(i)->name, 5, own, &begun);
     putc('\n', out);
 }
 
 /* ---- Pages -------------------------------------------------------------------------------------------------- */
 
-static void put_commands(FILE *out)
+static void write_commands(FILE *out)
 {
-    put_section(out, "COMMANDS");
+    write_section(out, "COMMANDS");
     for (size_t i = 0; command_at(i); i++) {
         fputs(".TP\n.BR ", out);
-        put_page_name(out, command_at(i)->name);
+        write_page_name(out, command_at(i)->name);
         fputs(" (1)\n", out);
-        put_sentence(out, command_at(i)->line);
+        write_sentence(out, command_at(i)->line);
     }
 }
 
@@ -322,29 +322,29 @@ void manual_write(FILE *out, const command *c)
     static const char environment[] =
         "  TERM      if empty or \"dumb\", no progress is shown\n"
         "  NO_COLOR  has no effect: the output never contains colours or escape sequences\n";
-    put_title(out, c->name, 1, c->line);
-    put_section(out, "SYNOPSIS");
+    write_title(out, c->name, 1, c->line);
+    write_section(out, "SYNOPSIS");
     fprintf(out, "\\fBoctreel%s%s\\fR ", c == &command_octreel ? "" : " ", c == &command_octreel ? "" : c->name);
-    put_usage(out, c->usage);
-    put_text_section(out, "DESCRIPTION", c->about);
+    write_usage(out, c->usage);
+    write_text_section(out, "DESCRIPTION", c->about);
     if (c == &command_octreel)
-        put_commands(out);
-    put_section(out, "OPTIONS");
-    put_options(out, c);
-    put_text_section(out, "NOTES", c->more);
-    put_section(out, "EXIT STATUS");
-    put_statuses(out, c);
-    put_text_section(out, "ENVIRONMENT", c->environment ? c->environment : "");
-    put_text(out, environment);
-    put_text_section(out, "FILES", c->files);
-    put_section(out, "EXAMPLES");
-    put_lines(out, c->examples, strlen(c->examples), 0);
-    put_see_also(out, c, NULL);
+        write_commands(out);
+    write_section(out, "OPTIONS");
+    write_options(out, c);
+    write_text_section(out, "NOTES", c->more);
+    write_section(out, "EXIT STATUS");
+    write_statuses(out, c);
+    write_text_section(out, "ENVIRONMENT", c->environment ? c->environment : "");
+    write_text(out, environment);
+    write_text_section(out, "FILES", c->files);
+    write_section(out, "EXAMPLES");
+    write_lines(out, c->examples, strlen(c->examples), 0);
+    write_see_also(out, c, NULL);
 }
 
 void manual_write_topic(FILE *out, const help_topic *topic)
 {
-    put_title(out, topic->name, 5, topic->line);
-    put_text_section(out, "DESCRIPTION", topic->text);
-    put_see_also(out, NULL, topic);
+    write_title(out, topic->name, 5, topic->line);
+    write_text_section(out, "DESCRIPTION", topic->text);
+    write_see_also(out, NULL, topic);
 }

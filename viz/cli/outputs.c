@@ -68,7 +68,7 @@ static bool refuse_file(const output_file *output, const char *is, const char *o
 }
 
 /* Checks that an output is not the input file. `status` is the status of the output. */
-static bool check_input_file(const output_file *output, const struct stat *status, const char *input)
+static bool check_differs_from_input_file(const output_file *output, const struct stat *status, const char *input)
 {
     struct stat other;
     return stat(input, &other) != 0 || !is_same_file(status, &other) ||
@@ -78,7 +78,8 @@ static bool check_input_file(const output_file *output, const struct stat *statu
 /* Checks that an output is none of the pictures and recording files in an input folder or its subfolders. `names` are
  * the names in the folder; this function frees them. Links to folders are not followed, because they could lead back to
  * the folder. Subfolders that cannot be listed are skipped, because --no-recursive may exclude them anyway. */
-static bool check_input_names(const output_file *output, const struct stat *status, const char *folder, char **names)
+static bool check_differs_from_input_names(const output_file *output, const struct stat *status, const char *folder,
+                                           char **names)
 {
     bool ok = true;
     for (size_t i = 0; ok && names[i]; i++) {
@@ -88,26 +89,26 @@ static bool check_input_names(const output_file *output, const struct stat *stat
         ok = path || print_refusal("out of memory");
         if (ok && lstat(path, &entry) == 0 && S_ISDIR(entry.st_mode)) {
             char **below = names[i][0] == '.' ? NULL : folder_names(path, &ignored);
-            ok = !below || check_input_names(output, status, path, below);
+            ok = !below || check_differs_from_input_names(output, status, path, below);
         } else if (ok && (folder_is_recording_file(names[i]) || file_has_ending(names[i], ".png")))
-            ok = check_input_file(output, status, path);
+            ok = check_differs_from_input_file(output, status, path);
         free(path);
     }
     free(names);
     return ok;
 }
 
-static bool check_input_folder(const output_file *output, const struct stat *status, const char *folder)
+static bool check_differs_from_input_folder(const output_file *output, const struct stat *status, const char *folder)
 {
     octreel_error error;
     char **names = folder_names(folder, &error);
-    return names ? check_input_names(output, status, folder, names) : print_refusal("%s", error.text);
+    return names ? check_differs_from_input_names(output, status, folder, names) : print_refusal("%s", error.text);
 }
 
-static bool check_input(const output_file *output, const struct stat *status, const char *input)
+static bool check_differs_from_input(const output_file *output, const struct stat *status, const char *input)
 {
     return file_is_standard_stream(input) ||
-           (is_folder(input) ? check_input_folder : check_input_file)(output, status, input);
+           (is_folder(input) ? check_differs_from_input_folder : check_differs_from_input_file)(output, status, input);
 }
 
 /* Checks that a path is not the path of a file in a recording. */
@@ -125,7 +126,7 @@ static bool check_not_in_recording(const output_file *output, const char *path)
 
 /* Checks that an existing file is not, by its content, a file that the user may need. This check also finds a frame
  * that is reached by a link in another folder. */
-static bool check_content(const output_file *output)
+static bool check_output_content(const output_file *output)
 {
     uint64_t tick;
     octreel_error ignored;
@@ -136,7 +137,7 @@ static bool check_content(const output_file *output)
            refuse_file(output, "a frame of a recording", "", "");
 }
 
-static bool check_file(const output_file *output, char *const *inputs, int input_count)
+static bool check_output_file(const output_file *output, char *const *inputs, int input_count)
 {
     struct stat status;
     bool ok = true;
@@ -146,10 +147,10 @@ static bool check_file(const output_file *output, char *const *inputs, int input
     if (exists && !S_ISREG(status.st_mode))
         return true;
     for (int i = 0; ok && exists && i < input_count; i++)
-        ok = check_input(output, &status, inputs[i]);
+        ok = check_differs_from_input(output, &status, inputs[i]);
     char *real = exists ? realpath(output->path, NULL) : NULL; /* realpath() resolves links */
     ok = ok && check_not_in_recording(output, output->path) && (!real || check_not_in_recording(output, real)) &&
-         (!exists || check_content(output));
+         (!exists || check_output_content(output));
     free(real);
     return ok;
 }
@@ -172,7 +173,7 @@ static bool contains_current_folder(const char *folder)
     return is;
 }
 
-static bool check_folder(const output_file *output)
+static bool check_output_folder(const output_file *output)
 {
     return !output->folder || !contains_current_folder(output->folder) ||
            file_kind_of(output->folder) == KIND_RECORDING ||
@@ -189,7 +190,7 @@ bool check_outputs(const output_file *outputs, size_t count, char *const *inputs
               print_refusal("only one output can go to standard output; name files for the others");
     ok = ok && check_outputs_differ(outputs, count);
     for (size_t i = 0; ok && !force && i < count; i++)
-        ok = check_folder(&outputs[i]) && check_file(&outputs[i], inputs, input_count);
+        ok = check_output_folder(&outputs[i]) && check_output_file(&outputs[i], inputs, input_count);
     return ok;
 }
 

@@ -131,25 +131,25 @@ static const int stop_signals[] = {SIGHUP, SIGINT, SIGTERM};
 static struct sigaction actions_before[STOP_SIGNALS];
 static volatile sig_atomic_t stop_signal; /* the first stop signal that arrived; 0: no signal */
 
-static void end_at_once(int alarm_signal)
+static void end_process_by_stop_signal(int alarm_signal)
 {
     (void)alarm_signal;
     signal(stop_signal, SIG_DFL);
     raise(stop_signal);
 }
 
-static void note_stop_signal(int sent)
+static void record_stop_signal(int sent)
 {
     if (stop_signal)
         return;
     stop_signal = sent;
-    signal(SIGALRM, end_at_once);
+    signal(SIGALRM, end_process_by_stop_signal);
     alarm(GRACE);
 }
 
 void defer_stop_signals(void)
 {
-    struct sigaction noting = {.sa_handler = note_stop_signal, .sa_flags = SA_RESTART};
+    struct sigaction noting = {.sa_handler = record_stop_signal, .sa_flags = SA_RESTART};
     sigset_t stops;
     sigemptyset(&noting.sa_mask);
     sigemptyset(&stops);

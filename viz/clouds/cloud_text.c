@@ -7,8 +7,8 @@
  *
  * The names of the columns after the third say what these columns mean. Without names, the ending of the file's name
  * may declare the meaning (find_columns()). Otherwise the meaning is guessed: three further columns are a colour, four
- * are an intensity and a colour. Every line must confirm the guess (settle_guessed_columns() gives the rules); else
- * the columns are ignored. The note cloud.column_note tells the user about a guess or ignored columns.
+ * are an intensity and a colour. Every line must confirm the guess (accept_or_discard_guessed_columns() gives the
+ * rules); else the columns are ignored. The note cloud.column_note tells the user about a guess or ignored columns.
  */
 #include "cloud_format.h"
 #include "file.h"
@@ -254,7 +254,7 @@ static void find_columns(cloud_file *file, cloud_span rest, char separator, text
     }
 }
 
-static int find_ranges(double number)
+static int ranges_containing(double number)
 {
     return (number >= 0 && number <= 255 && number == floor(number) ? BYTES : 0) |
            (number >= 0 && number <= 1 ? FRACTIONS : 0);
@@ -273,9 +273,9 @@ static void discard_guessed_columns(cloud_file *file, text_columns *columns)
 static void check_guessed_columns(cloud_file *file, text_columns *columns, size_t count, const double *numbers)
 {
     double square = 0;
-    columns->shifted &= find_ranges(numbers[CLOUD_INTENSITY]);
+    columns->shifted &= ranges_containing(numbers[CLOUD_INTENSITY]);
     for (int i = 0; i < 3; i++) {
-        columns->ranges &= find_ranges(numbers[CLOUD_RED + i]);
+        columns->ranges &= ranges_containing(numbers[CLOUD_RED + i]);
         square += numbers[CLOUD_RED + i] * numbers[CLOUD_RED + i];
         columns->brightest = fmax(columns->brightest, numbers[CLOUD_RED + i]);
     }
@@ -288,7 +288,7 @@ static void check_guessed_columns(cloud_file *file, text_columns *columns, size_
  * channels are fractions, at least one colour must not have length 1, because normals have length 1. If there are
  * four columns, the first must have a number outside the range of colour channels; otherwise the first three columns
  * could be the colour. */
-static void settle_guessed_columns(cloud_file *file, text_columns *columns)
+static void accept_or_discard_guessed_columns(cloud_file *file, text_columns *columns)
 {
     const int range = columns->ranges & BYTES ? BYTES : FRACTIONS;
     const bool bright = range == BYTES ? columns->brightest >= 128 : columns->brightest >= 0.5 && columns->no_normals;
@@ -429,7 +429,7 @@ static bool parse_text(cloud_file *file)
     text_columns columns = {0};
     const bool done = cloud_check_text(file) && parse_lines(file, &columns);
     if (done && columns.unnamed)
-        settle_guessed_columns(file, &columns);
+        accept_or_discard_guessed_columns(file, &columns);
     return done;
 }
 

@@ -65,7 +65,7 @@ bool cloud_parse_channel(const cloud_file *file, cloud_span word, int channel, d
 enum { UNIT = 1, BYTE = 255, WORD = 65535 };
 
 /* Adds a value's name to the note on ignored values. The name "_" is not added: it marks padding in PCD files. */
-static void note_ignored(const cloud_file *file, cloud_span word)
+static void add_ignored_value_to_note(const cloud_file *file, cloud_span word)
 {
     char quote[CLOUD_QUOTE], *note = file->out->column_note;
     const size_t length = strlen(note), left = sizeof file->out->column_note - length;
@@ -86,7 +86,7 @@ bool cloud_add_channel(cloud_file *file, int channel, cloud_span name)
     if (added)
         file->channel_names[channel] = name;
     else
-        note_ignored(file, name);
+        add_ignored_value_to_note(file, name);
     return added;
 }
 
@@ -100,7 +100,7 @@ void cloud_complete_channels(cloud_file *file, unsigned full)
     file->out->color_full = three == CLOUD_COLOR ? full : BYTE;
     for (int i = 0; i < CLOUD_CHANNELS; i++)
         if (ignored >> i & 1)
-            note_ignored(file, file->channel_names[i]);
+            add_ignored_value_to_note(file, file->channel_names[i]);
 }
 
 void cloud_discard_values(cloud_file *file)

@@ -37,8 +37,8 @@ static _Noreturn void run_child(const laz_child *child, const int pipe_ends[2], 
 
 /* Passes records from the pipe to `add`. Returns false if `add` returns false or if fewer than `count` records
  * arrive. If too few arrive, sets *too_few to true. */
-static bool pass_records(const cloud_file *file, FILE *records, uint64_t count, laz_record_reader *add, void *context,
-                         bool *too_few)
+static bool read_records_from_pipe(const cloud_file *file, FILE *records, uint64_t count, laz_record_reader *add,
+                                   void *context, bool *too_few)
 {
     unsigned char record[LAS_RECORD_READ];
     for (uint64_t i = 0; i < count; i++) {
@@ -87,7 +87,7 @@ bool laz_child_read_records(const laz_child *child, const cloud_file *file, uint
         run_child(child, pipe_ends, why);
     close(pipe_ends[1]);
     FILE *records = process > 0 ? fdopen(pipe_ends[0], "rb") : NULL;
-    bool done = records ? pass_records(file, records, count, add, context, &too_few)
+    bool done = records ? read_records_from_pipe(file, records, count, add, context, &too_few)
                         : cloud_fail(file, "cannot start a process for decompression: %s", strerror(errno));
     if (records)
         fclose(records);

@@ -148,7 +148,7 @@ static void add_scale(scene *s)
 }
 
 /* Write how many elements the budget leaves out of the close-up. */
-static void add_left_out(scene *s)
+static void add_label_of_left_out_elements(scene *s)
 {
     const scene_tally *t = &s->tally;
     scene_label label =
@@ -171,7 +171,7 @@ static void add_closeup(scene *s, const layer_source *in, view_layer layer)
     (void)in, (void)layer;
     if (s->times > 0) {
         add_scale(s);
-        add_left_out(s);
+        add_label_of_left_out_elements(s);
     } else if (s->has_closeup) {
         add_frame(s);
     }

@@ -40,7 +40,7 @@
 
 static const octree_box nothing = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
 
-static void widen(octree_box *box, const double from[3], const double to[3])
+static void widen_by_segment(octree_box *box, const double from[3], const double to[3])
 {
     for (int i = 0; i < 3; i++) {
         box->min[i] = from[i] < box->min[i] ? from[i] : box->min[i];
@@ -51,7 +51,7 @@ static void widen(octree_box *box, const double from[3], const double to[3])
 static void widen_by_cell(octree_box *box, const octree_box *world, octree_address node)
 {
     const octree_box cell = octree_cell_box(world, node);
-    widen(box, cell.min, cell.max);
+    widen_by_segment(box, cell.min, cell.max);
 }
 
 /* Return half the longest side of a box. The whole side could overflow. */
@@ -72,9 +72,9 @@ static octree_box answer_box(const octree_answer *answer)
     octree_box box = nothing;
     if (octree_answer_bound(answer, &box))
         return box;
-    widen(&box, answer->target, answer->target);
+    widen_by_segment(&box, answer->target, answer->target);
     for (size_t i = 0; answer->neighbors && i < answer->count; i++)
-        widen(&box, answer->neighbors[i].point.position, answer->neighbors[i].point.position);
+        widen_by_segment(&box, answer->neighbors[i].point.position, answer->neighbors[i].point.position);
     return box;
 }
 
@@ -84,8 +84,8 @@ static void widen_by_movement(octree_box *box, const octree_body *mover)
     double next[3];
     for (int i = 0; i < 3; i++)
         next[i] = mover->position[i] + mover->velocity[i];
-    widen(box, mover->position, mover->position);
-    widen(box, next, next);
+    widen_by_segment(box, mover->position, mover->position);
+    widen_by_segment(box, next, next);
 }
 
 /* Return a box that contains all points that a tick edits or moves, and all nodes that it splits or merges. */
@@ -208,7 +208,7 @@ static void add_to_group(group_search *g, const octree_box *more, bool is_sized)
         is_sized && half_extent(more) > 0 ? half_extent(more) : half_extent_with_leaf(g->in, more, &g->m);
     const double reach = g->reach > 0 ? g->reach : own;
     const double times = magnification_for(reach, g->in, &g->m);
-    widen(&both, more->min, more->max);
+    widen_by_segment(&both, more->min, more->max);
     if (!(times > 0 && find_part_of_height(&g->m, half_extent(&both)) < find_visible_part(g->in, &g->m, times)))
         return;
     g->reach = reach;
@@ -233,7 +233,7 @@ static void add_candidates(group_search *g)
 }
 
 /* Find the group of subjects that the close-up shows. Small subjects are tried first, then all subjects. */
-static group_search find_group(const closeup_course *course, const layer_source *in)
+static group_search choose_group_to_show(const closeup_course *course, const layer_source *in)
 {
     group_search g = {in, make_view_scale(in), SMALL, course->reach, nothing};
     add_candidates(&g);
@@ -243,7 +243,7 @@ static group_search find_group(const closeup_course *course, const layer_source 
 }
 
 /* Return whether a close-up at `place` shows the whole group. */
-static bool shows_group(const group_search *g, const double place[3])
+static bool is_group_in_closeup(const group_search *g, const double place[3])
 {
     double reach = 0;
     for (int i = 0; i < 3; i++)
@@ -256,9 +256,9 @@ static bool shows_group(const group_search *g, const double place[3])
  * but only if the close-up does not show all changes already. */
 static void follow_queries_or_changes(closeup_course *course, const layer_source *in)
 {
-    const group_search g = find_group(course, in);
+    const group_search g = choose_group_to_show(course, in);
     const bool empty = !(g.group.min[0] <= g.group.max[0]);
-    if (empty || (course->reach > 0 && !has_queries(in) && shows_group(&g, course->place)))
+    if (empty || (course->reach > 0 && !has_queries(in) && is_group_in_closeup(&g, course->place)))
         return;
     course->reach = g.reach;
     scene_box_middle(&g.group, course->place);

@@ -358,7 +358,7 @@ static void write_view_limits(pen *p)
     const scene_tally *tally = &p->scene->tally;
     const int before = p->y;
     if (p->rows)
-        write_rule(p);
+        write_separator_line(p);
     else
         write_gap(p);
     const int begin = p->y;
@@ -375,7 +375,7 @@ static void write_view_limits(pen *p)
     const int end = p->y;
     p->y = before;
     if (!p->rows && end != begin) {
-        write_rule(p);
+        write_separator_line(p);
         p->y = end;
     }
 }
@@ -383,7 +383,7 @@ static void write_view_limits(pen *p)
 /* ---- The column --------------------------------------------------------------------------------------------- */
 
 /* Remove the thin lines between rows of the column whose y is at least `from` pixels. */
-static void drop_rules_after(scene *s, int from)
+static void remove_separators_below(scene *s, int from)
 {
     size_t kept = 0;
     for (size_t i = 0; i < s->panels.count; i++)
@@ -393,7 +393,7 @@ static void drop_rules_after(scene *s, int from)
 }
 
 /* If not all rows fit into the picture, replace the last rows by a line that counts them. */
-static void cut_rows_beyond_panel(pen *p)
+static void replace_rows_beyond_panel(pen *p)
 {
     scene *s = p->scene;
     const int last = s->view.height - s->text.height,
@@ -414,7 +414,7 @@ static void cut_rows_beyond_panel(pen *p)
     }
     s->labels.count = kept;
     p->y = (int)first < last ? (int)first : last;
-    drop_rules_after(s, p->y);
+    remove_separators_below(s, p->y);
     write_text(p, 0, ROLE_WARNING, "and %zu more", rows);
     p->y += line;
 }
@@ -433,7 +433,7 @@ static void write_player(pen *p, const layer_source *in)
     p->y = end;
     if (in->tick->swept)
         write_row(p, "box tested", "", "the whole path");
-    write_rule(p);
+    write_separator_line(p);
 }
 
 static void write_tick_rows(pen *p, const layer_source *in)
@@ -441,12 +441,12 @@ static void write_tick_rows(pen *p, const layer_source *in)
     const octree_tick *tick = in->tick;
     write_events(p, in);
     write_keys(p, in);
-    write_rule(p);
+    write_separator_line(p);
     write_player(p, in);
     write_statistics(p, in, &tick->stats);
     write_view_limits(p);
     if (tick->hit_count || in->answer_count || tick->refusal_count)
-        write_rule(p);
+        write_separator_line(p);
     if (tick->hit_count)
         write_ids(p, "box hits", tick->hits, tick->hit_count);
     write_wrong_answers(p, in);
@@ -461,10 +461,10 @@ static void write_tree_rows(pen *p, const layer_source *in)
     octree_statistics(in->tree, &stats);
     write_statistics(p, in, &stats);
     write_view_limits(p);
-    write_rule(p);
+    write_separator_line(p);
     write_box_rows(p, "world", &in->world);
     if (in->answer_count)
-        write_rule(p);
+        write_separator_line(p);
     write_answers(p, in);
 }
 
@@ -480,7 +480,7 @@ static void add_corner_lines(scene *s, const layer_source *in, const char *title
     }
     write_view_limits(&p);
     write_broken_node(&p, in);
-    cut_rows_beyond_panel(&p);
+    replace_rows_beyond_panel(&p);
 }
 
 /* Write the caption on a strip below the scene. A page gets it as a row. */
@@ -514,11 +514,11 @@ static void add_column(scene *s, const layer_source *in, const char *title)
         write_tick_rows(&p, in);
     } else {
         p.y += write_title(&p, title, 0) + s->text.height / 2;
-        write_rule(&p);
+        write_separator_line(&p);
         write_tree_rows(&p, in);
     }
     write_broken_node(&p, in);
-    cut_rows_beyond_panel(&p);
+    replace_rows_beyond_panel(&p);
     write_legend(&p, in);
     add_caption(&p, in);
 }

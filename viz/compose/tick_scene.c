@@ -66,7 +66,7 @@ static void begin_results(tick_history *h, const octree_tick *tick)
 }
 
 /* Check the tree, unless it was checked before. */
-static void check_tree(layer_source *in, tick_check *check)
+static void check_tree_once(layer_source *in, tick_check *check)
 {
     if (!check->done)
         check->broken = octree_check(in->tree, &check->where);
@@ -90,7 +90,7 @@ static bool build_scene(scene *s, layer_source *in, const double player[3], clos
     s->has_closeup = times > 0;
     s->camera = camera_make(v, layout_camera_area(s, &in->world), &in->world, player, in->tick ? in->tick->number : 0);
     if (view_shows_layer(v, LAYER_BROKEN))
-        check_tree(in, check);
+        check_tree_once(in, check);
     if (s->has_closeup)
         add_closeup(s, in, course.place, times);
     s->has_closeup = s->has_closeup && !s->out_of_memory;
@@ -98,7 +98,7 @@ static bool build_scene(scene *s, layer_source *in, const double player[3], clos
     return !s->out_of_memory;
 }
 
-static layer_source make_source(const view *v, const octree_game *game)
+static layer_source make_layer_source(const view *v, const octree_game *game)
 {
     const octree_tick *tick = octree_game_tick(game);
     return (layer_source){.view = v,
@@ -119,7 +119,7 @@ void tick_history_release(tick_history *h)
 
 bool tick_history_add(tick_history *h, const view *v, const octree_game *game)
 {
-    const layer_source in = make_source(v, game);
+    const layer_source in = make_layer_source(v, game);
     h->check.done = h->arrows.known = false;
     if (in.tick->gap)
         return true;
@@ -130,7 +130,7 @@ bool tick_history_add(tick_history *h, const view *v, const octree_game *game)
 
 bool tick_scene_build(scene *s, const view *v, const octree_game *game, tick_history *h, const point_values *values)
 {
-    layer_source in = make_source(v, game);
+    layer_source in = make_layer_source(v, game);
     tick_check check = {0};
     if (h)
         begin_results(h, in.tick);

@@ -98,7 +98,7 @@ static bool is_name_listed(const accept_options *options, const char *name)
 
 /* Frames in different folders may have the same file name. Return the name of the first frame, in any folder, that
  * has the file name of `name`. Return null if there is none. */
-static const char *find_elsewhere(const diff_result *result, const char *name)
+static const char *find_frame_with_file_name(const diff_result *result, const char *name)
 {
     for (size_t i = 0; i < result->count; i++) {
         const char *other = diff_pair_name(&result->pairs[i]);
@@ -117,7 +117,7 @@ static bool check_names(const accepting *a, octreel_error *error)
             continue;
         if (listed->line)
             snprintf(line, sizeof line, "line %zu of the list: ", listed->line);
-        const char *meant = find_elsewhere(&a->result, listed->name);
+        const char *meant = find_frame_with_file_name(&a->result, listed->name);
         return error_set(error, "%sno frame %s in %s or in %s%s%s%s", line, listed->name, a->frames.path,
                          a->reference.path, meant ? "; did you mean " : "", meant ? meant : "", meant ? "?" : "");
     }
@@ -143,7 +143,7 @@ static bool check_frame(const accepting *a, diff_pair *pair, octreel_error *erro
 
 /* Check that the new frame of a reference is really missing. The frames in folders that were not searched are
  * unknown, and their references must stay. */
-static bool check_is_gone(const accepting *a, const char *name, octreel_error *error)
+static bool check_frame_is_missing(const accepting *a, const char *name, octreel_error *error)
 {
     char *path = path_join(a->frames.path, name);
     bool ok = path || error_no_memory(error);
@@ -163,7 +163,7 @@ static bool check_is_gone(const accepting *a, const char *name, octreel_error *e
 static bool check_action(const accepting *a, action what, diff_pair *pair, octreel_error *error)
 {
     if (what == REMOVED)
-        return check_is_gone(a, pair->a->name, error);
+        return check_frame_is_missing(a, pair->a->name, error);
     return what == KEPT || check_frame(a, pair, error);
 }
 
@@ -186,7 +186,7 @@ static bool decide_actions(accepting *a, octreel_error *error)
 
 /* Refuse to remove all references. If no reference has a new frame of the same name, the user probably gave the
  * wrong folder. */
-static bool check_overlap(const accepting *a, octreel_error *error)
+static bool check_some_references_stay(const accepting *a, octreel_error *error)
 {
     const size_t references = a->reference.count;
     return references == 0 || a->options->names->count > 0 || a->counts[REMOVED] < references ||
@@ -204,7 +204,7 @@ static bool compare_sides(accepting *a, octreel_error *error)
     else
         a->reference.background = exact.background;
     return diff_run(&a->reference, &a->frames, &exact, &a->result, error) && check_names(a, error) &&
-           decide_actions(a, error) && check_overlap(a, error);
+           decide_actions(a, error) && check_some_references_stay(a, error);
 }
 
 /* ---- Reporting ----------------------------------------------------------------------------------------------- */

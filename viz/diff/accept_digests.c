@@ -21,7 +21,7 @@ static bool store_pictures(const accepting *a, octreel_error *error)
 
 /* Add a changed or new frame to the new baseline `now`: its digest and, with --variant, its previously accepted
  * digests. */
-static bool add_accepted(const accepting *a, diff_side *now, const diff_pair *pair, octreel_error *error)
+static bool add_accepted_frame(const accepting *a, diff_side *now, const diff_pair *pair, octreel_error *error)
 {
     frame_digest digest = pair->about[1];
     if (!baseline_add_acceptance(now, &a->options->note, &digest, error))
@@ -52,7 +52,7 @@ bool accept_digests(accepting *a, octreel_error *error)
     for (size_t i = 0; ok && i < a->result.count; i++) {
         const diff_pair *pair = &a->result.pairs[i];
         if (a->actions[i] == CHANGED || a->actions[i] == ADDED)
-            ok = add_accepted(a, &now, pair, error);
+            ok = add_accepted_frame(a, &now, pair, error);
         else if (a->actions[i] == KEPT && pair->a)
             ok = baseline_add_frame(&now, pair->a->name, pair->a->variants, pair->a->variant_count, error);
     }

@@ -34,7 +34,7 @@ static bool prepare_copy(file_set *set, const char *from, char *path, octreel_er
     return false;
 }
 
-static bool rename_copies(file_set *set, octreel_error *error)
+static bool rename_copies_to_references(file_set *set, octreel_error *error)
 {
     for (size_t i = 0; i < set->count; i++)
         if (!file_writer_rename(&set->files[i].copy, error))
@@ -123,7 +123,8 @@ static void remove_new_folders(const accepting *a)
 static bool replace_files(const accepting *a, octreel_error *error)
 {
     file_set set = {0};
-    const bool ok = prepare_copies(a, &set, error) && rename_copies(&set, error) && remove_references(a, error);
+    const bool ok =
+        prepare_copies(a, &set, error) && rename_copies_to_references(&set, error) && remove_references(a, error);
     release_set(&set);
     if (!ok)
         remove_new_folders(a);

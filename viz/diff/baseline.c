@@ -57,7 +57,7 @@ bool baseline_is_reason(const char *text)
 
 /* Return the length of a frame's name as a baseline contains it: without ".png". If the rest would end with ".png"
  * or a blank, the whole name is written, because read_name() could not restore it. */
-static size_t written_length(const char *name)
+static size_t length_of_written_name(const char *name)
 {
     const size_t length = strlen(name), stem = length > 4 ? length - 4 : 0;
     const bool plain = stem > 0 && strcmp(name + stem, ".png") == 0 && name[stem - 1] != ' ' &&
@@ -84,7 +84,7 @@ static bool is_acceptance_id(const char *text)
     return text[0] && strchr(id_letters, text[0]) && text[1] && strchr(id_letters, text[1]);
 }
 
-static const acceptance *find_id(const diff_side *side, const char *id)
+static const acceptance *find_acceptance_by_id(const diff_side *side, const char *id)
 {
     for (size_t i = 0; i < side->acceptance_count; i++)
         if (memcmp(side->acceptances[i].id, id, 2) == 0)
@@ -113,7 +113,7 @@ static bool append_acceptance(diff_side *side, const acceptance *from, octreel_e
 
 /* Set a->id to an id that no acceptance of the side uses. The search starts at the hash of the acceptance and tries
  * the following ids in order. Return false if all ids are in use. */
-static bool choose_id(const diff_side *side, acceptance *a)
+static bool choose_acceptance_id(const diff_side *side, acceptance *a)
 {
     uint64_t digest = octree_digest_bytes(OCTREE_DIGEST_START, a->date, strlen(a->date));
     digest = octree_digest_word(octree_digest_word(digest, (uint64_t)a->width), (uint64_t)a->height);
@@ -121,7 +121,7 @@ static bool choose_id(const diff_side *side, acceptance *a)
     for (size_t tried = 0; tried < IDS; tried++, digest++) {
         const size_t n = (size_t)(digest % IDS);
         memcpy(a->id, (char[]){id_letters[n / ID_LETTERS], id_letters[n % ID_LETTERS], 0}, 3);
-        if (!find_id(side, a->id))
+        if (!find_acceptance_by_id(side, a->id))
             return true;
     }
     return false;
@@ -137,7 +137,7 @@ bool baseline_add_acceptance(diff_side *side, const acceptance_note *note, frame
             digest->acceptance = i - 1;
             return true;
         }
-    if (!choose_id(side, &wanted))
+    if (!choose_acceptance_id(side, &wanted))
         return error_set(error, "%s: the baseline is full: all %zu ids of acceptances are in use; start a new baseline",
                          side->path, IDS);
     digest->acceptance = side->acceptance_count;
@@ -184,7 +184,7 @@ static bool read_acceptance(diff_side *side, char *line, size_t number, octreel_
     a.reason = at + kind + (at[kind] == ' ');
     if (!baseline_is_reason(a.reason))
         return report_bad_line(side, number, error);
-    const acceptance *other = find_id(side, a.id);
+    const acceptance *other = find_acceptance_by_id(side, a.id);
     if (!other)
         return append_acceptance(side, &a, error);
     return is_same_acceptance(other, &a) ||
@@ -232,7 +232,7 @@ static bool read_digest(diff_side *side, const char *line, size_t number, octree
     const char *at = line + sizeof written - 1;
     if (!*at || has_control_character(at))
         return report_bad_line(side, number, error);
-    const acceptance *by = find_id(side, line);
+    const acceptance *by = find_acceptance_by_id(side, line);
     if (!by)
         return error_set(error,
                          "%s:%zu: no line before this one defines the id %.2s, as in \"accepted %.2s 2026-11-22 ...\"",
@@ -294,7 +294,7 @@ bool baseline_parse(diff_side *side, char *text, size_t size, octreel_error *err
     side->kind = DIFF_BASELINE;
     if (memchr(text, 0, size))
         return error_set(error, "%s: contains a zero byte, so it is not a text file", side->path);
-    for (char *line; (line = text_cut_line(&text));)
+    for (char *line; (line = text_next_line(&text));)
         if (!read_line(side, line, ++number, error))
             return false;
     if (number < 2)
@@ -331,7 +331,7 @@ bool baseline_add_variant(diff_frame *frame, const frame_digest *digest)
 }
 
 /* Set frame->digest to the newest variant: the variant that was accepted last. */
-static void choose_newest(const diff_side *side, diff_frame *frame)
+static void set_digest_to_newest_variant(const diff_side *side, diff_frame *frame)
 {
     frame->digest = frame->variants[0];
     for (size_t i = 1; i < frame->variant_count; i++)
@@ -357,7 +357,7 @@ bool baseline_merge_frames(diff_side *side, octreel_error *error)
     }
     side->count = kept;
     for (size_t i = 0; ok && i < kept; i++)
-        choose_newest(side, &side->frames[i]);
+        set_digest_to_newest_variant(side, &side->frames[i]);
     return ok || error_no_memory(error);
 }
 
@@ -442,7 +442,7 @@ bool baseline_write(FILE *out, const diff_side *side, octreel_error *error)
         const diff_frame *frame = &side->frames[i];
         for (const frame_digest *at = NULL; (at = next_variant(side, frame, at));)
             fprintf(out, "%s %016" PRIx64 " %.*s\n", side->acceptances[at->acceptance].id, at->pixels,
-                    (int)written_length(frame->name), frame->name);
+                    (int)length_of_written_name(frame->name), frame->name);
     }
     return true;
 }

@@ -380,7 +380,7 @@ static void compare_pixels_of_pair(size_t i, void *context)
     compare_pixels(p->pairs[i], p->options);
 }
 
-static void keep_undecided_pairs(pending *p)
+static void remove_pairs_with_same_bytes(pending *p)
 {
     size_t kept = 0;
     for (size_t i = 0; i < p->count; i++)
@@ -392,7 +392,7 @@ static void keep_undecided_pairs(pending *p)
 static bool compare_all_pairs(const diff_side *a, const diff_side *b, pending *p, octreel_error *error)
 {
     parallel_for(p->count, compare_bytes_of_pair, p);
-    keep_undecided_pairs(p);
+    remove_pairs_with_same_bytes(p);
     if (p->options->mask && !p->options->mask(p->options->mask_context, a, b, p->pairs, p->count, error))
         return false;
     parallel_for(p->count, compare_pixels_of_pair, p);
@@ -407,7 +407,7 @@ static bool compare_ticks(const diff_side *a, const diff_side *b, diff_result *r
     return result->verdict == DIFF_SAME || check_system_resources(error);
 }
 
-void diff_count(diff_result *result)
+void diff_count_findings(diff_result *result)
 {
     memset(result->found, 0, sizeof result->found);
     for (size_t i = 0; i < result->count; i++) {
@@ -434,7 +434,7 @@ bool diff_run(const diff_side *a, const diff_side *b, const diff_options *option
     if (ok && a->no_frames)
         ok = compare_ticks(a, b, result, error);
     if (ok)
-        diff_count(result);
+        diff_count_findings(result);
     else
         diff_release(result);
     return ok;

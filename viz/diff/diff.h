@@ -91,7 +91,7 @@ bool diff_run(const diff_side *a, const diff_side *b, const diff_options *option
 void diff_release(diff_result *result);
 
 /* Count the pairs with each finding, and update the verdict of the result. */
-void diff_count(diff_result *result);
+void diff_count_findings(diff_result *result);
 
 /* Compare the two frames of a pair and set the finding. If one side is a baseline, compare digests; else compare
  * pixels. */

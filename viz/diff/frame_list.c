@@ -26,7 +26,7 @@ bool frame_list_read(frame_list *list, const char *path, octreel_error *error)
     if (strlen(list->text) < size)
         return error_set(error, "%s: contains a zero byte, so it is not a text file", file_display_name(path));
     char *at = list->text;
-    for (char *line; (line = text_cut_line(&at));) {
+    for (char *line; (line = text_next_line(&at));) {
         number++;
         if (*line && !frame_list_add(list, line, number, error))
             return false;

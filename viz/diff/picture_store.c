@@ -101,8 +101,8 @@ static bool is_same_picture(const frame_digest *a, const frame_digest *b)
 
 /* Fetch the picture of a digest and compare the frame with it. If the store does not have the picture, the error
  * says why. */
-static void try_digest(const fetching *f, diff_pair *pair, diff_frame *frame, const frame_digest *digest,
-                       octreel_error *error)
+static void compare_picture_of_digest(const fetching *f, diff_pair *pair, diff_frame *frame, const frame_digest *digest,
+                                      octreel_error *error)
 {
     const diff_options *options = &f->result->options;
     octreel_error ignored;
@@ -132,7 +132,7 @@ static void fetch_picture(size_t i, void *context)
          n++) {
         const frame_digest *digest = n ? &frame->variants[frame->variant_count - n] : &frame->digest;
         if (n == 0 || !is_same_picture(digest, &frame->digest))
-            try_digest(f, pair, frame, digest, n ? &ignored : &why);
+            compare_picture_of_digest(f, pair, frame, digest, n ? &ignored : &why);
     }
     if (!frame->path && !pair->lacks_resources)
         pair->no_picture = strdup(why.text);
@@ -145,5 +145,5 @@ void picture_store_fetch(diff_side *reference, diff_result *result)
         return;
     parallel_for(result->count, fetch_picture, &f);
     result->verdict = DIFF_SAME;
-    diff_count(result);
+    diff_count_findings(result);
 }

@@ -92,7 +92,7 @@ bool diff_is_evidence_folder(const char *folder)
     return is;
 }
 
-static bool is_left_out(const diff_search *search, const char *folder, const struct stat *status)
+static bool is_folder_left_out(const diff_search *search, const char *folder, const struct stat *status)
 {
     struct stat other;
     for (size_t i = 0; i < sizeof search->left_out / sizeof search->left_out[0]; i++)
@@ -114,7 +114,7 @@ static bool add_entry(diff_side *side, const diff_search *search, const char *na
     if (ok && !flat && lstat(path, &status) != 0 && errno != ENOENT)
         ok = error_set(error, "%s: %s", path, strerror(errno));
     else if (ok && S_ISDIR(status.st_mode))
-        ok = is_left_out(search, path, &status) || add_folder(side, search, name, error);
+        ok = is_folder_left_out(search, path, &status) || add_folder(side, search, name, error);
     else if (ok && is_frame_name(side, name))
         ok = diff_side_add_frame(side, name, (frame_digest){0}, error);
     free(path);

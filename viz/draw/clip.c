@@ -20,7 +20,7 @@ typedef struct polygon {
     int count;
 } polygon;
 
-int clip_square_side(int width, int height)
+int enclosing_power_of_two(int width, int height)
 {
     int side = 1;
     while (side < width || side < height)

@@ -204,7 +204,7 @@ surface *surface_open(int width, int height, const renderer_choice *choice, octr
     s->face = (surface){.fill = fill_with_gl, .about = describe_surface, .close = close_surface};
     s->width = width;
     s->height = height;
-    s->side = clip_square_side(width, height);
+    s->side = enclosing_power_of_two(width, height);
     context_limit_threads();
     s->context = context_open(choice, error);
     if (!s->context || !load_gl_functions(&s->gl, s->context, error) || !check_driver(s, choice->any_renderer, error) ||

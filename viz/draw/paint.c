@@ -134,10 +134,10 @@ static bool paint_points(painter *p, const scene *s)
 }
 
 /* Set the limits to which quads are clipped: for a close-up, its part of the picture; for any other scene, the square
- * of clip_square_side(). */
+ * of enclosing_power_of_two(). */
 static void set_clip_limits(quad_list *list, const scene *s)
 {
-    const int square = clip_square_side(s->view.width, s->view.height);
+    const int square = enclosing_power_of_two(s->view.width, s->view.height);
     const bool is_closeup = s->times > 0;
     list->limits[0] = (is_closeup ? s->view.width : square) * QUAD_SUBPIXELS;
     list->limits[1] = (is_closeup ? s->view.height : square) * QUAD_SUBPIXELS;

@@ -66,7 +66,7 @@ uint16_t make_text_order(unsigned layer);
 
 /* Returns the side of the square to which the quads of a picture are clipped: the least power of two that is at least
  * the picture's width and height. */
-int clip_square_side(int width, int height);
+int enclosing_power_of_two(int width, int height);
 
 #define CLIP_PIECES 3
 

@@ -23,7 +23,7 @@ bool change_make(uint64_t id, const double *from, const double *to, change *made
     return true;
 }
 
-size_t changes_between(const points *before, const points *after, change *changes)
+size_t list_changes_between(const points *before, const points *after, change *changes)
 {
     size_t i = 0, j = 0, count = 0;
     while (i < before->count || j < after->count) {
@@ -72,7 +72,7 @@ static void set_point_position(point_table *table, uint64_t id, const double at[
 {
     octree_point point = {.id = id};
     memcpy(point.position, at, sizeof point.position);
-    point_table_put(table, &point);
+    point_table_set(table, &point);
 }
 
 void change_apply(const change *c, point_table *table)
@@ -105,7 +105,7 @@ void gap_list_add(gap_list *list, const char *why)
         list->runs[list->count++] = run;
 }
 
-uint64_t gap_list_ticks(const gap_run *runs, size_t count)
+uint64_t gap_list_count_ticks(const gap_run *runs, size_t count)
 {
     uint64_t ticks = 0;
     for (size_t i = 0; i < count; i++)
@@ -126,7 +126,7 @@ static void *copy_into_batch(batch *b, const void *from, size_t count, size_t it
     return to;
 }
 
-static bool copy_about(batch *b, const octreel_tick_info *about)
+static bool copy_tick_info(batch *b, const octreel_tick_info *about)
 {
     b->query_count = about->query_count;
     b->shape_count = about->shape_count;
@@ -186,7 +186,7 @@ batch *batch_make(const gap_list *gaps, const octreel_tick_info *about, const oc
     if (!b)
         return NULL;
     b->is_gap = false;
-    if ((!about || copy_about(b, about)) && (!foreign || copy_foreign(b, foreign)))
+    if ((!about || copy_tick_info(b, about)) && (!foreign || copy_foreign(b, foreign)))
         return b;
     batch_release(b);
     return NULL;
@@ -220,7 +220,7 @@ void batch_list_add(batch_list *list, batch *b)
     list->bytes += b->bytes;
 }
 
-batch *batch_list_take(batch_list *list)
+batch *batch_list_remove_first(batch_list *list)
 {
     batch *b = list->first;
     if (!b)
@@ -235,5 +235,5 @@ batch *batch_list_take(batch_list *list)
 void batch_list_clear(batch_list *list)
 {
     while (list->first)
-        batch_release(batch_list_take(list));
+        batch_release(batch_list_remove_first(list));
 }

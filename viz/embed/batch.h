@@ -17,7 +17,7 @@ typedef struct change {
 
 /* Compare two lists of points by id. Find the changes that turn the list `before` into the list `after`, and return
  * their number. If `changes` is null, the changes are only counted. Cost: O(before + after). */
-size_t changes_between(const points *before, const points *after, change *changes);
+size_t list_changes_between(const points *before, const points *after, change *changes);
 
 /* Combine all changes of a point into one change, and sort the changes by id. Before the call, the changes must be in
  * the order in which the program made them. Changes that cancel each other are removed. Returns the new number of
@@ -48,7 +48,7 @@ typedef struct gap_list {
 } gap_list;
 
 void gap_list_add(gap_list *list, const char *why);
-uint64_t gap_list_ticks(const gap_run *runs, size_t count);
+uint64_t gap_list_count_ticks(const gap_run *runs, size_t count);
 
 /* An accepted tick, and the ticks that were refused before it, called gaps. If is_gap is true, the batch has only
  * gaps. */
@@ -90,7 +90,7 @@ typedef struct batch_list {
 
 void batch_list_add(batch_list *list, batch *b);
 /* Remove the first batch from the list and return it; the caller then owns it. Returns null if the list is empty. */
-batch *batch_list_take(batch_list *list);
+batch *batch_list_remove_first(batch_list *list);
 void batch_list_clear(batch_list *list);
 
 #endif

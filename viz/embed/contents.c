@@ -100,7 +100,7 @@ static bool start_point_table(contents *c)
     if (!point_table_reserve(&c->table, c->now.count))
         return false;
     for (size_t i = 0; i < c->now.count; i++)
-        point_table_put(&c->table, &c->now.items[i]);
+        point_table_set(&c->table, &c->now.items[i]);
     points_release(&c->now);
     points_release(&c->next);
     points_release(&c->spare);
@@ -180,9 +180,9 @@ static octreel_status read_whole_tree(contents *c, const octree *tree, const oct
                              clash);
     if (status != OCTREEL_OK)
         return status_fail(error, status);
-    if (!reserve_changes(c, changes_between(&c->now, &c->next, NULL)))
+    if (!reserve_changes(c, list_changes_between(&c->now, &c->next, NULL)))
         return status_fail(error, OCTREEL_NO_MEMORY);
-    c->change_count += changes_between(&c->now, &c->next, c->changes + c->change_count);
+    c->change_count += list_changes_between(&c->now, &c->next, c->changes + c->change_count);
     return OCTREEL_OK;
 }
 

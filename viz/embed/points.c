@@ -152,7 +152,7 @@ bool point_table_reserve(point_table *t, size_t count)
         grown.slots[i].id = NO_ID;
     for (size_t i = 0; i < t->size; i++)
         if (t->slots[i].id != NO_ID)
-            point_table_put(&grown, &t->slots[i]);
+            point_table_set(&grown, &t->slots[i]);
     point_table_release(t);
     *t = grown;
     return true;
@@ -164,7 +164,7 @@ const octree_point *point_table_find(const point_table *t, uint64_t id)
     return at && at->id == id ? at : NULL;
 }
 
-void point_table_put(point_table *t, const octree_point *point)
+void point_table_set(point_table *t, const octree_point *point)
 {
     octree_point *at = &t->slots[find_slot(t, point->id)];
     t->count += at->id == NO_ID;

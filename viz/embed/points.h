@@ -36,7 +36,7 @@ bool point_table_reserve(point_table *t, size_t count);
 const octree_point *point_table_find(const point_table *t, uint64_t id);
 
 /* Insert a point. If the table has a point with the same id, replace that point. The table must have room. */
-void point_table_put(point_table *t, const octree_point *point);
+void point_table_set(point_table *t, const octree_point *point);
 
 /* Remove the point with this id. The table must contain the point. */
 void point_table_remove(point_table *t, uint64_t id);

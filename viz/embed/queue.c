@@ -63,12 +63,12 @@ octreel_status queue_put(queue *q, batch *b, bool wait)
     return status;
 }
 
-batch *queue_take(queue *q)
+batch *queue_wait_for_batch(queue *q)
 {
     pthread_mutex_lock(&q->lock);
     while (!q->list.first && !q->ended && !q->broken)
         pthread_cond_wait(&q->changed, &q->lock);
-    batch *b = batch_list_take(&q->list);
+    batch *b = batch_list_remove_first(&q->list);
     wake_and_unlock(q);
     return b;
 }
@@ -85,7 +85,7 @@ void queue_begin(queue *q)
     wake_and_unlock(q);
 }
 
-bool queue_wait_begun(queue *q)
+bool queue_wait_until_begun(queue *q)
 {
     pthread_mutex_lock(&q->lock);
     while (!q->begun && !q->broken)
@@ -102,7 +102,7 @@ void queue_end(queue *q)
     wake_and_unlock(q);
 }
 
-void queue_fail(queue *q, batch *b)
+void queue_end_after_failure(queue *q, batch *b)
 {
     release_unless_borrowed(q, b);
     pthread_mutex_lock(&q->lock);

@@ -29,21 +29,21 @@ void queue_release(queue *q);
 octreel_status queue_put(queue *q, batch *b, bool wait);
 
 /* Wait for the next batch and remove it from the queue. Returns null once the queue has ended and is empty. */
-batch *queue_take(queue *q);
+batch *queue_wait_for_batch(queue *q);
 
-/* Release the batch that queue_take() returned last. Call this after the batch is recorded. */
+/* Release the batch that queue_wait_for_batch() returned last. Call this after the batch is recorded. */
 void queue_finish_batch(queue *q, batch *b);
 
 /* Tell waiting threads that the recording has begun. */
 void queue_begin(queue *q);
 
 /* Wait until the recording has begun. Returns false if it has failed. */
-bool queue_wait_begun(queue *q);
+bool queue_wait_until_begun(queue *q);
 
 void queue_end(queue *q);
 
 /* Tell waiting threads that the recording has failed. Batch `b`, all batches in the queue and all later batches are
  * released. */
-void queue_fail(queue *q, batch *b);
+void queue_end_after_failure(queue *q, batch *b);
 
 #endif

@@ -271,7 +271,7 @@ static octreel_status open_recorder(const octreel_recorder_def *def, octreel_rec
 
 /* If the program passes points without a tree, let full leaves grow. If full leaves refused points, a tree of the
  * program's points might be impossible. */
-static octreel_status let_leaves_grow(octreel_recorder *r)
+static octreel_status require_growing_leaves(octreel_recorder *r)
 {
     const bool listed = r->contents.read_source == FROM_LIST || r->contents.read_source == FROM_CHANGES;
     if (!listed || r->settings.tree.full_leaf == OCTREE_GROW)
@@ -285,7 +285,7 @@ static octreel_status let_leaves_grow(octreel_recorder *r)
 }
 
 /* Keep the foreign nodes of a refused tick for the next accepted tick. Returns false if memory runs out. */
-static bool keep_foreign_nodes(octreel_recorder *r, const octree_foreign_tree *tree)
+static bool store_nodes_for_next_tick(octreel_recorder *r, const octree_foreign_tree *tree)
 {
     octree_foreign_tree copy;
     if (!foreign_tree_duplicate(tree, &copy))
@@ -307,7 +307,7 @@ static octreel_status read_tick(octreel_recorder *r, const octree *tree, const o
         return status;
     if (read != OCTREEL_OK)
         r->error = why;
-    return read == OCTREEL_OK ? let_leaves_grow(r) : read;
+    return read == OCTREEL_OK ? require_growing_leaves(r) : read;
 }
 
 /* Add a batch to the queue. After adding the first batch, wait until the recording has begun. *taken becomes false if
@@ -318,7 +318,7 @@ static octreel_status queue_batch(octreel_recorder *r, batch *b, bool *taken)
     *taken = status == OCTREEL_OK;
     if (status == OCTREEL_BUSY)
         return status_fail(&r->error, status);
-    if (*taken && (r->put++ > 0 || queue_wait_begun(&r->queue)))
+    if (*taken && (r->put++ > 0 || queue_wait_until_begun(&r->queue)))
         return OCTREEL_OK;
     r->broken = true;
     r->error = r->filmer.error;
@@ -362,7 +362,7 @@ static octreel_status accept_tick(octreel_recorder *r, const octree *tree, const
     if (status == OCTREEL_OK)
         status = record_tick(r, about);
     if (status != OCTREEL_OK && nodes == OCTREEL_OK && about && about->foreign &&
-        !keep_foreign_nodes(r, about->foreign))
+        !store_nodes_for_next_tick(r, about->foreign))
         status = status_fail(&r->error, OCTREEL_NO_MEMORY);
     if (status != OCTREEL_OK) {
         contents_refuse_tick(&r->contents, status);
@@ -409,7 +409,7 @@ static octreel_status ring_write(octreel_recorder *r, const char *folder)
         return status_fail(&r->error, OCTREEL_NO_MEMORY);
     batch_list_add(&all->list, tail);
     uint64_t ticks;
-    const losses lost = ring_losses(all, &ticks);
+    const losses lost = ring_sum_losses(all, &ticks);
     const octreel_status status = ring_film(all, &r->settings, folder, &r->error);
     all->list = before;
     all->list.last->next = NULL;

@@ -29,7 +29,7 @@ static bool restart_ring_at(ring *r, batch *b)
     for (size_t i = 0; i < b->change_count; i++)
         change_apply(&b->changes[i], &r->start);
     clear_changes(b);
-    r->dropped += gap_list_ticks(b->gaps, b->gap_count);
+    r->dropped += gap_list_count_ticks(b->gaps, b->gap_count);
     b->gap_count = 0;
     return true;
 }
@@ -52,7 +52,7 @@ bool ring_put(ring *r, batch *b)
     if ((full || !first) && !restart_ring_at(r, second))
         return false;
     if (full) {
-        first = batch_list_take(&r->list);
+        first = batch_list_remove_first(&r->list);
         move_foreign_nodes(first, second);
         batch_release(first);
         r->dropped++;
@@ -61,7 +61,7 @@ bool ring_put(ring *r, batch *b)
     return true;
 }
 
-losses ring_losses(const ring *r, uint64_t *ticks)
+losses ring_sum_losses(const ring *r, uint64_t *ticks)
 {
     losses lost = {0};
     *ticks = 0;
@@ -70,7 +70,7 @@ losses ring_losses(const ring *r, uint64_t *ticks)
             lost.first = *ticks;
             memcpy(lost.why, b->gaps[0].why, sizeof lost.why);
         }
-        const uint64_t gaps = gap_list_ticks(b->gaps, b->gap_count);
+        const uint64_t gaps = gap_list_count_ticks(b->gaps, b->gap_count);
         lost.ticks += gaps;
         *ticks += gaps + !b->is_gap;
     }
@@ -87,7 +87,7 @@ static bool add_insertions(const ring *r)
     first->changes = malloc((r->start.count + 1) * sizeof *first->changes);
     const bool ok = first->changes && point_table_list(&r->start, &start, &spare);
     if (ok)
-        first->change_count = changes_between(&none, &start, first->changes);
+        first->change_count = list_changes_between(&none, &start, first->changes);
     points_release(&start);
     points_release(&spare);
     return ok;

@@ -27,7 +27,7 @@ bool ring_put(ring *r, batch *b);
 
 /* Summarize the gaps in the ring. The first tick of the ring counts as tick 0. *ticks becomes the number of ticks and
  * gaps in the ring. */
-losses ring_losses(const ring *r, uint64_t *ticks);
+losses ring_sum_losses(const ring *r, uint64_t *ticks);
 
 /* Record the ring into a folder. Another thread records, and this function waits until the thread has ended. Errors:
  * the errors of session_filmer_join(). */

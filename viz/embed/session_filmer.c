@@ -131,9 +131,9 @@ static octreel_status film_batch(session_filmer *f, batch *b)
 static void film_queue(session_filmer *f)
 {
     batch *b;
-    while (f->status == OCTREEL_OK && (b = queue_take(f->queue))) {
+    while (f->status == OCTREEL_OK && (b = queue_wait_for_batch(f->queue))) {
         f->status = film_batch(f, b);
-        (f->status == OCTREEL_OK ? queue_finish_batch : queue_fail)(f->queue, b);
+        (f->status == OCTREEL_OK ? queue_finish_batch : queue_end_after_failure)(f->queue, b);
     }
 }
 

@@ -32,7 +32,7 @@ static bool create_game(playing *p, int side, const octree_session *session, oct
 
 /* ---- One tick ------------------------------------------------------------------------------------------------ */
 
-static bool do_trees_differ(const playing *p)
+static bool do_current_trees_differ(const playing *p)
 {
     cause_facts facts = {0};
     if (p->same_rules)
@@ -43,12 +43,12 @@ static bool do_trees_differ(const playing *p)
     return unlike;
 }
 
-static bool trees_differ(playing *p)
+static bool do_trees_differ(playing *p)
 {
     const uint64_t versions[2] = {octree_version(octree_game_tree(p->games[0])),
                                   octree_version(octree_game_tree(p->games[1]))};
     if (versions[0] != p->versions[0] || versions[1] != p->versions[1])
-        p->unlike = do_trees_differ(p);
+        p->unlike = do_current_trees_differ(p);
     p->versions[0] = versions[0];
     p->versions[1] = versions[1];
     return p->unlike;
@@ -97,7 +97,7 @@ static void count_wrong_answers(cause_span wrong[WRONG_CHANGES], const octree_ti
 }
 
 /* Return whether the states of the games differ, so that later ticks may differ, too. */
-static bool games_differ(const playing *p, bool trees)
+static bool do_games_differ(const playing *p, bool trees)
 {
     const octree_tick *a = octree_game_tick(p->games[0]), *b = octree_game_tick(p->games[1]);
     return trees || a->has_player != b->has_player || memcmp(a->player, b->player, sizeof a->player) != 0 ||
@@ -112,7 +112,7 @@ static bool compare_tick(playing *p, octreel_error *error)
     const cause_watcher *w = p->watcher;
     const uint64_t tick = octree_game_tick(games[0])->number;
     const bool wanted = w->wants && w->wants(w->context, tick), is_early = p->found->differing.count < w->first;
-    const bool trees = !p->same_session && trees_differ(p);
+    const bool trees = !p->same_session && do_trees_differ(p);
     cause_facts facts = {0};
     if (trees && (wanted || is_early))
         cause_compare_trees(games[0], games[1], &facts);
@@ -126,7 +126,7 @@ static bool compare_tick(playing *p, octreel_error *error)
         extend_span(&p->found->differing, 1, tick);
     if (reported && p->other_heat)
         cause_add_whole(&facts, "heat", CAUSE_OTHER, NULL, NULL);
-    bool ok = cause_origins_advance(&p->found->session.origins, tick, games_differ(p, trees), p->other_heat);
+    bool ok = cause_origins_advance(&p->found->session.origins, tick, do_games_differ(p, trees), p->other_heat);
     ok = ok && !facts.out_of_memory && (!reported || append_tick(p->found, tick, &facts));
     p->other_heat |= p->shows_heat && differs;
     cause_facts_release(&facts);

@@ -29,8 +29,8 @@ static void compare_values(const cause_place *place, json_t *a, json_t *b);
  * value. */
 static void add_fact(const cause_place *place, cause_change change, uint64_t id, json_t *a, json_t *b)
 {
-    cause_add(place->facts, place->where, place->query, change,
-              (cause_fact){place->tick, id, json_incref(a), json_incref(b)});
+    cause_add_fact(place->facts, place->where, place->query, change,
+                   (cause_fact){place->tick, id, json_incref(a), json_incref(b)});
 }
 
 bool cause_is_equal(const json_t *a, const json_t *b, bool exact)
@@ -45,7 +45,7 @@ bool cause_is_equal(const json_t *a, const json_t *b, bool exact)
     return same;
 }
 
-static bool is_same(const cause_place *place, const json_t *a, const json_t *b)
+static bool are_values_equal(const cause_place *place, const json_t *a, const json_t *b)
 {
     return cause_is_equal(a, b, place->exact);
 }
@@ -114,7 +114,7 @@ static void compare_keyed(const cause_place *place, json_t *a, json_t *b)
     for (size_t i = 0, j = 0; as && bs && (i < a_count || j < b_count);) {
         const int order = i == a_count ? 1 : j == b_count ? -1 : compare_by_key(&as[i], &bs[j]);
         json_t *x = order <= 0 ? as[i].element : NULL, *y = order >= 0 ? bs[j].element : NULL;
-        if (!is_same(place, x, y)) {
+        if (!are_values_equal(place, x, y)) {
             add_fact(place, !x ? CAUSE_MORE : !y ? CAUSE_LESS : CAUSE_OTHER, order <= 0 ? as[i].id : bs[j].id, x, y);
             same = false;
         }
@@ -142,7 +142,7 @@ static bool is_result_member(const char *key)
 
 /* Return the query of an answer: a new object with the kind and the parameters of the query. The caller releases the
  * object. */
-static json_t *query_of(json_t *answer)
+static json_t *make_query_of_answer(json_t *answer)
 {
     const char *kind = cause_kind_of(answer), *key;
     json_t *value, *asked = json_object();
@@ -164,13 +164,13 @@ static json_t *query_without_answer(json_t *query)
 
 /* Return the list of keys by which the elements of a list are paired. For answers, the keys are their queries. For
  * queries, the keys are the queries without the answers of the foreign index. */
-static json_t *list_pairing_keys(cause_rule rule, json_t *list)
+static json_t *make_pairing_keys(cause_rule rule, json_t *list)
 {
     json_t *keys = json_array(), *element;
     size_t i;
     json_array_foreach(list, i, element)
     {
-        json_t *key = rule == CAUSE_ANSWERS   ? query_of(element)
+        json_t *key = rule == CAUSE_ANSWERS   ? make_query_of_answer(element)
                       : rule == CAUSE_QUERIES ? query_without_answer(element)
                                               : json_incref(element);
         json_array_append_new(keys, key);
@@ -186,7 +186,7 @@ static void compare_foreign_answers(cause_place place, json_t *a, json_t *b)
     for (int visit = 0; visit < OCTREE_NODE_VISITS; visit++) {
         const char *name = octree_node_visit_name((octree_node_visit)visit);
         json_t *const lists[2] = {json_object_get(a, name), json_object_get(b, name)};
-        if (is_same(&place, lists[0], lists[1]))
+        if (are_values_equal(&place, lists[0], lists[1]))
             continue;
         other = true;
         counted = counted || json_array_size(lists[0]) != json_array_size(lists[1]);
@@ -200,7 +200,7 @@ static void compare_foreign_answers(cause_place place, json_t *a, json_t *b)
     json_decref(counts[1]);
     place.where = "queries.answer";
     json_t *const answers[2] = {json_object_get(a, "answer"), json_object_get(b, "answer")};
-    if (!is_same(&place, answers[0], answers[1]))
+    if (!are_values_equal(&place, answers[0], answers[1]))
         add_fact(&place, CAUSE_OTHER, CAUSE_NO_ID, answers[0], answers[1]);
 }
 
@@ -209,7 +209,7 @@ static void compare_queries(const cause_place *place, json_t *a, json_t *b)
     json_t *const asked[2] = {query_without_answer(a), query_without_answer(b)};
     if (!asked[0] || !asked[1])
         place->facts->out_of_memory = true;
-    else if (is_same(place, asked[0], asked[1]))
+    else if (are_values_equal(place, asked[0], asked[1]))
         compare_foreign_answers(*place, a, b);
     else
         add_fact(place, CAUSE_OTHER, CAUSE_NO_ID, a, b);
@@ -223,7 +223,7 @@ static void compare_pair(const cause_place *place, cause_rule rule, json_t *a, j
         compare_values(place, a, b);
     else if (rule == CAUSE_QUERIES)
         compare_queries(place, a, b);
-    else if (!is_same(place, a, b))
+    else if (!are_values_equal(place, a, b))
         add_fact(place, CAUSE_OTHER, CAUSE_NO_ID, a, b);
 }
 
@@ -292,7 +292,7 @@ static void compare_paired(cause_place place, cause_rule rule, json_t *a, json_t
 
 static void compare_by_similarity(const cause_place *place, cause_rule rule, json_t *a, json_t *b)
 {
-    json_t *const keys[2] = {list_pairing_keys(rule, a), list_pairing_keys(rule, b)};
+    json_t *const keys[2] = {make_pairing_keys(rule, a), make_pairing_keys(rule, b)};
     size_t *mates = malloc((json_array_size(b) + 1) * sizeof *mates);
     bool *has_partner = calloc(json_array_size(a) + 1, sizeof *has_partner);
     const bool whole = json_array_size(keys[0]) == json_array_size(a) && json_array_size(keys[1]) == json_array_size(b);
@@ -323,7 +323,7 @@ static void compare_lists(const cause_place *place, cause_rule rule, json_t *a, 
  * name of the query already contains the kind. */
 static void compare_values(const cause_place *place, json_t *a, json_t *b)
 {
-    if (is_same(place, a, b))
+    if (are_values_equal(place, a, b))
         return;
     const cause_rule rule = cause_rule_of(place->where);
     if (json_is_array(a ? a : b) && (!a || !b || json_is_array(b))) {

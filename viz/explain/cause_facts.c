@@ -13,7 +13,7 @@ static bool is_about_all_ticks(const cause_group *group)
     return group->listed[0].tick == CAUSE_NO_TICK;
 }
 
-static bool is_group(const cause_group *group, const char *where, const char *query, cause_change change)
+static bool is_group_with(const cause_group *group, const char *where, const char *query, cause_change change)
 {
     return group->change == change && strcmp(group->where, where) == 0 && strcmp(group->query, query) == 0;
 }
@@ -22,7 +22,8 @@ static cause_group *find_group(const cause_facts *facts, const char *where, cons
                                bool about_all)
 {
     for (size_t i = 0; i < facts->count; i++)
-        if (is_group(&facts->groups[i], where, query, change) && is_about_all_ticks(&facts->groups[i]) == about_all)
+        if (is_group_with(&facts->groups[i], where, query, change) &&
+            is_about_all_ticks(&facts->groups[i]) == about_all)
             return &facts->groups[i];
     return NULL;
 }
@@ -38,7 +39,7 @@ static cause_group *add_group(cause_facts *facts, const char *where, const char 
     return group;
 }
 
-void cause_add(cause_facts *facts, const char *where, const char *query, cause_change change, cause_fact fact)
+void cause_add_fact(cause_facts *facts, const char *where, const char *query, cause_change change, cause_fact fact)
 {
     cause_group *group = find_group(facts, where, query, change, fact.tick == CAUSE_NO_TICK);
     if (!group)
@@ -58,7 +59,7 @@ void cause_add(cause_facts *facts, const char *where, const char *query, cause_c
 const cause_group *cause_group_of(const cause_facts *facts, const char *where, cause_change change)
 {
     for (size_t i = 0; i < facts->count; i++)
-        if (is_group(&facts->groups[i], where, "", change))
+        if (is_group_with(&facts->groups[i], where, "", change))
             return &facts->groups[i];
     return NULL;
 }
@@ -82,7 +83,7 @@ void cause_facts_sort(cause_facts *facts)
 }
 
 /* Return a copy of a group that holds only the facts that the frame of a tick can show. */
-static cause_group group_at_tick(const cause_group *group, uint64_t tick)
+static cause_group select_facts_of_tick(const cause_group *group, uint64_t tick)
 {
     cause_group shown = *group;
     if (is_about_all_ticks(group)) {
@@ -100,7 +101,7 @@ static cause_group group_at_tick(const cause_group *group, uint64_t tick)
 bool cause_facts_show(const cause_facts *facts, uint64_t tick)
 {
     for (size_t i = 0; i < facts->count; i++)
-        if (group_at_tick(&facts->groups[i], tick).found > 0)
+        if (select_facts_of_tick(&facts->groups[i], tick).found > 0)
             return true;
     return false;
 }
@@ -110,7 +111,7 @@ cause_facts cause_facts_shown(const cause_facts *facts, uint64_t tick)
     cause_facts shown = {.groups = malloc((facts->count + 1) * sizeof *shown.groups)};
     shown.out_of_memory = !shown.groups;
     for (size_t i = 0; shown.groups && i < facts->count; i++) {
-        shown.groups[shown.count] = group_at_tick(&facts->groups[i], tick);
+        shown.groups[shown.count] = select_facts_of_tick(&facts->groups[i], tick);
         shown.count += shown.groups[shown.count].found > 0;
     }
     return shown;

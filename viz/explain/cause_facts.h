@@ -59,13 +59,13 @@ typedef struct cause_facts {
 } cause_facts;
 
 /* Add a fact. `facts` takes ownership of the fact's references to its values. */
-void cause_add(cause_facts *facts, const char *where, const char *query, cause_change change, cause_fact fact);
+void cause_add_fact(cause_facts *facts, const char *where, const char *query, cause_change change, cause_fact fact);
 
 /* Add a fact that holds for all ticks and is about neither a point nor a query. `facts` takes ownership of the
  * references to `a` and `b`. */
 static inline void cause_add_whole(cause_facts *facts, const char *where, cause_change change, json_t *a, json_t *b)
 {
-    cause_add(facts, where, "", change, (cause_fact){CAUSE_NO_TICK, CAUSE_NO_ID, a, b});
+    cause_add_fact(facts, where, "", change, (cause_fact){CAUSE_NO_TICK, CAUSE_NO_ID, a, b});
 }
 
 void cause_facts_release(cause_facts *facts);

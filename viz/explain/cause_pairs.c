@@ -69,7 +69,7 @@ static int compare_by_text(const void *a, const void *b)
     return order ? order : (x->place > y->place) - (x->place < y->place);
 }
 
-static void join_pair(entry *a, entry *b, size_t *mates)
+static void mark_pair(entry *a, entry *b, size_t *mates)
 {
     mates[b->place] = a->place;
     a->paired = b->paired = true;
@@ -96,7 +96,7 @@ static void pair_equal_entries(entries *a, entries *b, size_t *mates)
     for (size_t i = 0, j = 0; i < a->count && j < b->count;) {
         const int order = strcmp(a->left[i]->text, b->left[j]->text);
         if (order == 0)
-            join_pair(a->left[i], b->left[j], mates);
+            mark_pair(a->left[i], b->left[j], mates);
         i += order <= 0;
         j += order >= 0;
     }
@@ -158,7 +158,7 @@ static bool pair_similar_entries(entries *a, entries *b, size_t *mates)
             entry *x = a->left[find_first_candidate(n / PAIR_CANDIDATES) + n % PAIR_CANDIDATES];
             entry *y = b->left[n / PAIR_CANDIDATES];
             if (!x->paired && !y->paired)
-                join_pair(x, y, mates);
+                mark_pair(x, y, mates);
         }
     const bool made = table;
     free(table);

@@ -32,12 +32,12 @@ void cause_compare_points(cause_facts *facts, const char *where, const cause_poi
         const bool less = j == b->count || (i < a->count && x->id < y->id);
         const bool more = i == a->count || (j < b->count && y->id < x->id);
         if (less || more || !same_position(x->position, y->position, exact))
-            cause_add(facts, where, "",
-                      less   ? CAUSE_LESS
-                      : more ? CAUSE_MORE
-                             : CAUSE_OTHER,
-                      (cause_fact){CAUSE_NO_TICK, less ? x->id : y->id, more ? NULL : make_vector(x->position),
-                                   less ? NULL : make_vector(y->position)});
+            cause_add_fact(facts, where, "",
+                           less   ? CAUSE_LESS
+                           : more ? CAUSE_MORE
+                                  : CAUSE_OTHER,
+                           (cause_fact){CAUSE_NO_TICK, less ? x->id : y->id, more ? NULL : make_vector(x->position),
+                                        less ? NULL : make_vector(y->position)});
         i += !more;
         j += !less;
     }
@@ -135,8 +135,8 @@ static void compare_key_presses(const octree_session *a, const octree_session *b
     for (uint64_t i = 0; i < both && (i < counts[0] || i < counts[1]); i++) {
         const char x = key_at(a, counts[0], i), y = key_at(b, counts[1], i);
         if (x != y)
-            cause_add(facts, "keys", "", CAUSE_OTHER,
-                      (cause_fact){i + 1, CAUSE_NO_ID, json_stringn(&x, 1), json_stringn(&y, 1)});
+            cause_add_fact(facts, "keys", "", CAUSE_OTHER,
+                           (cause_fact){i + 1, CAUSE_NO_ID, json_stringn(&x, 1), json_stringn(&y, 1)});
     }
 }
 

@@ -38,8 +38,8 @@ static void compare_value(cause_facts *facts, uint64_t id, const point_value *a,
     for (int kind = 0; kind < POINT_VALUE_KINDS; kind++) {
         json_t *const x = value_of(a, (point_value_kind)kind), *const y = value_of(b, (point_value_kind)kind);
         if (!cause_is_equal(x, y, true))
-            cause_add(facts, where[kind], "", CAUSE_OTHER,
-                      (cause_fact){CAUSE_NO_TICK, id, json_incref(x), json_incref(y)});
+            cause_add_fact(facts, where[kind], "", CAUSE_OTHER,
+                           (cause_fact){CAUSE_NO_TICK, id, json_incref(x), json_incref(y)});
         json_decref(x);
         json_decref(y);
     }

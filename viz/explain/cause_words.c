@@ -192,7 +192,7 @@ enum { MINOR_SUBJECTS = 2, BRIEF_SUBJECTS = 3, FULL_SUBJECTS = 5 };
 
 /* Return how many facts of a group are printed with their subjects; the other facts are only counted. If only one
  * fact would be left over, print its subject, too: "and 1 more" would not be shorter. */
-static size_t count_named(const cause_group *group, bool brief)
+static size_t count_printed_subjects(const cause_group *group, bool brief)
 {
     const size_t most = brief ? BRIEF_SUBJECTS : FULL_SUBJECTS, count = cause_count_listed(group);
     return count > most + 1 ? most : count;
@@ -200,7 +200,7 @@ static size_t count_named(const cause_group *group, bool brief)
 
 static void print_subjects(FILE *out, const cause_group *group, bool brief)
 {
-    const size_t printed = count_named(group, brief);
+    const size_t printed = count_printed_subjects(group, brief);
     for (size_t i = 0; i < printed; i++) {
         if (i)
             fputs(i + 1 == group->found ? " and " : ", ", out);
@@ -215,7 +215,7 @@ static void print_subjects(FILE *out, const cause_group *group, bool brief)
 static void print_verb(FILE *out, const cause_row *p, const cause_group *group, bool brief)
 {
     const cause_fact *fact = &group->listed[0];
-    if (group->found > (p->minor ? MINOR_SUBJECTS : count_named(group, brief))) {
+    if (group->found > (p->minor ? MINOR_SUBJECTS : count_printed_subjects(group, brief))) {
         fprintf(out, "%" PRIu64 " %ss %s (such as ", group->found, p->noun, p->verbs[group->change]);
         print_subject(out, fact);
         fputc(')', out);
@@ -275,7 +275,7 @@ static bool has_subject(const cause_fact *fact)
 static void print_group(FILE *out, const cause_group *group, bool brief)
 {
     const cause_row p = cause_row_of(group);
-    const size_t listed = count_named(group, brief), printed = brief && listed > 2 ? 1 : listed;
+    const size_t listed = count_printed_subjects(group, brief), printed = brief && listed > 2 ? 1 : listed;
     if (p.verbs[group->change]) {
         if (has_subject(&group->listed[0]))
             print_verb(out, &p, group, brief);
@@ -377,7 +377,7 @@ static bool print_wrong(FILE *out, const cause *c, bool later)
 
 /* Return how many groups of the session's facts begin after the first differing tick. If this is true of all groups,
  * return 0. The groups are sorted by tick. */
-static size_t count_later_ticks(const cause *c)
+static size_t count_later_groups(const cause *c)
 {
     size_t count = 0;
     while (c->differing.count && count < c->session.count) {
@@ -394,7 +394,7 @@ static size_t count_later_ticks(const cause *c)
 void cause_print_headline(FILE *out, const cause *c)
 {
     const bool options = has_view_option(&c->session);
-    const size_t later = count_later_ticks(c), soon = c->session.count - later;
+    const size_t later = count_later_groups(c), soon = c->session.count - later;
     if (print_wrong(out, c, false))
         fputs("; ", out);
     if (c->session.count) {

@@ -54,7 +54,8 @@ static bool draw_mask(masking *w, frame_mask *m, octreel_error *error)
 
 static bool add_mask(masking *w, diff_pair *pair, octreel_error *error)
 {
-    if (!replay_up_to(&w->replay, diff_pair_tick(pair), error) || !playback_compose_scene(&w->replay.playback, error))
+    if (!replay_play_up_to(&w->replay, diff_pair_tick(pair), error) ||
+        !playback_compose_scene(&w->replay.playback, error))
         return false;
     const view *v = &w->replay.playback.scene.view;
     frame_mask m = {calloc((size_t)v->width, (size_t)v->height), v->width, v->height};

@@ -19,13 +19,13 @@ static void read_origins(const diff_pair *pair, pair_look *l)
         l->has_texts[i] = frames[i] && frames[i]->path && frame_read_origin(frames[i]->path, &l->origins[i]);
 }
 
-static bool both_have_texts(const pair_look *l)
+static bool have_both_texts(const pair_look *l)
 {
     return l->has_texts[0] && l->has_texts[1];
 }
 
 /* Return whether the pixels of a frame have the digest that its text chunk states. */
-static bool is_as_drawn(const diff_frame *frame, const frame_origin *origin)
+static bool has_stated_pixels(const diff_frame *frame, const frame_origin *origin)
 {
     octreel_error ignored;
     image about;
@@ -42,7 +42,7 @@ static frame_fault find_origin_fault(const recorded *r, const frame_origin *orig
         return FAULT_SESSION;
     if (origin->tick != tick)
         return FAULT_TICK;
-    const uint64_t scene = recorded_scene(r, tick);
+    const uint64_t scene = recorded_scene_digest(r, tick);
     return scene == 0 || origin->scene == scene ? FAULT_NONE : FAULT_SCENE;
 }
 
@@ -56,10 +56,10 @@ pair_look pair_examine(const explanation *e, const diff_pair *pair)
             l.faults[i] = FAULT_TEXTS;
         if (l.has_texts[i] && e->recordings)
             l.faults[i] = find_origin_fault(&e->sides[i], &l.origins[i], diff_pair_tick(pair));
-        if (l.has_texts[i] && l.faults[i] == FAULT_NONE && !is_as_drawn(frames[i], &l.origins[i]))
+        if (l.has_texts[i] && l.faults[i] == FAULT_NONE && !has_stated_pixels(frames[i], &l.origins[i]))
             l.faults[i] = FAULT_PIXELS;
     }
-    l.same_scene = both_have_texts(&l) && l.origins[0].scene == l.origins[1].scene;
+    l.same_scene = have_both_texts(&l) && l.origins[0].scene == l.origins[1].scene;
     return l;
 }
 
@@ -190,7 +190,7 @@ static void print_origins(FILE *out, const pair_look *l)
 
 /* Return whether the only fault of a faulty frame is that it lacks text chunks. Such a frame may show the right
  * picture, so the difference between the ticks is printed, too. */
-static bool may_be_right(const pair_look *l)
+static bool can_show_right_picture(const pair_look *l)
 {
     return (l->faults[0] == FAULT_NONE || l->faults[0] == FAULT_TEXTS) &&
            (l->faults[1] == FAULT_NONE || l->faults[1] == FAULT_TEXTS);
@@ -202,7 +202,7 @@ static void print_cause(FILE *out, const explanation *e, const diff_pair *pair, 
     const uint64_t tick = diff_pair_tick(pair);
     const cause_tick *details = cause_find_tick(&e->cause, tick); /* null if the frames are not from recordings */
     const bool prints_tick =
-        e->recordings && both && !drawn && (!faulty || (may_be_right(l) && differs_at(e, details, tick)));
+        e->recordings && both && !drawn && (!faulty || (can_show_right_picture(l) && differs_at(e, details, tick)));
     const bool prints_missing = e->recordings && !both;
     print_faults(out, pair, l);
     fputs(faulty && (prints_tick || prints_missing) ? "; " : "", out);
@@ -212,7 +212,7 @@ static void print_cause(FILE *out, const explanation *e, const diff_pair *pair, 
         print_tick(out, e, details, tick);
     else if (prints_missing)
         print_missing(out, &e->sides[pair->a ? 1 : 0], tick);
-    else if (both_have_texts(l) && !faulty)
+    else if (have_both_texts(l) && !faulty)
         print_origins(out, l);
     if (e->recordings && l->same_scene && !faulty && !drawn && !have_same_renderer(e))
         print_renderers(out, e);
@@ -269,7 +269,7 @@ static bool print_key(FILE *out, const explanation *e, const diff_pair *pair, co
         print_missing(out, &e->sides[pair->a ? 1 : 0], diff_pair_tick(pair));
     else if (e->recordings && known && !has_frame_fault(l))
         fprintf(out, "recordings, %s", cause_origins_at(&e->cause.session.origins, diff_pair_tick(pair)));
-    else if (both_have_texts(l) && !has_frame_fault(l))
+    else if (have_both_texts(l) && !has_frame_fault(l))
         print_origins_key(out, l);
     else if (pair->finding == FOUND_PIXELS || pair->finding == FOUND_WITHIN)
         print_tally(out, pair);

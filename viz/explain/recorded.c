@@ -59,7 +59,7 @@ void recorded_close(recorded *r)
 
 /* ---- Lines --------------------------------------------------------------------------------------------------- */
 
-uint64_t recorded_scene(const recorded *r, uint64_t tick)
+uint64_t recorded_scene_digest(const recorded *r, uint64_t tick)
 {
     return tick < r->scene_count ? r->scenes[tick] : 0;
 }
@@ -94,7 +94,7 @@ static tick_extras make_tick_extras(const recorded *r, const octree_tick *tick, 
     if (tick->gap || !frame_is_due(tick->number, r->view.every))
         return (tick_extras){0};
     if (!frame_read_scene_digest(r->side->path, tick->number, &scene))
-        scene = recorded_scene(r, tick->number);
+        scene = recorded_scene_digest(r, tick->number);
     return (tick_extras){.frame = frame_print_name(tick->number, name), .scene_digest = scene};
 }
 

@@ -39,6 +39,6 @@ bool recorded_check_tick(recorded sides[2], const octree_game *const games[2], b
 
 /* Return the digest of a tick's scene as stated in ticks.jsonl. Return 0 if the line states no digest or was not
  * read. */
-uint64_t recorded_scene(const recorded *r, uint64_t tick);
+uint64_t recorded_scene_digest(const recorded *r, uint64_t tick);
 
 #endif

@@ -187,7 +187,7 @@ static bool count_parts(tracing *t, const image_tolerance *tolerance)
 
 /* Draw a scene with element numbers instead of colours. If no renderer can be opened, nothing is traced, and
  * t->untraced keeps the first reason. */
-static bool pick_elements(tracer *t, const scene *s, uint32_t *numbers)
+static bool draw_element_numbers(tracer *t, const scene *s, uint32_t *numbers)
 {
     const renderer_choice choice = {0};
     const int samples = s->view.aa;
@@ -231,7 +231,7 @@ static bool trace_frames(tracer *t, tracing *state, const diff_pair *pair, const
         state->numbers[i] = malloc(size * sizeof *state->numbers[i]);
         if (!state->numbers[i])
             return false;
-        if (!pick_elements(t, &t->scenes[i], state->numbers[i]))
+        if (!draw_element_numbers(t, &t->scenes[i], state->numbers[i]))
             return true;
     }
     const bool ok = pair_tolerance(pair, options, &tolerance) && count_parts(state, &tolerance);

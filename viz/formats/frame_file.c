@@ -80,7 +80,7 @@ static bool parse_tick(const char *path, const char *text, uint64_t *tick, octre
 }
 
 /* Reads the PNG text with a given keyword from a frame. Returns false with an error if the frame has no such text. */
-static bool read_text(const char *path, const char *keyword, char text[NUMBER_SIZE], octreel_error *error)
+static bool read_text_chunk(const char *path, const char *keyword, char text[NUMBER_SIZE], octreel_error *error)
 {
     return image_read_text(path, keyword, text, NUMBER_SIZE) ||
            error_set(error, "%s: has no PNG text %s; another program may have saved the file", path, keyword);
@@ -92,7 +92,7 @@ static bool check_digest(const char *path, const char *keyword, uint64_t expecte
                          octreel_error *error)
 {
     char text[NUMBER_SIZE], digest[DIGEST_TEXT];
-    return read_text(path, keyword, text, error) &&
+    return read_text_chunk(path, keyword, text, error) &&
            (strcmp(text, digest_print(expected, digest)) == 0 || error_set(error, "%s: %s", path, message));
 }
 
@@ -104,7 +104,7 @@ static const char pixels_changed[] =
 static bool read_pixels(const char *path, image_digest_kind *kind, uint64_t *stated, octreel_error *error)
 {
     char text[NUMBER_SIZE];
-    return read_text(path, pixels_keyword, text, error) &&
+    return read_text_chunk(path, pixels_keyword, text, error) &&
            (image_digest_parse(text, kind, stated) || error_set(error, "%s: %s", path, pixels_changed));
 }
 
@@ -124,7 +124,7 @@ static bool check_tick(const char *path, uint64_t expected, octreel_error *error
 {
     char text[NUMBER_SIZE];
     uint64_t tick;
-    return read_text(path, tick_keyword, text, error) && parse_tick(path, text, &tick, error) &&
+    return read_text_chunk(path, tick_keyword, text, error) && parse_tick(path, text, &tick, error) &&
            (tick == expected || error_set(error, "%s: is the frame of tick %" PRIu64, path, tick));
 }
 

@@ -33,7 +33,7 @@ static const json_member fixed_members[] = {
 #define MOST_MEMBERS 32
 
 /* Lists all members of recording.json in the order in which they are written. Each member gets a line of its own. */
-static void list_members(json_member members[MOST_MEMBERS])
+static void list_recording_members(json_member members[MOST_MEMBERS])
 {
     size_t count = 0;
     for (size_t i = 0; i < FIXED_BEFORE; i++)
@@ -53,7 +53,7 @@ void recording_write(FILE *out, const view *v, uint64_t every)
     const recorded written = {*v, every};
     json_writer writer = {.out = out}, *w = &writer;
     json_member members[MOST_MEMBERS];
-    list_members(members);
+    list_recording_members(members);
     json_write_begin_object(w);
     json_write_members(w, members, &written);
     json_start_new_line(w);
@@ -64,7 +64,7 @@ void recording_write(FILE *out, const view *v, uint64_t every)
 static bool read_recording_object(json_reader *r, json_t *object)
 {
     json_member members[MOST_MEMBERS];
-    list_members(members);
+    list_recording_members(members);
     return json_read_members(r, object, NULL, members, r->context);
 }
 

@@ -109,7 +109,7 @@ static void add_changes(deflater *d, size_t end)
     d->unsummed = end;
 }
 
-static uint32_t finish_adler32(deflater *d)
+static uint32_t compute_final_adler32(deflater *d)
 {
     add_row_to_sums(d);
     /* The first sum of Adler-32 begins with 1. This 1 is added to the second sum once for each byte. */
@@ -319,7 +319,7 @@ void deflater_finish(deflater *d)
 {
     encode_window(d);
     end_block(d, true);
-    const uint32_t sum = finish_adler32(d);
+    const uint32_t sum = compute_final_adler32(d);
     const uint8_t bytes[] = {(uint8_t)(sum >> 24), (uint8_t)(sum >> 16), (uint8_t)(sum >> 8), (uint8_t)sum};
     deflate_write_bytes(&d->blocks, bytes, sizeof bytes);
     deflate_flush_output(&d->blocks);

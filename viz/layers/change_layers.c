@@ -68,17 +68,17 @@ static void describe_change(description *d, const described_element *element)
     describe_node(d, ", ", element->id >> 2);
 }
 
-static bool changes_apply(const layer_source *in)
+static bool is_change_layer_applicable(const layer_source *in)
 {
     return in->game && shows_octreel_nodes(in);
 }
 
-const layer_type layer_MERGES = {.applies = changes_apply,
+const layer_type layer_MERGES = {.applies = is_change_layer_applicable,
                                  .add = add_changes,
                                  .legend = {.order = 110, .add_lines = add_change_legend},
                                  .describe = describe_change};
 
-const layer_type layer_SPLITS = {.applies = changes_apply,
+const layer_type layer_SPLITS = {.applies = is_change_layer_applicable,
                                  .add = add_changes,
                                  .legend = {.order = 100, .add_lines = add_change_legend},
                                  .describe = describe_change};

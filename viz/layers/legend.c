@@ -86,7 +86,7 @@ static void remove_line(legend *l, size_t place)
 
 /* Remove lines until the other lines fit into `room` lines, together with a final line that counts the removed lines.
  * Return the number of removed lines, which is 0 if all lines fit. */
-static size_t fit_lines(legend *l, size_t room)
+static size_t remove_lines_until_fit(legend *l, size_t room)
 {
     const size_t needed = l->count, left = room ? room - 1 : 0;
     if (needed <= room)
@@ -220,11 +220,11 @@ void write_legend(pen *p, const layer_source *in)
         for (int i = 0; i < LAYER_ALL; i++)
             if (layer_types[i]->legend.order == order)
                 add_layer_line(&l, in, (view_layer)i);
-    const size_t left_out = p->rows ? 0 : fit_lines(&l, room > 0 ? (size_t)room : 0);
+    const size_t left_out = p->rows ? 0 : remove_lines_until_fit(&l, room > 0 ? (size_t)room : 0);
     if (l.count == 0)
         return;
     p->y = foot - (int)(l.count + (left_out > 0)) * line - line / 2;
-    write_rule(p);
+    write_separator_line(p);
     for (size_t i = 0; i < l.count; i++) {
         write_legend_line(p, &l.lines[i]);
         p->y += line;

@@ -38,7 +38,7 @@ static void add_number(scale_numbers *m, double part, double value)
 
 /* Place numbers at every second power of two below a logarithmic bar: low, 4 low, 16 low ... The last number gets a
  * "+", because larger numbers have the same colour. */
-static scale_numbers number_powers(const legend_scale *scale)
+static scale_numbers make_numbers_at_powers_of_two(const legend_scale *scale)
 {
     scale_numbers m = {.count = 0};
     int powers = 0;
@@ -51,7 +51,7 @@ static scale_numbers number_powers(const legend_scale *scale)
     return m;
 }
 
-static scale_numbers number_round_steps(const legend_scale *scale, int count)
+static scale_numbers make_numbers_at_round_steps(const legend_scale *scale, int count)
 {
     scale_numbers m = {.count = 0};
     const double extent = scale->high - scale->low, step = number_round_up_to_1_2_5(extent / count);
@@ -63,7 +63,7 @@ static scale_numbers number_round_steps(const legend_scale *scale, int count)
 
 /* Return the x of a number's left end, in pixels. The number is centred below its tick mark, but stays within the bar.
  */
-static int number_left(const pen *p, const scale_number *m, int width)
+static int left_end_of_number(const pen *p, const scale_number *m, int width)
 {
     const int size = (int)strlen(m->text) * p->text.width, left = (int)(m->part * width) - size / 2;
     return left < 0 ? 0 : left + size > width ? width - size : left;
@@ -73,8 +73,8 @@ static int number_left(const pen *p, const scale_number *m, int width)
 static bool numbers_fit(const pen *p, const scale_numbers *m, int width)
 {
     for (int i = 0; i < m->count; i++) {
-        const int left = number_left(p, &m->items[i], width), letter = p->text.width;
-        if (left < 0 || (i > 0 && left < number_left(p, &m->items[i - 1], width) +
+        const int left = left_end_of_number(p, &m->items[i], width), letter = p->text.width;
+        if (left < 0 || (i > 0 && left < left_end_of_number(p, &m->items[i - 1], width) +
                                              ((int)strlen(m->items[i - 1].text) + 1) * letter))
             return false;
     }
@@ -85,13 +85,13 @@ static scale_numbers choose_numbers(const pen *p, const legend_scale *scale, int
 {
     scale_numbers m = {.count = 0};
     if (scale->doubling)
-        return number_powers(scale);
+        return make_numbers_at_powers_of_two(scale);
     if (!(scale->low < scale->high) || !isfinite(scale->high - scale->low)) {
         add_number(&m, 0.5, scale->low / 2 + scale->high / 2);
         return m;
     }
     for (int count = MOST_NUMBERS; count > 0; count--) {
-        m = number_round_steps(scale, count);
+        m = make_numbers_at_round_steps(scale, count);
         if (m.count > 0 && numbers_fit(p, &m, width))
             return m;
     }
@@ -118,7 +118,7 @@ void write_scale(pen *p, const legend_scale *scale)
         x = x > width - dot ? width - dot : x;
         fill_rectangle(p, x, text->height / 4 + high, dot, text->height / 4, ROLE_FAINT);
         p->y += text->line;
-        write_text_at(p, number_left(p, &m.items[i], width), ROLE_FAINT, m.items[i].text);
+        write_text_at(p, left_end_of_number(p, &m.items[i], width), ROLE_FAINT, m.items[i].text);
         p->y -= text->line;
     }
 }

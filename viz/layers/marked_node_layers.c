@@ -12,7 +12,7 @@
 
 /* ---- The requested node -------------------------------------------------------------------------------------- */
 
-static bool is_requested(const layer_source *in)
+static bool is_node_requested(const layer_source *in)
 {
     return in->requested != 0;
 }
@@ -43,7 +43,7 @@ static void describe_requested_node(description *d, const described_element *ele
     describe_node(d, "", element->id);
 }
 
-const layer_type layer_ASKED = {.applies = is_requested,
+const layer_type layer_ASKED = {.applies = is_node_requested,
                                 .add = add_requested_node,
                                 .legend = {.order = 60, .add_lines = add_requested_legend},
                                 .describe = describe_requested_node};

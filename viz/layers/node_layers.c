@@ -172,7 +172,7 @@ static void drop_deepest_level(tree_walk *w)
     }
     s->boxes.count = kept;
     if (w->kept)
-        kept_tree_forget_runs(w->kept);
+        kept_tree_remove_runs(w->kept);
     s->tally.nodes -= w->at_depth[w->deepest];
     s->tally.beyond += w->at_depth[w->deepest];
     w->at_depth[w->deepest--] = 0;

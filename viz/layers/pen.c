@@ -86,7 +86,7 @@ void end_sign(pen *p, const char *text)
 /* ---- Lines --------------------------------------------------------------------------------------------------- */
 
 /* Cut a text to `room` characters. A text that is cut ends in two dots. */
-static void cut_text(char *text, size_t room)
+static void shorten_text(char *text, size_t room)
 {
     if (strlen(text) <= room)
         return;
@@ -102,7 +102,7 @@ static void add_text(pen *p, int x, theme_role role, unsigned size, size_t room,
         scene_make_label(p->next_id++, make_role_style(LAYER_TEXT, role, STROKE_SOLID, size), "%s", text);
     label.at[0] = p->left + x;
     label.at[1] = p->y;
-    cut_text(label.text, room);
+    shorten_text(label.text, room);
     scene_add_label(p->scene, label);
 }
 
@@ -156,7 +156,7 @@ void write_caption(pen *p, const char *text)
         return;
     }
     snprintf(line, sizeof line, "%s", text);
-    cut_text(line, (size_t)p->letters);
+    shorten_text(line, (size_t)p->letters);
     for (size_t at = 0; at < strlen(line); at += SCENE_TEXT - 1)
         add_text(p, (int)at * p->text.width, ROLE_TEXT, 1, SCENE_TEXT - 1, line + at);
 }
@@ -179,12 +179,12 @@ void write_row(pen *p, const char *name, const char *detail, const char *format,
         return;
     }
     snprintf(between, sizeof between, "%s", detail);
-    cut_text(between, (size_t)detail_room(p, strlen(value)));
+    shorten_text(between, (size_t)detail_room(p, strlen(value)));
     const int taken = *between ? DETAIL + (int)strlen(between) : (int)strlen(name);
     /* A value that is cut to one or two characters would be useless. Such a value is therefore not cut, and covers the
      * row's name. */
     if (p->letters - taken - 1 > 2)
-        cut_text(value, (size_t)(p->letters - taken - 1));
+        shorten_text(value, (size_t)(p->letters - taken - 1));
     write_text(p, 0, p->name, "%s", name);
     if (*between)
         write_text(p, DETAIL, ROLE_FAINT, "%s", between);
@@ -197,7 +197,7 @@ void write_gap(pen *p)
     p->y += p->text.line / 2;
 }
 
-void write_rule(pen *p)
+void write_separator_line(pen *p)
 {
     const lettering *text = &p->text;
     if (p->rows) {

@@ -65,9 +65,10 @@ static inline int detail_room(const pen *p, size_t value_length)
  * long value may take room from the detail, which is then cut. */
 void write_row(pen *p, const char *name, const char *detail, const char *format, ...);
 
-/* Move down by half a line. If there is a column, write_rule() also draws a thin line in the middle of the gap. */
+/* Move down by half a line. If there is a column, write_separator_line() also draws a thin line in the middle of the
+ * gap. */
 void write_gap(pen *p);
-void write_rule(pen *p);
+void write_separator_line(pen *p);
 
 /* Write a row with the ids of the first points and the number of points, such as "#17 #5 +1" and "3 found". At most
  * PEN_MOST_IDS ids are written, and only as many as fit; "+1" counts the other points. */

@@ -149,7 +149,7 @@ static const size_t *find_arrow_counts(const arrow_context *a, arrow_counts *own
 /* Choose how many velocity arrows are drawn. Return the coarsest sieve, at least as fine as `sieve`, that keeps at most
  * one arrow per BOXES_PER_ARROW boxes of the view's budget; this limit is at least one arrow. Store the number of
  * dropped arrows in the tally. */
-static uint64_t choose_sieve(scene *s, const arrow_context *a, uint64_t sieve)
+static uint64_t choose_sieve_of_arrows(scene *s, const arrow_context *a, uint64_t sieve)
 {
     arrow_counts own = {.known = false};
     const size_t *passing = find_arrow_counts(a, &own);
@@ -173,7 +173,7 @@ static void add_velocities(scene *s, const layer_source *in, view_layer layer)
     /* The sieve that dropped points from this scene. A dropped point gets no arrow, so the arrows use the same or a
      * finer sieve. */
     const uint64_t points = s->tally.one_in - 1;
-    const uint64_t sieve = choose_sieve(s, &a, points);
+    const uint64_t sieve = choose_sieve_of_arrows(s, &a, points);
     for (size_t i = 0; i < tick->mover_count; i++) {
         const octree_body *body = &tick->movers[i];
         scene_segment arrow = {.id = body->id, .style = make_layer_style(LAYER_VELOCITIES, STROKE_ARROW, 1)};

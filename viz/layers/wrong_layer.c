@@ -143,7 +143,7 @@ static void add_wrong_legend(legend *l, const layer_source *in)
         legend_add(l, SIGN_DASHES, "wrong node");
 }
 
-static bool has_point(const octree_point *points, size_t count, uint64_t id)
+static bool contains_point_with_id(const octree_point *points, size_t count, uint64_t id)
 {
     for (size_t i = 0; i < count; i++)
         if (points[i].id == id)
@@ -153,13 +153,13 @@ static bool has_point(const octree_point *points, size_t count, uint64_t id)
 
 /* Return the index of the first answer in which the point with this id is missing (`missing` true) or extra (`missing`
  * false). Return answer_count if there is no such answer. */
-static size_t find_answer(const octree_tick *tick, uint64_t id, bool missing)
+static size_t find_answer_with_wrong_point(const octree_tick *tick, uint64_t id, bool missing)
 {
     size_t i = 0;
     for (; i < tick->answer_count; i++) {
         const octree_judgement *judgement = &tick->answers[i].judgement;
-        if (missing ? has_point(judgement->missing, judgement->missing_count, id)
-                    : has_point(judgement->extra, judgement->extra_count, id))
+        if (missing ? contains_point_with_id(judgement->missing, judgement->missing_count, id)
+                    : contains_point_with_id(judgement->extra, judgement->extra_count, id))
             break;
     }
     return i;
@@ -192,7 +192,7 @@ static void describe_mark(description *d, const described_element *element)
         const bool missing = element->shape == SHAPE_TRIANGLE;
         describe_point(d, "", element->id, element->at);
         append_text(d, missing ? ", missing from " : ", extra in ");
-        append_wrong_answer(d, find_answer(d->tick, element->id, missing));
+        append_wrong_answer(d, find_answer_with_wrong_point(d->tick, element->id, missing));
     } else if (element->kind == SCENE_SEGMENT) {
         append_text(d, "the line to an extra point of ");
         append_wrong_answer(d, element->id >> 32);

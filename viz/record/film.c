@@ -20,8 +20,8 @@
 
 /* ---- A session ---------------------------------------------------------------------------------------------- */
 
-static bool find_share(const octree_session *session, const film_options *options, film_share *share,
-                       octreel_error *error)
+static bool choose_ticks_of_chunk(const octree_session *session, const film_options *options, film_share *share,
+                                  octreel_error *error)
 {
     const uint64_t total = octree_session_length(session) + 1;
     const bool open = options->last == 0 || options->last > total;
@@ -42,7 +42,7 @@ unsigned film_default_jobs(const octree_session *session, const film_options *op
 {
     film_share share;
     octreel_error ignored;
-    if (!find_share(session, options, &share, &ignored))
+    if (!choose_ticks_of_chunk(session, options, &share, &ignored))
         return 1;
     const uint64_t worth = count_frames(&share, options->every) / FRAMES_WORTH_A_JOB, cores = count_cores();
     const uint64_t jobs = cores < worth ? cores : worth;
@@ -107,7 +107,8 @@ bool film_session(const octree_session *session, const film_options *options, fi
     playback p;
     recording r = {.options = options, .summary = summary, .session = session};
     *summary = (film_summary){0};
-    if (!session_check_length(session, options->max_ticks, error) || !find_share(session, options, &r.share, error))
+    if (!session_check_length(session, options->max_ticks, error) ||
+        !choose_ticks_of_chunk(session, options, &r.share, error))
         return false;
     summary->total = r.share.last - r.share.first;
     const uint64_t frames = count_frames(&r.share, options->every);

@@ -34,7 +34,7 @@ static bool compare_file(const char *path, const char *bytes, size_t size, bool 
 /* Rename a finished file from `own` to `path`, unless another process has created `path` first. link() is used because
  * rename() would replace the other process's file. On a file system without links, the last process to rename wins; the
  * file that it leaves is complete. */
-static bool publish_file(const char *own, const char *path, octreel_error *error)
+static bool rename_unless_exists(const char *own, const char *path, octreel_error *error)
 {
     if (link(own, path) == 0 || errno == EEXIST) {
         remove(own);
@@ -48,14 +48,14 @@ static bool publish_file(const char *own, const char *path, octreel_error *error
 }
 
 /* Write a file under a temporary name that only this process uses, then publish it. */
-static bool write_once(const folder_place *place, const char *name, const char *path, const char *bytes, size_t size,
-                       octreel_error *error)
+static bool write_unless_exists(const folder_place *place, const char *name, const char *path, const char *bytes,
+                                size_t size, octreel_error *error)
 {
     char own_name[NAME_MAX + 1];
     snprintf(own_name, sizeof own_name, "%s.%s", name, place->writer);
     char *own = path_join(place->folder, own_name);
     bool ok = own ? folder_write_file(place->folder, own_name, bytes, size, error) : error_no_memory(error);
-    ok = ok && publish_file(own, path, error);
+    ok = ok && rename_unless_exists(own, path, error);
     free(own);
     return ok;
 }
@@ -70,7 +70,7 @@ static bool write_shared(const folder_place *place, const char *name, const char
     if (!path)
         return error_no_memory(error);
     const bool there = access(path, F_OK) == 0;
-    bool ok = there || place->dry_run || write_once(place, name, path, bytes, size, error);
+    bool ok = there || place->dry_run || write_unless_exists(place, name, path, bytes, size, error);
     ok = ok && ((!there && place->dry_run) || compare_file(path, bytes, size, &same, error)) &&
          (same || !unlike || error_set(error, "%s: %s", path, unlike));
     free(path);
@@ -205,7 +205,7 @@ static bool is_empty(const char *folder, const char *name)
 
 /* True if this file proves that a recording reached its first tick. A recording that was killed earlier leaves at most
  * recording.json, session.json and an empty ticks.jsonl. */
-static bool is_past_start(const char *folder, const char *name)
+static bool is_written_after_start(const char *folder, const char *name)
 {
     return folder_is_recording_file(name) && !folder_is_unfinished_file(name) && strcmp(name, "recording.json") != 0 &&
            strcmp(name, "session.json") != 0 && !(strcmp(name, "ticks.jsonl") == 0 && is_empty(folder, name));
@@ -253,12 +253,12 @@ static bool check_session(const char *folder, const char *frame, uint64_t sessio
 
 bool check_resumable(const char *folder, uint64_t session_digest, uint64_t ticks, uint64_t every, octreel_error *error)
 {
-    /* The first file name that is_past_start() accepts, and the first name of a frame. */
+    /* The first file name that is_written_after_start() accepts, and the first name of a frame. */
     const char *past = NULL, *frame = "";
     char **names = folder_names(folder, error);
     bool ok = names;
     for (size_t i = 0; ok && names[i]; i++) {
-        if (!is_past_start(folder, names[i]))
+        if (!is_written_after_start(folder, names[i]))
             continue;
         past = past ? past : names[i];
         if (strncmp(names[i], "frame_", 6) != 0)

@@ -26,7 +26,7 @@ static uint64_t count_different(const image *drawn, const uint8_t *by_gl)
 }
 
 /* Write p->frame to a PNG file. The path of the file is `prefix`, a dot, `rasterizer` and ".png". */
-static bool keep_picture(const picture *p, const char *prefix, const char *rasterizer, octreel_error *error)
+static bool save_picture(const picture *p, const char *prefix, const char *rasterizer, octreel_error *error)
 {
     const size_t size = strlen(prefix) + sizeof ".integers.png";
     char *path = malloc(size);
@@ -38,14 +38,14 @@ static bool keep_picture(const picture *p, const char *prefix, const char *raste
     return kept;
 }
 
-static bool keep_both_pictures(picture *p, const scene *s, const uint8_t *by_gl, const char *prefix,
+static bool save_both_pictures(picture *p, const scene *s, const uint8_t *by_gl, const char *prefix,
                                octreel_error *error)
 {
     image *drawn = picture_samples(p);
-    if (!keep_picture(p, prefix, "integers", error))
+    if (!save_picture(p, prefix, "integers", error))
         return false;
     memcpy(drawn->pixels, by_gl, count_samples(drawn));
-    return picture_finish(p, s, error) && keep_picture(p, prefix, "gl", error);
+    return picture_finish(p, s, error) && save_picture(p, prefix, "gl", error);
 }
 
 static bool compare_with_gl(frame_checks *checks, picture *p, const scene *s, const uint8_t *by_gl, const char *name,
@@ -58,7 +58,7 @@ static bool compare_with_gl(frame_checks *checks, picture *p, const scene *s, co
     checks->count += different == 0;
     if (different == 0)
         return true;
-    if (!keep_both_pictures(p, s, by_gl, prefix, &unkept))
+    if (!save_both_pictures(p, s, by_gl, prefix, &unkept))
         return error_set(error,
                          "%s: %" PRIu64 " sample%s between the integer rasterizer and %s; the two pictures "
                          "cannot be kept: %s",

@@ -106,7 +106,7 @@ static void wait_for_session(job *self)
     self->has_session = true;
 }
 
-static void learn_session(uint64_t *digest, void *context)
+static void receive_session_digest(uint64_t *digest, void *context)
 {
     job *self = context;
     wait_for_session(self);
@@ -163,9 +163,9 @@ static _Noreturn void run_job(job *self, const recording *r, playback *p, const 
     setenv("LP_NUM_THREADS", "0", 0);
     draw_context_set_report(NULL); /* the starter reports the GL context, so the job must not */
     begin_watch(self);
-    /* learn_session() waits for the digest of session.json. The playback calls this function only after its first frame
-     * is drawn. */
-    p->learn_session = learn_session;
+    /* receive_session_digest() waits for the digest of session.json. The playback calls this function only after its
+     * first frame is drawn. */
+    p->learn_session = receive_session_digest;
     p->learn_context = self;
     const bool ok = recording_open_picture(r, p, &error) && playback_run(p, share, write_step, self, &watch, &error);
     if (ok && share->index == 0)
@@ -265,7 +265,7 @@ static bool wait_for_end(job *j, int *status)
 
 /* Find out why a job ended before its last tick. Returns true if the job was stopped, false with an error if it
  * failed. */
-static bool explain_end(job_pool *pool, unsigned i, octreel_error *error)
+static bool find_reason_of_end(job_pool *pool, unsigned i, octreel_error *error)
 {
     int status = 0;
     const bool known = wait_for_end(&pool->jobs[i], &status);
@@ -288,7 +288,7 @@ static bool receive_message(job_pool *pool, unsigned i, message *m, octreel_erro
     m->step.line = pool->bytes;
     switch (m->kind) {
     case MESSAGE_NONE:
-        return explain_end(pool, i, error);
+        return find_reason_of_end(pool, i, error);
     case MESSAGE_FAILED:
         memcpy(error, pool->bytes, sizeof *error);
         return false;

@@ -240,7 +240,7 @@ live_recording *live_open(const octree_session *start, const film_options *optio
     return NULL;
 }
 
-static bool note_gap(live_recording *live, uint64_t tick, octreel_error *error)
+static bool add_gap(live_recording *live, uint64_t tick, octreel_error *error)
 {
     if (!array_grow(&live->gaps, live->gap_count + 1, &live->gap_room, sizeof *live->gaps))
         return error_no_memory(error);
@@ -252,7 +252,7 @@ static bool film_tick(live_recording *live, octreel_error *error)
 {
     film_step step;
     return playback_film_tick(&live->playback, &step, error) && recording_add_tick(&live->recording, &step, error) &&
-           (!step.gap || !frame_is_due(step.tick, live->options.every) || note_gap(live, step.tick, error));
+           (!step.gap || !frame_is_due(step.tick, live->options.every) || add_gap(live, step.tick, error));
 }
 
 static void abandon_recording(live_recording *live)

@@ -180,7 +180,7 @@ static bool write_repetition(page_writer *w, const tick_rest *rest)
 }
 
 /* Keep what later ticks may repeat. `rest` is null if no tick can repeat this one. */
-static bool keep_rest(page_writer *w, const tick_rest *rest)
+static bool store_rest(page_writer *w, const tick_rest *rest)
 {
     free(w->rest);
     w->rest_size = rest ? rest->size : 0;
@@ -195,7 +195,7 @@ static bool write_tick(page_writer *w, const char *path, const char *line, size_
 {
     write_repeated(w);
     return write_json_text(line, size, w->out, path, w->ticks + 1, error) &&
-           (keep_rest(w, rest) || error_no_memory(error));
+           (store_rest(w, rest) || error_no_memory(error));
 }
 
 /* ---- A page ------------------------------------------------------------------------------------------------- */

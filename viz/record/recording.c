@@ -142,6 +142,6 @@ bool recording_end(recording *r, bool ok, octreel_error *error)
     if (replacement_undo(&r->replaced) || !ok || is_chunk(r))
         return ok;
     if (whole && r->options->resume)
-        replacement_sweep(folder);
+        replacement_remove_leftovers(folder);
     return page_write(folder, error) && (!whole || !r->options->resume || folder_remove_leftovers(folder, error));
 }

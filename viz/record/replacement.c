@@ -196,7 +196,7 @@ static void release_replacement(replacement *r)
 
 /* Returns true if the folder FOLDER_ASIDE that was opened still exists under its name. The process that held the lock
  * before may have removed the folder. */
-static bool old_recording_exists(const replacement *r)
+static bool is_aside_folder_unchanged(const replacement *r)
 {
     struct stat open, named;
     return fstat(r->lock, &open) == 0 && stat(r->aside, &named) == 0 && is_same_file(&open, &named);
@@ -209,7 +209,8 @@ static bool create_aside_folder(replacement *r, octreel_error *error)
     r->lock = open(r->aside, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
     if (r->lock < 0 && errno != ENOENT)
         return error_set(error, "%s: cannot open the folder: %s", r->aside, strerror(errno));
-    if (r->lock >= 0 && (flock(r->lock, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) && old_recording_exists(r))
+    if (r->lock >= 0 && (flock(r->lock, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) &&
+        is_aside_folder_unchanged(r))
         return true;
     if (r->lock >= 0)
         close(r->lock);
@@ -255,7 +256,7 @@ bool replacement_undo(replacement *r)
     return set;
 }
 
-void replacement_sweep(const char *folder)
+void replacement_remove_leftovers(const char *folder)
 {
     char *aside = path_join(folder, FOLDER_ASIDE);
     if (aside && folder_contains(folder, FOLDER_ASIDE) && remove_recording(aside))

@@ -31,6 +31,6 @@ bool replacement_undo(replacement *r);
 
 /* Remove old files that a killed process left in the folder FOLDER_ASIDE. Call this function once the new recording is
  * complete. */
-void replacement_sweep(const char *folder);
+void replacement_remove_leftovers(const char *folder);
 
 #endif

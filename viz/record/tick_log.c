@@ -40,7 +40,7 @@ bool tick_log_open(tick_log *log, const char *folder, const char *name, bool kee
     return false;
 }
 
-static bool cut_and_close(tick_log *log, octreel_error *error)
+static bool truncate_and_close(tick_log *log, octreel_error *error)
 {
     const int reason = errno;
     fclose(log->stream);
@@ -51,7 +51,7 @@ static bool cut_and_close(tick_log *log, octreel_error *error)
 }
 
 /* Returns true if the line equals the next line of the earlier log. That earlier line can then stay in the file. */
-static bool is_kept(const tick_log *log, const char *line, size_t size)
+static bool equals_next_old_line(const tick_log *log, const char *line, size_t size)
 {
     if (log->kept - log->whole < (off_t)size)
         return false;
@@ -70,14 +70,14 @@ static bool remove_old_lines(tick_log *log)
 
 bool tick_log_add(tick_log *log, const char *line, size_t size, octreel_error *error)
 {
-    if (log->kept > 0 && is_kept(log, line, size)) {
+    if (log->kept > 0 && equals_next_old_line(log, line, size)) {
         log->whole += (off_t)size;
         return true;
     }
     if (log->kept > 0 && !remove_old_lines(log))
-        return cut_and_close(log, error);
+        return truncate_and_close(log, error);
     if (fwrite(line, 1, size, log->stream) != size || fflush(log->stream) != 0)
-        return cut_and_close(log, error);
+        return truncate_and_close(log, error);
     log->whole += (off_t)size;
     return true;
 }

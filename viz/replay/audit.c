@@ -75,7 +75,7 @@ static bool is_worse(const audit_case *c, const audit_case *than)
 }
 
 /* Keep a wrong answer if it is among the AUDIT_WORST worst ones. Returns false if memory runs out. */
-static bool keep_worst(audit_kind *kind, audit_case c, const octree_answer *answer)
+static bool insert_into_worst_answers(audit_kind *kind, audit_case c, const octree_answer *answer)
 {
     size_t at = kind->worst_count;
     while (at > 0 && is_worse(&c, &kind->worst[at - 1]))
@@ -107,7 +107,7 @@ static audit_tick *find_or_add_tick(audit_kind *kind, uint64_t tick)
     return &kind->ticks[kind->tick_count++];
 }
 
-static bool keep_ratio(audit_kind *kind, double ratio)
+static bool append_ratio(audit_kind *kind, double ratio)
 {
     if (!array_grow(&kind->ratios, kind->ratio_count + 1, &kind->ratio_room, sizeof *kind->ratios))
         return false;
@@ -116,7 +116,7 @@ static bool keep_ratio(audit_kind *kind, double ratio)
 }
 
 /* Count one answer in the entry of its tick. Returns false if memory runs out. */
-static bool count_in_tick(audit_kind *kind, uint64_t tick, const octree_judgement *made)
+static bool add_answer_to_tick(audit_kind *kind, uint64_t tick, const octree_judgement *made)
 {
     audit_tick *row = find_or_add_tick(kind, tick);
     if (!row)
@@ -137,16 +137,16 @@ static bool is_wrong_only_on_boundary(const octree_judgement *made)
 }
 
 /* Count one wrong answer. Returns false if memory runs out. */
-static bool count_wrong(audit_kind *kind, audit_case c, const octree_answer *answer)
+static bool add_wrong_answer(audit_kind *kind, audit_case c, const octree_answer *answer)
 {
     if (kind->wrong++ == 0)
         kind->first_wrong = c.tick;
     kind->on_boundary += is_wrong_only_on_boundary(&c.made);
     kind->beyond += !c.allowed;
-    return keep_worst(kind, c, answer);
+    return insert_into_worst_answers(kind, c, answer);
 }
 
-static bool count_answer(audit_report *report, uint64_t tick, size_t place, const octree_answer *answer)
+static bool add_answer(audit_report *report, uint64_t tick, size_t place, const octree_answer *answer)
 {
     audit_kind *kind = &report->kinds[answer->kind];
     const octree_judgement *made = &answer->judgement;
@@ -156,16 +156,16 @@ static bool count_answer(audit_report *report, uint64_t tick, size_t place, cons
     kind->missing += made->missing_count;
     kind->extra += made->extra_count;
     kind->wrong_by_kind[made->wrong]++;
-    if (!count_in_tick(kind, tick, made) ||
-        (octree_query_about(answer->kind)->neighbors && !keep_ratio(kind, made->ratio)))
+    if (!add_answer_to_tick(kind, tick, made) ||
+        (octree_query_about(answer->kind)->neighbors && !append_ratio(kind, made->ratio)))
         return false;
     if (!made->wrong)
         return true;
     report->wrong++;
-    return count_wrong(kind, (audit_case){tick, place, is_allowed(made, &report->limits), .made = *made}, answer);
+    return add_wrong_answer(kind, (audit_case){tick, place, is_allowed(made, &report->limits), .made = *made}, answer);
 }
 
-static void keep_first_wrong_nodes(audit_nodes *nodes, const octree_tick *tick)
+static void copy_first_wrong_nodes(audit_nodes *nodes, const octree_tick *tick)
 {
     for (size_t i = 0; i < tick->foreign.listed_count; i++) {
         const octree_wrong_node *wrong = &tick->foreign.listed[i];
@@ -177,7 +177,7 @@ static void keep_first_wrong_nodes(audit_nodes *nodes, const octree_tick *tick)
     }
 }
 
-static void count_nodes(audit_nodes *nodes, const octree_tick *tick)
+static void add_wrong_nodes(audit_nodes *nodes, const octree_tick *tick)
 {
     nodes->given |= tick->foreign.given;
     if (tick->foreign.wrong_count == 0)
@@ -187,18 +187,18 @@ static void count_nodes(audit_nodes *nodes, const octree_tick *tick)
     nodes->wrong += tick->foreign.wrong_count;
     for (int i = 0; i < OCTREE_WRONG_NODE_KINDS; i++)
         nodes->wrong_by_kind[i] += tick->foreign.wrong[i];
-    keep_first_wrong_nodes(nodes, tick);
+    copy_first_wrong_nodes(nodes, tick);
 }
 
 /* Count all answers of a tick. A gap has no answers. Returns false if memory runs out. */
-static bool count_tick(audit_report *report, const octree_tick *tick)
+static bool add_tick(audit_report *report, const octree_tick *tick)
 {
     report->ticks++;
     for (size_t i = 0; !tick->gap && i < tick->answer_count; i++)
-        if (tick->answers[i].judgement.judged && !count_answer(report, tick->number, i, &tick->answers[i]))
+        if (tick->answers[i].judgement.judged && !add_answer(report, tick->number, i, &tick->answers[i]))
             return false;
     if (!tick->gap)
-        count_nodes(&report->nodes, tick);
+        add_wrong_nodes(&report->nodes, tick);
     return true;
 }
 
@@ -208,7 +208,7 @@ static bool play_and_count(octree_game *game, const watcher *watch, audit_report
 {
     const uint64_t total = octree_session_length(octree_game_session(game)) + 1;
     for (;;) {
-        if (!count_tick(report, octree_game_tick(game)))
+        if (!add_tick(report, octree_game_tick(game)))
             return error_no_memory(error);
         watcher_report(watch, report->ticks, total);
         if (octree_game_over(game))

@@ -59,7 +59,7 @@ static bool compose_scene_again(pick *p, replay *r, octreel_error *error)
     if (p->tick >= r->ticks)
         return error_set(error, "%s: shows tick %" PRIu64 ", but the session in its folder ends with tick %" PRIu64,
                          p->path, p->tick, r->ticks - 1);
-    if (!replay_up_to(r, p->tick, error) || !playback_compose_scene(&r->playback, error))
+    if (!replay_play_up_to(r, p->tick, error) || !playback_compose_scene(&r->playback, error))
         return false;
     frame_origin origin = {.tick = p->tick, .session = r->session_digest, .scene = scene_digest(&r->playback.scene)};
     return frame_check_file(p->path, &origin, error);
@@ -151,7 +151,7 @@ static bool explain_node(const pick *p, pick_element *e, const playback *from, o
     return (text_stream_end(&s, &e->explained) && found) || error_no_memory(error);
 }
 
-static bool name_elements(pick *p, renderer *r, const playback *from, octreel_error *error)
+static bool list_elements_at_pixel(pick *p, renderer *r, const playback *from, octreel_error *error)
 {
     const scene *s = &from->scene;
     draw_covers touches = {0};
@@ -179,11 +179,11 @@ bool pick_scene(pick *p, const playback *from, renderer *r, octreel_error *error
 {
     const int samples = from->view.aa;
     p->samples = samples * samples;
-    if (!name_elements(p, r, from, error))
+    if (!list_elements_at_pixel(p, r, from, error))
         return false;
     if (p->count || p->radius == 0)
         return true;
-    return move_to_nearest(p, r, &from->scene, error) && name_elements(p, r, from, error);
+    return move_to_nearest(p, r, &from->scene, error) && list_elements_at_pixel(p, r, from, error);
 }
 
 static bool pick_pixel(pick *p, replay *from, const pick_options *options, octreel_error *error)

@@ -55,7 +55,7 @@ static bool restart_playback(replay *r, octreel_error *error)
     return ok;
 }
 
-bool replay_up_to(replay *r, uint64_t tick, octreel_error *error)
+bool replay_play_up_to(replay *r, uint64_t tick, octreel_error *error)
 {
     if (tick >= r->ticks)
         return error_set(error, "%s: no tick %" PRIu64 ": the last tick of the session is %" PRIu64, r->film.folder,

@@ -2,8 +2,8 @@
 /* replay.h - opens a recording and replays it to any tick, with the game and the scene of that tick.
  *
  *   replay r;
- *   if (replay_open(&r, "frames", 0, &error) && replay_up_to(&r, 41, &error) && playback_compose_scene(&r.playback,
- * &error))
+ *   if (replay_open(&r, "frames", 0, &error) && replay_play_up_to(&r, 41, &error) &&
+ * playback_compose_scene(&r.playback, &error))
  *       ... octree_game_tick(r.playback.game), r.playback.scene ...
  *   replay_close(&r);
  */
@@ -33,7 +33,7 @@ void replay_close(replay *r);
 
 /* Play to a tick. If the tick is before the current tick, the session is played again from the start. Returns false
  * with an error on failure, and also if the session has no such tick. */
-bool replay_up_to(replay *r, uint64_t tick, octreel_error *error);
+bool replay_play_up_to(replay *r, uint64_t tick, octreel_error *error);
 
 /* Returns a renderer for the scenes of the recording. The first call opens the renderer; replay_close() closes the
  * renderer. Returns null with an error on failure. */

@@ -63,7 +63,7 @@ typedef struct patch {
 
 /* Return the color of one pixel of a cell. With `brightest`, it is the color of the brightest pixel in the rectangle
  * of the picture; else it is the mean color of the rectangle. */
-static image_color color_of(const image *picture, const patch *p, bool brightest)
+static image_color color_of_cell_pixel(const image *picture, const patch *p, bool brightest)
 {
     const uint64_t count = (uint64_t)(p->x1 - p->x0) * (uint64_t)(p->y1 - p->y0);
     /* The sums start at half the divisor, so that the divisions below round to nearest. */
@@ -108,7 +108,8 @@ static void draw_picture(image *sheet, int left, int top, const image *picture, 
             patch p;
             find_source_span(x, width, picture->width, &p.x0, &p.x1);
             find_source_span(y, height, picture->height, &p.y0, &p.y1);
-            fill_rectangle(sheet, left + x, top + y, 1, 1, color_of(picture, &p, kind == EVIDENCE_DIFFERENCE));
+            fill_rectangle(sheet, left + x, top + y, 1, 1,
+                           color_of_cell_pixel(picture, &p, kind == EVIDENCE_DIFFERENCE));
         }
 }
 

@@ -39,7 +39,7 @@ const char *evidence_word(evidence_picture picture)
 
 /* Return how many bytes of a stem fit into a file name together with LONGEST_ENDING, without cutting a UTF-8
  * character. */
-static size_t fitting_length(const char *stem)
+static size_t length_of_fitting_stem(const char *stem)
 {
     size_t length = NAME_MAX - (sizeof LONGEST_ENDING - 1);
     while (length > 0 && ((unsigned char)stem[length] & 0xc0) == 0x80)
@@ -58,8 +58,9 @@ char *evidence_name(const char *frame, evidence_picture picture)
     if (!fits)
         snprintf(digest, sizeof digest, "~%016" PRIx64, octree_digest_bytes(OCTREE_DIGEST_START, frame, strlen(frame)));
     if (name)
-        snprintf(name, size, "%.*s%.*s%s.%s%s", (int)(file - frame), frame, (int)(fits ? stem : fitting_length(file)),
-                 file, digest, evidence_word(picture), file[stem] ? file + stem : ".png");
+        snprintf(name, size, "%.*s%.*s%s.%s%s", (int)(file - frame), frame,
+                 (int)(fits ? stem : length_of_fitting_stem(file)), file, digest, evidence_word(picture),
+                 file[stem] ? file + stem : ".png");
     return name;
 }
 
@@ -132,18 +133,18 @@ static bool check_folder_holds_no_side(const char *folder, const diff_side *side
                                                 : "it");
 }
 
-static bool clear_folder(const char *folder, bool top, octreel_error *error);
+static bool remove_old_entries(const char *folder, bool top, octreel_error *error);
 
 /* Remove one entry of the folder that an earlier comparison wrote. A file is removed. In a subfolder, the pictures
  * are removed, then the subfolder if it is empty. Other files, hidden folders and folders of other evidence stay. */
-static bool clear_entry(const char *folder, const char *name, bool top, octreel_error *error)
+static bool remove_old_entry(const char *folder, const char *name, bool top, octreel_error *error)
 {
     struct stat status;
     char *path = path_join(folder, name);
     bool ok = path || error_no_memory(error);
     if (ok && lstat(path, &status) == 0 && S_ISDIR(status.st_mode)) {
         const bool clears = name[0] != '.' && !diff_is_evidence_folder(path);
-        ok = !clears || clear_folder(path, false, error);
+        ok = !clears || remove_old_entries(path, false, error);
         if (clears)
             rmdir(path); /* fails if the folder is not empty */
     } else if (ok && (top ? evidence_is_name(name) : is_picture_name(name)))
@@ -152,12 +153,12 @@ static bool clear_entry(const char *folder, const char *name, bool top, octreel_
     return ok;
 }
 
-static bool clear_folder(const char *folder, bool top, octreel_error *error)
+static bool remove_old_entries(const char *folder, bool top, octreel_error *error)
 {
     char **names = folder_names(folder, error);
     bool ok = names;
     for (size_t i = 0; ok && names[i]; i++)
-        ok = clear_entry(folder, names[i], top, error);
+        ok = remove_old_entry(folder, names[i], top, error);
     free(names);
     return ok;
 }
@@ -178,7 +179,7 @@ bool evidence_prepare(const char *folder, const diff_side *a, const diff_side *b
 {
     return check_folder_holds_no_side(folder, a, error) && check_folder_holds_no_side(folder, b, error) &&
            folder_create(folder, error) &&
-           (diff_is_evidence_folder(folder) ? clear_folder(folder, true, error)
+           (diff_is_evidence_folder(folder) ? remove_old_entries(folder, true, error)
                                             : check_folder_is_empty(folder, error)) &&
            folder_write_file(folder, EVIDENCE_MARKER, marker_text, sizeof marker_text - 1, error);
 }

@@ -59,7 +59,7 @@ static void print_frames(FILE *out, const frame_groups *g, const diff_result *re
 }
 
 /* Return the zero-terminated text at *at, and move *at to the text after it. */
-static const char *cut_next_text(const char **at)
+static const char *take_next_text(const char **at)
 {
     const char *text = *at;
     *at += strlen(text) + 1;
@@ -90,14 +90,14 @@ static bool print_sentences(frame_groups *g, const diff_result *result, const ex
     if (!text_stream_end(&s, &g->sentences))
         return false;
     const char *at = g->sentences;
-    g->verdict = cut_next_text(&at);
-    g->tolerance = cut_next_text(&at);
+    g->verdict = take_next_text(&at);
+    g->tolerance = take_next_text(&at);
     for (size_t i = 0; i < g->count; i++) {
         g->groups[i].cause = explanation_cause(why, g->groups[i].first);
-        g->groups[i].line = cut_next_text(&at);
-        g->groups[i].difference = cut_next_text(&at);
-        g->groups[i].frames = cut_next_text(&at);
-        g->groups[i].others = cut_next_text(&at);
+        g->groups[i].line = take_next_text(&at);
+        g->groups[i].difference = take_next_text(&at);
+        g->groups[i].frames = take_next_text(&at);
+        g->groups[i].others = take_next_text(&at);
     }
     return true;
 }

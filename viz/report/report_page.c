@@ -31,7 +31,7 @@ typedef struct page {
 } page;
 
 /* Return the index of the first pair of the n-th group on the page. */
-static size_t first_pair(const page *p, size_t n)
+static size_t index_of_first_pair(const page *p, size_t n)
 {
     return p->report->groups->groups[p->groups[n].group].first;
 }
@@ -60,7 +60,7 @@ static uint64_t pictures_size(const diff_report *report, size_t i)
     return sum;
 }
 
-static void choose_groups(page *p)
+static void choose_groups_for_page(page *p)
 {
     const frame_groups *g = p->report->groups;
     uint64_t room = DIFF_REPORT_PAGE_BYTES;
@@ -185,12 +185,12 @@ static void write_group(json_writer *w, const page *p, size_t n)
 {
     const size_t group = p->groups[n].group;
     json_write_begin_object(w);
-    diff_json_finding(w, p->report, first_pair(p, n));
+    diff_json_finding(w, p->report, index_of_first_pair(p, n));
     json_write_text_member(w, "words", p->report->groups->groups[group].difference);
     json_write_text_member(w, "frames_words", p->report->groups->groups[group].frames);
     diff_json_group(w, p->report, group);
-    write_files(w, p->report, first_pair(p, n));
-    write_subject(w, p, first_pair(p, n));
+    write_files(w, p->report, index_of_first_pair(p, n));
+    write_subject(w, p, index_of_first_pair(p, n));
     json_write_bool_member(w, "embedded", p->groups[n].embedded);
     json_write_end_object(w);
     json_write_end_line(w);
@@ -225,7 +225,7 @@ static bool write_facts(const page *p, octreel_error *error)
 
 static bool write_picture(const page *p, size_t n, evidence_picture picture, octreel_error *error)
 {
-    char *path = evidence_path(p->report->evidence, p->report->result, first_pair(p, n), picture);
+    char *path = evidence_path(p->report->evidence, p->report->result, index_of_first_pair(p, n), picture);
     FILE *in = path ? fopen(path, "rb") : NULL;
     if (!in) {
         const int reason = path ? errno : ENOMEM;
@@ -250,7 +250,7 @@ static bool write_pictures(const page *p, octreel_error *error)
     fputs("<template id=\"pictures\">\n", p->out);
     for (size_t n = 0; n < p->count; n++)
         for (int picture = 0; ok && p->groups[n].embedded && picture < EVIDENCE_PICTURES; picture++)
-            if (is_embedded(p->report, first_pair(p, n), (evidence_picture)picture))
+            if (is_embedded(p->report, index_of_first_pair(p, n), (evidence_picture)picture))
                 ok = write_picture(p, n, (evidence_picture)picture, error);
     fputs("</template>\n", p->out);
     return ok;
@@ -271,7 +271,7 @@ bool diff_report_page(const diff_report *report, octreel_error *error)
     bool ok = path ? file_writer_open_replacing(&file, path, error) : error_no_memory(error);
     if (ok) {
         page p = {.report = report, .out = file.stream};
-        choose_groups(&p);
+        choose_groups_for_page(&p);
         ok = write_page(&p, error) ? file_writer_close(&file, error) : file_writer_discard(&file);
     }
     free(path);

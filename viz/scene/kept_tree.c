@@ -23,14 +23,14 @@ void kept_tree_end_walk(kept_tree *k)
     k->before.count = k->passed = 0;
 }
 
-void kept_tree_forget_runs(kept_tree *k)
+void kept_tree_remove_runs(kept_tree *k)
 {
     k->box_runs.count = k->marker_runs.count = 0;
 }
 
 void kept_tree_clear(kept_tree *k)
 {
-    kept_tree_forget_runs(k);
+    kept_tree_remove_runs(k);
     for (size_t i = 0; i < k->now.count; i++)
         free(k->now.items[i].nodes);
     k->now.count = 0;

@@ -105,7 +105,7 @@ bool kept_tree_is_collecting(const kept_tree *k, const octree_node *node);
 void kept_tree_add_run(digest_runs *runs, size_t first, digest_run run);
 
 /* Forget all recorded digests of runs, because the indices of the scene's elements have changed. */
-void kept_tree_forget_runs(kept_tree *k);
+void kept_tree_remove_runs(kept_tree *k);
 
 /* End the walk. Free the subtrees of the previous walk that this walk did not find. */
 void kept_tree_end_walk(kept_tree *k);

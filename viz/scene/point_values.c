@@ -70,7 +70,7 @@ bool point_values_insert_empty_row(point_values *v, size_t at)
 
 /* Build a table from entries in ascending order of their ids. If there are few gaps between the ids, the table also has
  * rows without values for the missing ids. */
-static bool build_table(point_values *v, const point_entry *entries, size_t count)
+static bool build_rows(point_values *v, const point_entry *entries, size_t count)
 {
     const uint64_t span = entries[count - 1].id - entries[0].id;
     const bool dense = span < 2 * (uint64_t)count + 64;
@@ -121,7 +121,7 @@ bool point_values_add_entries(point_values *v, const point_entry *entries, size_
         if (point_value_has_any(&v->rows[i]))
             sorted[all++] = (point_entry){v->ids ? v->ids[i] : v->first + i, v->rows[i]};
     qsort(sorted, all, sizeof *sorted, compare_uint64);
-    const bool done = build_table(&made, sorted, all);
+    const bool done = build_rows(&made, sorted, all);
     free(sorted);
     point_values_release(done ? v : &made);
     if (done)

@@ -20,7 +20,7 @@ void scene_clear(scene *s)
     s->out_of_memory = s->has_closeup = false;
     s->times = 0;
     if (s->kept)
-        kept_tree_forget_runs(s->kept);
+        kept_tree_remove_runs(s->kept);
 }
 
 void scene_release(scene *s)
@@ -58,7 +58,7 @@ static bool are_all_finite(const double *values, size_t count)
 
 /* Returns whether the scene accepts an element: the view shows the element's layer, and the element's geometry is
  * finite. Elements that are not finite are counted in s->refused. */
-static bool accept_element(scene *s, scene_style style, bool finite)
+static bool accepts_element(scene *s, scene_style style, bool finite)
 {
     if (!view_shows_layer(&s->view, style.layer))
         return false;
@@ -68,19 +68,19 @@ static bool accept_element(scene *s, scene_style style, bool finite)
 
 void scene_add_box(scene *s, scene_box box)
 {
-    if (accept_element(s, box.style, are_all_finite(box.box.min, 3) && are_all_finite(box.box.max, 3)))
+    if (accepts_element(s, box.style, are_all_finite(box.box.min, 3) && are_all_finite(box.box.max, 3)))
         APPEND(s, s->boxes, box);
 }
 
 void scene_add_segment(scene *s, scene_segment segment)
 {
-    if (accept_element(s, segment.style, are_all_finite(segment.ends[0], 3) && are_all_finite(segment.ends[1], 3)))
+    if (accepts_element(s, segment.style, are_all_finite(segment.ends[0], 3) && are_all_finite(segment.ends[1], 3)))
         APPEND(s, s->segments, segment);
 }
 
 void scene_add_marker(scene *s, scene_marker marker)
 {
-    if (accept_element(s, marker.style, are_all_finite(marker.at, 3)))
+    if (accepts_element(s, marker.style, are_all_finite(marker.at, 3)))
         APPEND(s, s->markers, marker);
 }
 
@@ -166,13 +166,13 @@ void scene_set_view(scene *s, const view *v)
 
 void scene_add_label(scene *s, scene_label label)
 {
-    if (accept_element(s, label.style, are_all_finite(label.at, 3)))
+    if (accepts_element(s, label.style, are_all_finite(label.at, 3)))
         APPEND(s, s->labels, label);
 }
 
 void scene_add_panel(scene *s, scene_panel panel)
 {
-    if (accept_element(s, panel.style, true))
+    if (accepts_element(s, panel.style, true))
         APPEND(s, s->panels, panel);
 }
 

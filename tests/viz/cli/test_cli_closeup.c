@@ -89,7 +89,7 @@ static void pick_names_elements_of_a_close_up_without_a_player(void **state)
     const place frame = frame_place(folder.path, 2);
     octreel_error error = {""};
     replay replay;
-    if (!replay_open(&replay, folder.path, 0, &error) || !replay_up_to(&replay, 2, &error) ||
+    if (!replay_open(&replay, folder.path, 0, &error) || !replay_play_up_to(&replay, 2, &error) ||
         !playback_compose_scene(&replay.playback, &error))
         fail_msg("%s", error.text);
     const scene *s = &replay.playback.scene;

@@ -32,7 +32,7 @@ static void show(shown *what, const temp_folder *own, const char *arguments, uin
     assert_done(&result);
     command_release(&result);
     what->frame = frame_place(what->folder.path, tick);
-    if (!replay_open(&what->replay, what->folder.path, 0, &error) || !replay_up_to(&what->replay, tick, &error) ||
+    if (!replay_open(&what->replay, what->folder.path, 0, &error) || !replay_play_up_to(&what->replay, tick, &error) ||
         !playback_compose_scene(&what->replay.playback, &error))
         fail_msg("%s", error.text);
     what->scene = &what->replay.playback.scene;

@@ -145,10 +145,10 @@ static void rectangles_of_any_size_are_clipped(void **state)
 static void clip_square_is_a_power_of_two_around_the_picture(void **state)
 {
     (void)state;
-    assert_int_equal(clip_square_side(1, 1), 1);
-    assert_int_equal(clip_square_side(1280, 720), 2048);
-    assert_int_equal(clip_square_side(64, 1024), 1024);
-    assert_int_equal(clip_square_side(VIEW_MAX_SIDE, 1), VIEW_MAX_SIDE);
+    assert_int_equal(enclosing_power_of_two(1, 1), 1);
+    assert_int_equal(enclosing_power_of_two(1280, 720), 2048);
+    assert_int_equal(enclosing_power_of_two(64, 1024), 1024);
+    assert_int_equal(enclosing_power_of_two(VIEW_MAX_SIDE, 1), VIEW_MAX_SIDE);
 }
 
 int main(void)

@@ -20,7 +20,7 @@ static void open_it(replay *r, const place *folder)
 static void check_scene(replay *r, const place *folder, uint64_t tick)
 {
     octreel_error error = {""};
-    if (!replay_up_to(r, tick, &error) || !playback_compose_scene(&r->playback, &error))
+    if (!replay_play_up_to(r, tick, &error) || !playback_compose_scene(&r->playback, &error))
         fail_msg("%s", error.text);
     assert_int_equal(octree_game_tick(r->playback.game)->number, tick);
     frame_origin origin = {.tick = tick, .session = r->session_digest, .scene = scene_digest(&r->playback.scene)};
@@ -83,7 +83,7 @@ static void tick_beyond_the_end_is_refused(void **state)
     octreel_error error = {""};
     replay r;
     open_it(&r, &folder);
-    assert_false(replay_up_to(&r, SHORT_TICKS, &error));
+    assert_false(replay_play_up_to(&r, SHORT_TICKS, &error));
     assert_non_null(strstr(error.text, "last tick of the session is 13"));
     replay_close(&r);
 }
