@@ -27,7 +27,8 @@ const command *command_at(size_t n)
 static const help_topic topics[] = {
     {"session", "the session file: a world, points, keys, edits, queries", session_text},
     {"recording", "the folder of a recording: frames, ticks, view options", recording_text},
-    {"baseline", "the baseline file: accepted digests, reasons, and the pictures' store", baseline_text},
+    {"baseline", "the baseline file: accepted digests, their reasons, and the folder of stored pictures",
+     baseline_text},
 };
 
 const help_topic *help_topic_at(size_t n)

@@ -214,7 +214,7 @@ static bool add_written_frame(diff_side *side, const char *written, frame_digest
     char *name = read_name(written);
     bool ok = name || error_no_memory(error);
     if (ok && !is_path_below(name))
-        ok = error_set(error, "%s:%zu: expected the path of a frame below its folder, as in \"menu/1\", not \"%s\"",
+        ok = error_set(error, "%s:%zu: expected a path relative to the compared folder, such as \"menu/1\", not \"%s\"",
                        side->path, number, written);
     ok = ok && diff_side_add_frame(side, name, digest, error);
     free(name);

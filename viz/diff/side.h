@@ -39,9 +39,10 @@ typedef struct diff_frame {
 } diff_frame;
 
 typedef struct diff_side {
-    /* for messages and for opening a folder: the path that the user gave, or "standard input"; not owned */
+    /* the name in messages, and the path of a folder: "standard input" if the user gave "-", else equal to `source`;
+     * not owned */
     const char *path;
-    const char *source; /* for opening a file: the path that the user gave; not owned */
+    const char *source; /* the path that the user gave; a file is opened by it, because "-" is not a name; not owned */
     diff_kind kind;
     diff_frame *frames; /* the frames, sorted by name in byte order; names are unique; owned */
     size_t count, room;

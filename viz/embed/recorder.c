@@ -277,9 +277,10 @@ static octreel_status require_growing_leaves(octreel_recorder *r)
     if (!listed || r->settings.tree.full_leaf == OCTREE_GROW)
         return OCTREEL_OK;
     if (r->put > 0)
-        return status_refuse(&r->error, OCTREEL_OTHER_TREE,
-                             "the first ticks had no points: a later list of points needs OCTREE_GROW as full_leaf of "
-                             "the definition's tree");
+        return status_refuse(
+            &r->error, OCTREEL_OTHER_TREE,
+            "earlier ticks had no list of points: to pass one later, open the recorder with OCTREE_GROW as "
+            "full_leaf of the definition's tree");
     r->settings.tree.full_leaf = OCTREE_GROW;
     return OCTREEL_OK;
 }

@@ -375,8 +375,8 @@ static bool print_wrong(FILE *out, const cause *c, bool later)
     return any;
 }
 
-/* Return how many groups of the session's facts begin after the first differing tick. If this is true of all groups,
- * return 0. The groups are sorted by tick. */
+/* Return the number of groups of facts about the sessions that begin after the first differing tick. If all groups
+ * begin after it, return 0. The groups are sorted by tick, so these groups are the last ones. */
 static size_t count_later_groups(const cause *c)
 {
     size_t count = 0;

@@ -78,7 +78,7 @@ static void print_fault(FILE *out, frame_fault fault, const frame_origin *origin
 {
     static const char *const words[] = {
         [FAULT_SESSION] = "is a frame of another session",
-        [FAULT_SCENE] = "shows another scene than ticks.jsonl records for its tick",
+        [FAULT_SCENE] = "shows a scene that differs from the one in ticks.jsonl",
         [FAULT_TEXTS] = "has no text chunks of octreel; another program may have saved it",
         [FAULT_PIXELS] = "was changed after it was drawn: its pixels do not match the digest in its text chunk",
     };

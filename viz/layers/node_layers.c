@@ -379,7 +379,7 @@ static bool add_label(scene *s, text_space *words, const scene_box *box)
  * the walk. */
 static void add_labels(scene *s)
 {
-    /* text_space_make() marks the room that the numbers on the axes take as occupied. */
+    /* text_space_make() reserves the areas of the numbers on the axes, so that no label of a node covers them. */
     text_space words = text_space_make(s);
     unsigned deepest = 0;
     for (size_t i = 0; i < s->boxes.count; i++)

@@ -18,7 +18,7 @@ bool film_session(const octree_session *session, const film_options *options, fi
 typedef enum film_stream_end {
     FILM_STREAM_WHOLE,   /* the stream ended, and all its ticks are recorded */
     FILM_STREAM_STOPPED, /* keep_going() of the stream or of options->watch returned false */
-    FILM_STREAM_BROKEN,  /* an error occurred */
+    FILM_STREAM_BROKEN,  /* the stream was invalid or unreadable, or the recording could not be written; see *error */
 } film_stream_end;
 
 /* Record a session from a stream to which another process may still write. Each tick is recorded as soon as its JSON

@@ -13,7 +13,7 @@ typedef struct node_reason {
     bool split; /* true: the node split at this tick */
     /* The points that entered the node at this tick, and the points that left it; empty at tick 0; owned. */
     id_list arrived, left;
-    node_change maker; /* the split or merge that made the node's cell; zero: the cell exists since tick 0 */
+    node_change maker; /* the split or merge that made the node's cell; zero: the cell has existed since tick 0 */
 } node_reason;
 
 /* Returns true if the node can be explained: it is a leaf, or it split at the game's last tick. */

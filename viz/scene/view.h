@@ -74,7 +74,7 @@ typedef enum view_diagram { VIEW_DIAGRAM_MAP(VIEW_VALUE) DIAGRAM_COUNT } view_di
  * point_scale.c computes them. */
 typedef struct point_scale {
     double low[3], high[3]; /* the range of positions on each axis, without outliers */
-    double ids[2];          /* the least and the greatest id */
+    double ids[2];          /* the least and the greatest id of the points */
     double intensities[2];  /* the range of intensities, without outliers; only for POINTS_BY_INTENSITY */
     double spacing;         /* the typical distance between neighbouring points, in world units; 0: unknown */
 } point_scale;

@@ -110,7 +110,7 @@ typedef enum octree_wrong_node_kind {
  * "unknown_node" or "pruned_point". Returns null for kind >= OCTREE_WRONG_NODE_KINDS. */
 const char *octree_wrong_node_name(octree_wrong_node_kind kind);
 
-/* Returns a description of a few words, such as "its box leaves its parent's". Returns null for kind >=
+/* Returns a description of a few words, such as "its box extends outside its parent's box". Returns null for kind >=
  * OCTREE_WRONG_NODE_KINDS. */
 const char *octree_wrong_node_words(octree_wrong_node_kind kind);
 

@@ -215,8 +215,8 @@ bool octree_contains(const octree *tree, const double position[3], uint64_t id);
  * Cost: O(nodes that meet the box + points in their leaves). */
 octree_status octree_range(const octree *tree, const octree_box *box, octree_point_visitor visit, void *context);
 
-/* Visit points as octree_range does, with search options. With epsilon > 0 every point in the box is visited, and also
- * some points that are at most epsilon outside the box on each axis.
+/* Visit points as octree_range does, with search options. With epsilon > 0 every point in the box is visited, and
+ * possibly points that are at most epsilon outside the box on each axis.
  *
  * Proof: all points of a node are visited without comparison only if the node's cell lies in the box whose faces are
  * moved out by epsilon and rounded inwards. Every other point is compared with the box itself.
@@ -231,7 +231,7 @@ octree_status octree_range_count(const octree *tree, const octree_box *box, size
 
 /* Visit every point at a distance of at most `radius` from a centre, in no stated order. The centre may be outside the
  * world. With epsilon > 0 every point within `radius` is visited, and no point beyond radius + epsilon is visited. In
- * FAST mode a distance may have an error of a factor 1 + 2^-50, or of 2^-490 of the world's extent.
+ * FAST mode a distance may be wrong by a factor of 1 + 2^-50 or by 2^-490 of the world's extent, whichever is more.
  *
  * Errors: NULL_ARGUMENT, NOT_FINITE, BAD_SIZE (radius or epsilon < 0), BAD_OPTION. Cost: O(nodes that meet the ball +
  * points in their leaves). */
@@ -295,7 +295,7 @@ octree_status octree_nearest(const octree *tree, const double target[3], octree_
  * neighbours; it may be null for k = 0.
  *
  * In EXACT mode real distances determine each neighbour. In FAST mode the i-th distance is at most 1 + 2^-50 times the
- * true i-th distance, or exceeds it by at most 2^-490 of the world's extent.
+ * true i-th distance or 2^-490 of the world's extent more than it, whichever is greater.
  *
  * With epsilon > 0 the i-th distance is at most (1 + epsilon) times the true i-th distance. Proof: a node is pruned
  * only if its box is farther than the k-th best distance so far divided by 1 + epsilon. Every point in the node is then

@@ -31,12 +31,12 @@ const char *octree_precision_name(octree_precision precision)
 static const struct {
     const char *name, *words;
 } wrong_node_rows[OCTREE_WRONG_NODE_KINDS] = {
-    [OCTREE_NODE_OUTSIDE_PARENT] = {"outside_parent", "its box leaves its parent's"},
-    [OCTREE_NODE_UNKNOWN_POINT] = {"unknown_point", "it lists a point that is not there"},
+    [OCTREE_NODE_OUTSIDE_PARENT] = {"outside_parent", "its box extends outside its parent's box"},
+    [OCTREE_NODE_UNKNOWN_POINT] = {"unknown_point", "it lists a point that does not exist"},
     [OCTREE_NODE_OUTSIDE_POINT] = {"outside_point", "it lists a point outside its box"},
     [OCTREE_NODE_REPEATED_POINT] = {"repeated_point", "it lists a point more than once"},
     [OCTREE_NODE_LOST_POINT] = {"lost_point", "a point is in no node"},
-    [OCTREE_NODE_UNKNOWN_NODE] = {"unknown_node", "a query names it, but no such node is there"},
+    [OCTREE_NODE_UNKNOWN_NODE] = {"unknown_node", "a query names it, but no node has this id"},
     [OCTREE_NODE_PRUNED_POINT] = {"pruned_point", "a query pruned it, and its answer lacks a point in it"},
 };
 

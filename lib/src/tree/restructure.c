@@ -277,7 +277,8 @@ static bool change_leaf(batch *b, const node *old, cell c, span leaving, span ar
     return remake_leaf(b, old, leaving, arriving, made);
 }
 
-/* Append to a leaf the points in and below a node that stay. */
+/* Append the points of a subtree to the leaf `made`, except the points that leave the tree. `old` is the root of the
+ * subtree. */
 static void append_staying_points_below(const node *old, unsigned depth, span leaving, node *made)
 {
     if (!old->octants) {

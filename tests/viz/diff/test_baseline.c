@@ -148,7 +148,7 @@ static void malformed_line_is_refused_with_its_number(void **state)
         {HEAD FIRST "7f 0123456789ABCDEF a\n", "file:4: expected"},
         {HEAD FIRST "7f 0123456789abcdef \n", "file:4: expected"},
         {HEAD FIRST "7f 0123456789abcdef\n", "file:4: expected"},
-        {HEAD FIRST "7f 0123456789abcdef ../a\n", "file:4: expected the path of a frame below its folder, as in"},
+        {HEAD FIRST "7f 0123456789abcdef ../a\n", "file:4: expected a path relative to the compared folder, such as"},
         {HEAD FIRST "7f 0123456789abcdef a/../../b\n", "file:4: expected the path"},
         {HEAD FIRST "7f 0123456789abcdef a/./b\n", "file:4: expected the path"},
         {HEAD FIRST "7f 0123456789abcdef ./a\n", "file:4: expected the path"},

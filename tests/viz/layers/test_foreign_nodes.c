@@ -198,7 +198,8 @@ static void faults_of_foreign_nodes_are_marked_and_described(void **state)
     assert_true(says("outside parent") && says("wrongly pruned") && says("in no node"));
     assert_true(says("wrong nodes"));
     char text[WRONG_NODE_TEXT];
-    assert_string_equal(wrong_node_text(&octree_game_tick(game)->foreign, text), "node 4: its box leaves its parent's");
+    assert_string_equal(wrong_node_text(&octree_game_tick(game)->foreign, text),
+                        "node 4: its box extends outside its parent's box");
 }
 
 /* Return the description of the element with this layer, kind and id. */
@@ -230,7 +231,7 @@ static void foreign_nodes_are_described(void **state)
                         "box (-900, -700, -800) to (-200, 400, 900)");
     assert_string_equal(told(LAYER_WRONG, SCENE_BOX, foreign_element(FOREIGN_LOW)),
                         "foreign node 4: leaf at depth 2 of kind \"leaf\" under node 2, 2 points listed, "
-                        "box (-900, -700, -800) to (100, 400, -200); wrong: its box leaves its parent's");
+                        "box (-900, -700, -800) to (100, 400, -200); wrong: its box extends outside its parent's box");
     assert_non_null(
         strstr(told(LAYER_PRUNED, SCENE_BOX, foreign_element(FOREIGN_RIGHT)), "; this tick's queries pruned it"));
     assert_non_null(

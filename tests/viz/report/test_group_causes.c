@@ -159,7 +159,8 @@ static void frame_of_another_view_is_in_no_group_of_the_sessions(void **state)
     assert_int_equal(rename(frame_place(c.path, 16).path, frame_place(b.path, 16).path), 0);
     comparison_of made = assert_explained(&a, &b, 20);
     assert_groups(&made, false, "ticks 0 to 15, 17 to 20\ntick 16\n");
-    assert_cause(&made, "frame_000016.png", "b/frame_000016.png shows another scene than ticks.jsonl", "tick 16: ");
+    assert_cause(&made, "frame_000016.png", "b/frame_000016.png shows a scene that differs from the one in ticks.jsonl",
+                 "tick 16: ");
     comparison_release(&made);
 }
 
