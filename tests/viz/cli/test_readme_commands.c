@@ -71,7 +71,7 @@ static char *run_line(const temp_folder *folder, const char *line)
 /* The README quotes the cause that the comparison of two recordings prints. */
 static void assert_quotes_cause(const char *readme, const char *output)
 {
-    static const char cause[] = "camera top, was iso";
+    static const char cause[] = "(top, was iso)";
     assert_non_null(strstr(readme, cause));
     if (strstr(output, "camera") == NULL || strstr(output, "top") == NULL || strstr(output, "was iso") == NULL)
         fail_msg("\"%s\" is not in: %s", cause, output);
@@ -112,8 +112,8 @@ static void every_command_of_the_readme_works(void **state)
         }
     }
     assert_true(quoted && run >= 9);
-    static const char *const made_by[] = {"flight", "hunt",         "cloud.png", "asked.png",
-                                          "mine",   "baseline.txt", "evidence"};
+    static const char *const made_by[] = {"flight",    "hunt", "hunt.png",     "cloud.html", "cloud.png",
+                                          "asked.png", "mine", "baseline.txt", "evidence"};
     for (size_t i = 0; i < sizeof made_by / sizeof made_by[0]; i++)
         assert_true(file_exists(place_in(folder, made_by[i]).path));
     free(readme);
