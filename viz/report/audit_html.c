@@ -167,7 +167,7 @@ static void write_point(const page *p, const chart *c, const audit_tick *tick)
 {
     char text[AUDIT_RATIO_TEXT];
     const bool linked =
-        begin_frame_link(p, tick->tick, "") || begin_viewer_link(p, tick->tick, (link_target){NULL}, "");
+        begin_frame_link(p, tick->tick, "") || begin_viewer_link(p, tick->tick, (link_target){0}, "");
     fprintf(p->out, "<circle class=\"point%s\" cx=\"%.1f\" cy=\"%.1f\" r=\"%s\"><title>tick %" PRIu64 ": ",
             tick->wrong ? " wrong" : "", chart_x(c, tick->tick), chart_y(c, chart_value(c, tick)),
             tick->wrong ? "5" : "2.5", tick->tick);
@@ -215,7 +215,7 @@ static void write_links(const page *p, uint64_t tick, link_target target)
 static link_target find_wrong_point(const audit_case *c)
 {
     const octree_point *first = c->made.missing_count ? c->missing : c->made.extra_count ? c->extra : NULL;
-    return first ? (link_target){"point", first->id} : (link_target){NULL};
+    return first ? (link_target){"point", first->id} : (link_target){0};
 }
 
 /* Return the node that is wrong, or the point that no node holds. */
