@@ -57,7 +57,7 @@ static uint8_t *store_big_endian(uint8_t *to, uint32_t value, int size)
 
 static void put_bytes(apng_writer *w, const void *bytes, size_t size)
 {
-    if (w->write_error == 0 && fwrite(bytes, 1, size, w->file.stream) != size)
+    if (size > 0 && w->write_error == 0 && fwrite(bytes, 1, size, w->file.stream) != size)
         w->write_error = errno;
 }
 

@@ -166,8 +166,7 @@ static const audit_tick *find_worst_tick(const chart *c, size_t point, size_t po
 static void write_point(const page *p, const chart *c, const audit_tick *tick)
 {
     char text[AUDIT_RATIO_TEXT];
-    const bool linked =
-        begin_frame_link(p, tick->tick, "") || begin_viewer_link(p, tick->tick, (link_target){0}, "");
+    const bool linked = begin_frame_link(p, tick->tick, "") || begin_viewer_link(p, tick->tick, (link_target){0}, "");
     fprintf(p->out, "<circle class=\"point%s\" cx=\"%.1f\" cy=\"%.1f\" r=\"%s\"><title>tick %" PRIu64 ": ",
             tick->wrong ? " wrong" : "", chart_x(c, tick->tick), chart_y(c, chart_value(c, tick)),
             tick->wrong ? "5" : "2.5", tick->tick);
