@@ -28,6 +28,7 @@ async function sayColumn()
     const before = byId("stage").clientWidth;
     say("fills", fills());
     say("title", byId("column").querySelector("h2").textContent);
+    say("caption", byId("words").checkVisibility() ? byId("words").textContent : "");
     say("row", [...byId("column").querySelectorAll(".row")].some(row => row.textContent === "leaf capacity2"));
     say("symbols", byId("column").querySelectorAll("svg path").length > 5);
     press("o");

@@ -51,6 +51,7 @@ static void picture_fills_the_window_beside_its_text(void **state)
     const driven *d = need_page(state);
     assert_reported_value(d->said, "fills", "true");
     assert_reported_value(d->said, "title", "tick 41");
+    assert_reported_value(d->said, "caption", "a: player to (-600, -500, -350)");
     assert_reported_value(d->said, "row", "true");
     assert_reported_value(d->said, "symbols", "true");
     assert_reported_value(d->said, "wider without the column", "true");

@@ -413,6 +413,7 @@ function openRecording()
     describeRecording(recording);
     fillControls();
     const viewer = new Viewer(recording);
+    byId("words").hidden = !viewer.interaction.canPlay;
     viewer.follow(recording);
     listenToKeys(viewer);
     listenToControls(viewer);
