@@ -2,6 +2,7 @@
 /* tick_scene.c - contains the table of layers, and composes scenes from the layers. */
 #include "tick_scene.h"
 #include "closeup.h"
+#include "kept_tree.h"
 #include "layer_type.h"
 #include "layout.h"
 #include "octree/octree.h"
@@ -57,12 +58,17 @@ static void add_closeup(scene *s, const layer_source *in, const double place[3],
     s->out_of_memory |= s->closeup->out_of_memory;
 }
 
-/* Forget the results for another tick. The history may end at the tick before the one that is built. */
-static void begin_results(tick_history *h, const octree_tick *tick)
+/* Forget the results for another tick. The history may end at the tick before the one that is built. The tick of a tree
+ * without a game is 0. */
+static void begin_results(tick_history *h, layer_source *in)
 {
-    if (h->built != tick->number)
+    const uint64_t tick = in->tick ? in->tick->number : 0;
+    if (h->state == 0 || h->built != tick) {
         h->check.done = h->arrows.known = false;
-    h->built = tick->number;
+        h->built = tick;
+        h->state = kept_tree_make_name();
+    }
+    in->state = h->state;
 }
 
 /* Check the tree, unless it was checked before. */
@@ -120,7 +126,7 @@ void tick_history_release(tick_history *h)
 bool tick_history_add(tick_history *h, const view *v, const octree_game *game)
 {
     const layer_source in = make_layer_source(v, game);
-    h->check.done = h->arrows.known = false;
+    h->state = 0;
     if (in.tick->gap)
         return true;
     closeup_follow(&h->closeup, &in);
@@ -133,7 +139,7 @@ bool tick_scene_build(scene *s, const view *v, const octree_game *game, tick_his
     layer_source in = make_layer_source(v, game);
     tick_check check = {0};
     if (h)
-        begin_results(h, in.tick);
+        begin_results(h, &in);
     in.heat = h ? &h->heat : NULL;
     in.arrows = h ? &h->arrows : NULL;
     in.values = values;
@@ -150,7 +156,10 @@ bool tree_scene_build(scene *s, const view *v, const octree *tree, const tree_su
                        .values = subject->values,
                        .title = subject->title,
                        .requested = subject->node};
+    tick_history *h = subject->history;
     double center[3]; /* the position that the camera looks at; in a game it is the player's position */
     scene_box_middle(v->fit == FIT_BOX ? &v->focus : &in.world, center);
-    return build_scene(s, &in, center, (closeup_course){0}, &(tick_check){0});
+    if (h)
+        begin_results(h, &in);
+    return build_scene(s, &in, center, (closeup_course){0}, h ? &h->check : &(tick_check){0});
 }

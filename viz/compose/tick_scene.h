@@ -26,8 +26,9 @@ typedef struct tick_history {
     heat heat; /* number of visits and points of leaves so far; empty if the view shows no heat layer */
     closeup_course closeup;
     node_changes changes; /* empty unless changes.tracked is set at tick 0 */
-    /* results for the tick `built`, whose scene may be built for many cameras */
-    uint64_t built;
+    /* results for the tick `built`, whose scene may be built for many cameras; `state` is a name of the state of its
+     * tree, 0 if its scene is not built yet */
+    uint64_t built, state;
     tick_check check;
     arrow_counts arrows;
 } tick_history;
@@ -48,6 +49,8 @@ typedef struct tree_subject {
     const octree_answer *answers;
     size_t answer_count;
     const point_values *values; /* colours, classes and intensities of the tree's points; may be null */
+    /* the results for the tree, if its scene is built for many cameras and the tree does not change; may be null */
+    tick_history *history;
 } tree_subject;
 
 /* Build the scene of a tree without a game. Return false if memory runs out. */

@@ -14,6 +14,7 @@
 typedef struct layer_source {
     const view *view; /* the view as the user requested it; with DIAGRAM_ONLY the scene's own view has fewer layers */
     const octree *tree;
+    uint64_t state; /* a name of the state of `tree`, see kept_tree_begin_walk(); 0: unknown */
     octree_box world;
     const octree_answer *answers;
     size_t answer_count;

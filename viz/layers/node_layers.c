@@ -293,28 +293,31 @@ static octree_walk_order add_node(const octree_node *node, void *context)
     return s->out_of_memory || w->keeping_failed ? OCTREE_WALK_STOP : OCTREE_WALK_ON;
 }
 
-/* Return the store of subtrees, or null if the store must not be used. The store has only nodes of a game's own tree,
- * and points without colours of their own. It is not used with a filter, or for a small tree, which does not need
- * it. */
+/* Return the store of subtrees, or null if the store must not be used. The store has only nodes of Octreel's tree, whose
+ * changes must be known. It is not used with a filter, or for a small tree, which does not need it. */
 static kept_tree *get_kept_tree(const tree_walk *w, const layer_source *in)
 {
     scene *s = w->scene;
-    if (!in->game || filter_is_set(&w->filter) || view_paints_points(&s->view) || !shows_octreel_nodes(in) ||
+    if ((!in->game && in->state == 0) || filter_is_set(&w->filter) || !shows_octreel_nodes(in) ||
         shows_foreign_nodes(in) || (!s->kept && octree_count(in->tree) < KEPT_FEWEST))
         return NULL;
     s->kept = s->kept ? s->kept : calloc(1, sizeof *s->kept);
     return s->kept;
 }
 
-static bool begin_kept_tree(tree_walk *w, const octree *tree, kept_tree *kept)
+static bool begin_kept_tree(tree_walk *w, const layer_source *in, kept_tree *kept)
 {
     const view *v = &w->scene->view;
     const kept_look look = {.coloring = v->coloring,
                             .boxes = w->shows_nodes,
                             .points = view_shows_layer(v, LAYER_POINTS),
+                            .paints = view_paints_points(v),
+                            .point_color = v->point_color,
+                            .scale = v->point_scale.of,
+                            .values = in->values,
                             .capacity = w->capacity,
                             .point_width = w->point_width};
-    if (!kept || !kept_tree_begin_walk(kept, tree, &look))
+    if (!kept || !kept_tree_begin_walk(kept, in->tree, &look, in->state))
         return false;
     w->kept = kept;
     w->sieve = kept->sieve;
@@ -331,21 +334,21 @@ static bool end_kept_tree(tree_walk *w)
     return !w->keeping_failed && (!w->kept || w->sieve == 0 || w->looser_count > w->scene->view.budget);
 }
 
-static void walk_tree(tree_walk *w, const octree *tree, kept_tree *kept)
+static void walk_tree(tree_walk *w, const layer_source *in, kept_tree *kept)
 {
     scene *s = w->scene;
     const tree_walk initial = *w;
     const size_t boxes = s->boxes.count, markers = s->markers.count;
     const scene_tally tally = s->tally;
-    const bool stores = begin_kept_tree(w, tree, kept);
-    octree_walk(tree, add_node, w);
+    const bool stores = begin_kept_tree(w, in, kept);
+    octree_walk(in->tree, add_node, w);
     if (stores && !end_kept_tree(w)) {
         abandon_kept_tree(w);
         *w = initial;
         s->boxes.count = boxes;
         s->markers.count = markers;
         s->tally = tally;
-        octree_walk(tree, add_node, w);
+        octree_walk(in->tree, add_node, w);
     }
     if (kept)
         kept->sieve = w->sieve;
@@ -415,7 +418,7 @@ static void add_nodes_and_points(scene *s, const layer_source *in, view_layer la
         /* The depths in the view's filter are depths of the foreign tree. They do not apply to the points, which belong
          * to Octreel's tree. */
         w.filter.by_depth = false;
-    walk_tree(&w, in->tree, get_kept_tree(&w, in));
+    walk_tree(&w, in, get_kept_tree(&w, in));
     s->tally.deepest = w.deepest;
     if (shows_foreign_nodes(in))
         add_foreign_nodes(s, in);

@@ -79,7 +79,12 @@ bool playback_open_picture(playback *p, const playback_target *target, octreel_e
 static bool build_cloud_scene(playback *p)
 {
     const octree_tick *tick = octree_game_tick(p->game);
-    const tree_subject subject = {p->cloud->title, p->cloud->node, tick->answers, tick->answer_count, p->values};
+    const tree_subject subject = {.title = p->cloud->title,
+                                  .node = p->cloud->node,
+                                  .answers = tick->answers,
+                                  .answer_count = tick->answer_count,
+                                  .values = p->values,
+                                  .history = &p->history};
     return tree_scene_build(&p->scene, &p->view, octree_game_tree(p->game), &subject);
 }
 

@@ -87,12 +87,11 @@ static void add_change(const octree_change *change, void *context)
         add_key(k, change->to);
 }
 
-/* Returns a name for a change log. No other change log of this process has had this name. */
-static size_t make_unique_log_name(void)
+uint64_t kept_tree_make_name(void)
 {
     static atomic_size_t names;
-    const size_t name = (size_t)octree_digest_word((uintptr_t)&names, atomic_fetch_add(&names, 1));
-    return name ? name : 1;
+    const uint64_t name = octree_digest_word((uintptr_t)&names, atomic_fetch_add(&names, 1));
+    return (size_t)name ? name : 1; /* a name of a change log is a size_t */
 }
 
 static bool read_changes(kept_tree *k, const octree *tree)
@@ -100,7 +99,7 @@ static bool read_changes(kept_tree *k, const octree *tree)
     k->changed_count = k->next_changed = 0;
     k->lost = false;
     k->tree = tree;
-    return octree_changes_since(tree, make_unique_log_name(), &k->cursor, add_change, k) && !k->lost;
+    return octree_changes_since(tree, (size_t)kept_tree_make_name(), &k->cursor, add_change, k) && !k->lost;
 }
 
 /* Read the changes since the last walk from the tree's change log. Returns false if the log does not have all of these
@@ -140,13 +139,30 @@ static bool is_changed(kept_tree *k, octree_address address)
 
 static bool are_looks_equal(const kept_look *a, const kept_look *b)
 {
+    const bool as_colorful = a->paints == b->paints && a->point_color == b->point_color && a->values == b->values &&
+                             memcmp(&a->scale, &b->scale, sizeof a->scale) == 0;
     return a->coloring == b->coloring && a->boxes == b->boxes && a->points == b->points && a->capacity == b->capacity &&
-           a->point_width == b->point_width;
+           a->point_width == b->point_width && (!a->paints || as_colorful) && a->paints == b->paints;
 }
 
-bool kept_tree_begin_walk(kept_tree *k, const octree *tree, const kept_look *look)
+/* Find the changes since the last walk. If the state is the same, there are none. Returns false if the changes are not
+ * known. */
+static bool find_changes(kept_tree *k, const octree *tree, uint64_t state)
 {
-    const bool usable = octree_count(tree) >= KEPT_FEWEST && update_changes(k, tree);
+    const bool same = state != 0 && k->state == state;
+    k->state = state;
+    if (same) {
+        k->changed_count = k->next_changed = 0;
+        return true;
+    }
+    if (k->cursor.log == 0)
+        kept_tree_clear(k); /* a new log does not tell what changed before */
+    return update_changes(k, tree);
+}
+
+bool kept_tree_begin_walk(kept_tree *k, const octree *tree, const kept_look *look, uint64_t state)
+{
+    const bool usable = octree_count(tree) >= KEPT_FEWEST && find_changes(k, tree, state);
     if (!usable || !are_looks_equal(&k->look, look)) {
         kept_tree_clear(k);
         k->sieve = 0;

@@ -19,6 +19,7 @@
 
 #include "array.h"
 #include "octree/types.h"
+#include "point_values.h"
 #include "scene_digest.h"
 
 /* The maximum number of points of a kept subtree. A subtree that is a single leaf may have more. */
@@ -32,6 +33,10 @@
 typedef struct kept_look {
     view_coloring coloring;
     bool boxes, points; /* boxes: true if the view shows boxes of nodes; points: true if the view shows points */
+    bool paints;        /* true: the points have colours of their own, from the next three members */
+    view_point_color point_color;
+    point_scale scale;
+    const point_values *values;
     size_t capacity;
     uint8_t point_width;
 } kept_look;
@@ -64,6 +69,7 @@ typedef struct kept_tree {
     octree_cursor cursor;  /* the position in the tree's change log */
     /* `wait`: the number of ticks until the change log is read again; `backoff`: the length of the last such wait */
     unsigned wait, backoff;
+    uint64_t state;     /* the name of the tree's state in the last walk; 0: unknown */
     const octree *tree; /* the tree whose changes are being read */
     uint64_t *changed;  /* the keys of changed positions, sorted */
     size_t changed_count, changed_room, next_changed;
@@ -82,9 +88,13 @@ void kept_tree_clear(kept_tree *k);
 void kept_tree_release(kept_tree *k);
 
 /* Begin a walk. If this function returns true, the walk calls kept_tree_find_subtree() for each subtree that may be
- * kept. If it returns false, the cache is empty, and the walk must not use the cache. Cost: O(c log c) for c
+ * kept. If it returns false, the cache is empty, and the walk must not use the cache. `state` is 0 or a name of the
+ * tree's state, which changes with the tree: a walk of the same state needs no change log. Cost: O(c log c) for c
  * changes. */
-bool kept_tree_begin_walk(kept_tree *k, const octree *tree, const kept_look *look);
+bool kept_tree_begin_walk(kept_tree *k, const octree *tree, const kept_look *look, uint64_t state);
+
+/* Returns a name that no other call in this process has returned. It is never 0. */
+uint64_t kept_tree_make_name(void);
 
 /* Find the kept subtree at an address, and keep it for the next walk. Returns null if the subtree has changed or was
  * not kept. Calls must come in the order of the walk. */

@@ -232,7 +232,7 @@ static void answers_of_a_tree_are_drawn_like_answers_of_a_tick(void **state)
         play_tick(game);
     build_tick(&tick, &v, game);
     const octree_tick *asked = octree_game_tick(game);
-    const tree_subject about = {"tree", 0, asked->answers, asked->answer_count, NULL};
+    const tree_subject about = {.title = "tree", .answers = asked->answers, .answer_count = asked->answer_count};
     assert_true(tree_scene_build(&tree, &v, octree_game_tree(game), &about));
     for (unsigned layer = LAYER_RANGE; layer <= LAYER_NEAREST; layer++) {
         const layer_counts a = count_layer(&tick, layer), b = count_layer(&tree, layer);

@@ -222,6 +222,102 @@ static void kept_subtrees_are_not_used_by_another_view(void **state)
     release_session(p);
 }
 
+/* Points with colours of their own, from the tree and from a table of values. */
+static void painted_points_are_kept_with_their_colors(void **state)
+{
+    view v = look();
+    (void)state;
+    v.shade = SHADE_EDL;
+    v.point_color = POINTS_BY_LEAF;
+    v.point_scale.given = true;
+    v.point_scale.of.high[2] = 1000;
+    assert_true(compare_scenes(&v, 1) >= TICKS / 2);
+    v.point_color = POINTS_BY_DEPTH;
+    v.budget = 2600;
+    assert_true(compare_scenes(&v, 1) > 0);
+}
+
+/* Build the scene of a tree for a view, with and without the results for earlier views. Return whether subtrees were
+ * kept. */
+static bool compare_tree_scenes(scene *kept, const view *v, const octree *tree, const tree_subject *subject)
+{
+    scene whole = {0};
+    tree_subject alone = *subject;
+    alone.history = NULL;
+    assert_true(tree_scene_build(kept, v, tree, subject));
+    assert_true(tree_scene_build(&whole, v, tree, &alone));
+    expect_same(kept, &whole);
+    assert_true(!whole.kept || whole.kept->now.count == 0);
+    scene_release(&whole);
+    return kept->kept && kept->kept->now.count > 0;
+}
+
+/* The camera, the colours of points, their scale and their values change. */
+static void subtrees_of_tree_without_game_are_kept(void **state)
+{
+    enum { TURNS = 12 };
+    played *p = make_session();
+    octree_game *game;
+    tick_history h = {.state = 0};
+    scene kept = {0};
+    point_value rows[BODIES];
+    for (size_t i = 0; i < BODIES; i++)
+        rows[i] = (point_value){.color = {(uint8_t)i, (uint8_t)(i >> 8), 9}, .has[POINT_COLOR] = i % 3 > 0};
+    const point_values values = {.rows = rows, .count = BODIES, .first = 1, .kinds = 1u << POINT_COLOR};
+    view v = look();
+    (void)state;
+    v.shade = SHADE_EDL;
+    v.budget = 2000;
+    v.look.given = true;
+    assert_int_equal(octree_game_create(&p->session, &game), OCTREE_OK);
+    for (int turn = 0; turn < TURNS; turn++) {
+        const tree_subject subject = {.title = "tree", .values = turn < 10 ? &values : NULL, .history = &h};
+        v.look.azimuth = 20.0 * turn;
+        v.point_color = turn < 4 ? POINTS_BY_FILE : turn < 8 ? POINTS_BY_HEIGHT : POINTS_BY_FILE;
+        v.point_scale.given = true;
+        v.point_scale.of.high[2] = turn < 6 ? 500 : 100;
+        const bool has_kept = compare_tree_scenes(&kept, &v, octree_game_tree(game), &subject);
+        assert_true(has_kept || turn == 0 || turn % 2 == 0);
+    }
+    scene_release(&kept);
+    tick_history_release(&h);
+    octree_game_destroy(game);
+    release_session(p);
+}
+
+/* The change log does not hold so many changes, and then is not read for some ticks. */
+static void unchanged_tree_is_kept_after_many_changes(void **state)
+{
+    enum { MANY_CHANGES = 16 };
+    played *p = make_session();
+    octree_game *game;
+    tick_history h = {.state = 0};
+    scene kept = {0}, whole = {0};
+    view v = look();
+    (void)state;
+    assert_int_equal(octree_game_create(&p->session, &game), OCTREE_OK);
+    assert_true(tick_history_add(&h, &v, game));
+    for (uint64_t tick = 1; tick <= MANY_CHANGES; tick++) {
+        assert_true(tick_scene_build(&kept, &v, game, &h, NULL));
+        assert_int_equal(octree_game_advance(game), OCTREE_OK);
+        assert_true(tick_history_add(&h, &v, game));
+    }
+    for (int turn = 0; turn < 3; turn++) {
+        v.look.given = true;
+        v.look.azimuth = 20.0 * turn;
+        v.look.elevation = 30;
+        assert_true(tick_scene_build(&kept, &v, game, &h, NULL));
+        assert_true(tick_scene_build(&whole, &v, game, NULL, NULL));
+        expect_same(&kept, &whole);
+        assert_int_equal(kept.kept->now.count > 0, turn > 0);
+    }
+    scene_release(&kept);
+    scene_release(&whole);
+    tick_history_release(&h);
+    octree_game_destroy(game);
+    release_session(p);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -229,6 +325,9 @@ int main(void)
         cmocka_unit_test(small_nodes_are_left_out_of_kept_subtrees),
         cmocka_unit_test(budgets_thin_kept_subtrees_like_others),
         cmocka_unit_test(kept_subtrees_are_not_used_by_another_view),
+        cmocka_unit_test(painted_points_are_kept_with_their_colors),
+        cmocka_unit_test(subtrees_of_tree_without_game_are_kept),
+        cmocka_unit_test(unchanged_tree_is_kept_after_many_changes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
