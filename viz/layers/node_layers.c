@@ -15,12 +15,12 @@
  * that level or with that sieve. The result is the same, because levels and sieves are nested. The extra cost is at
  * most one pass over the scene for each of the 21 levels and for each bit of the sieve.
  *
- * Kept subtrees: in a large game most of the tree is the same as at the last tick. kept_tree.h stores the boxes and
- * markers of subtrees with few points. The walk copies an unchanged subtree from the store and does not visit its
- * nodes. The stored points were selected by the last tick's sieve, so the walk starts with this sieve. If this tick
- * needs a finer sieve, the store is emptied and the walk continues without it. If a coarser sieve is enough, or memory
- * runs out, the walk starts again without the store. The scene is always the one that a walk without the store makes.
- */
+ * Kept subtrees: in a large game most of the tree is the same as at the last tick, and all of it while only the camera
+ * moves. kept_tree.h stores the boxes and markers of subtrees with few points. The walk copies an unchanged subtree from
+ * the store and does not visit its nodes. The stored points were selected by the last picture's sieve, so the walk
+ * starts with this sieve. If this picture needs a finer sieve, the store is emptied and the walk continues without it.
+ * If a coarser sieve is enough, or memory runs out, the walk starts again without the store. The scene is always the one
+ * that a walk without the store makes. */
 #include "filter.h"
 #include "foreign_nodes.h"
 #include "kept_tree.h"
@@ -293,8 +293,8 @@ static octree_walk_order add_node(const octree_node *node, void *context)
     return s->out_of_memory || w->keeping_failed ? OCTREE_WALK_STOP : OCTREE_WALK_ON;
 }
 
-/* Return the store of subtrees, or null if the store must not be used. The store has only nodes of Octreel's tree, whose
- * changes must be known. It is not used with a filter, or for a small tree, which does not need it. */
+/* Return the store of subtrees, or null if the store must not be used. The store has only nodes of Octreel's tree, and
+ * the changes of this tree must be known. It is not used with a filter, or for a small tree, which does not need it. */
 static kept_tree *get_kept_tree(const tree_walk *w, const layer_source *in)
 {
     scene *s = w->scene;

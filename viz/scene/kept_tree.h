@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* kept_tree.h - a cache of subtrees as they appear in a scene, kept from one tick to the next.
+/* kept_tree.h - a cache of subtrees as they appear in a scene, kept from one picture to the next.
  *
- * The problem: drawing a tick walks the whole tree, although most ticks change few points.
+ * The problem: drawing a tick walks the whole tree, although most ticks change few points, and a moving camera changes
+ * none.
  *
  * The idea: keep the boxes and markers that the walk produced, and their digests, for small subtrees. A subtree is kept
  * if it is a leaf, or if it has at most KEPT_POINTS points and its parent has more.
