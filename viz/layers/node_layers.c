@@ -16,11 +16,11 @@
  * most one pass over the scene for each of the 21 levels and for each bit of the sieve.
  *
  * Kept subtrees: in a large game most of the tree is the same as at the last tick, and all of it while only the camera
- * moves. kept_tree.h stores the boxes and markers of subtrees with few points. The walk copies an unchanged subtree from
- * the store and does not visit its nodes. The stored points were selected by the last picture's sieve, so the walk
+ * moves. kept_tree.h stores the boxes and markers of subtrees with few points. The walk copies an unchanged subtree
+ * from the store and does not visit its nodes. The stored points were selected by the last picture's sieve, so the walk
  * starts with this sieve. If this picture needs a finer sieve, the store is emptied and the walk continues without it.
- * If a coarser sieve is enough, or memory runs out, the walk starts again without the store. The scene is always the one
- * that a walk without the store makes. */
+ * If a coarser sieve is enough, or memory runs out, the walk starts again without the store. The scene is always the
+ * one that a walk without the store makes. */
 #include "filter.h"
 #include "foreign_nodes.h"
 #include "kept_tree.h"
