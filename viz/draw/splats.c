@@ -11,9 +11,9 @@
  * samples around it. The differences of depth to two opposite neighbours are added first: on a tilted plane the two
  * differences cancel, and the plane is lit evenly.
  *
- * Depths are integers, 8 units to a sample. Everything after projection is integer arithmetic, so every machine gives
- * the same result, also for ties. Under perspective, the depth is the logarithm of the distance, so that a slope looks
- * the same near and far. */
+ * Depths are integers, 8 units to a sample. Everything after projection is exact, so every machine gives the same
+ * result, also for ties. Under perspective, the depth is the logarithm of the distance, so that a slope looks the same
+ * near and far. */
 #include "splats.h"
 #include "array.h"
 #include "layer.h"
@@ -26,17 +26,6 @@
 #include <string.h>
 
 /* ---- Position and size --------------------------------------------------------------------------------------- */
-
-/* The unit of depth is 1/8 of a sample. So a difference of depth between two samples is a slope, which depends neither
- * on the scale of the world nor on the camera. */
-#define DEPTH_PARTS 8
-#define MOST_DEPTH (1 << 29)
-
-/* The nearest point at a sample. */
-typedef struct splat {
-    int32_t depth;
-    uint32_t owner; /* 1 + the index of the point's marker; 0: no point */
-} splat;
 
 /* The values that all points of a scene share. */
 typedef struct splatter {
@@ -95,50 +84,6 @@ static bool find_disc_square(const splatter *with, const scene_marker *marker, s
 
 /* ---- The nearest point --------------------------------------------------------------------------------------- */
 
-/* Returns whether point a is nearer than point b. The caller has found that their depths in units are equal. If their
- * view depths are equal too, the point with the lower id counts as nearer. */
-static bool is_nearer(const scene *s, size_t a, size_t b)
-{
-    double seen[2][3];
-    camera_transform(&s->camera, s->markers.items[a].at, seen[0]);
-    camera_transform(&s->camera, s->markers.items[b].at, seen[1]);
-    if (seen[0][2] != seen[1][2])
-        return seen[0][2] < seen[1][2];
-    return s->markers.items[a].id < s->markers.items[b].id;
-}
-
-/* Returns whether a sample is inside a disc of diameter `side`. `far` is the square of the sample's distance from the
- * disc's centre, in half samples. */
-static bool is_in_disc(int side, int far)
-{
-    return side <= 2 || far <= side * side;
-}
-
-/* Find the depth of a disc at sample (x, y). `depth` is the depth of the disc's centre. Returns false if the sample is
- * outside the disc. */
-static bool find_disc_depth(const splat_square *q, int x, int y, int32_t depth, int32_t *at)
-{
-    const int dx = 2 * (x - q->left) - q->side + 1, dy = 2 * (y - q->top) - q->side + 1, far = dx * dx + dy * dy;
-    *at = depth + far / (4 * q->side);
-    return is_in_disc(q->side, far);
-}
-
-static void draw_disc(splats *t, const scene *s, size_t index, const splat_square *q, int32_t depth)
-{
-    const int right = q->left + q->side, bottom = q->top + q->side;
-    const int left = q->left > 0 ? q->left : 0, end = right < s->view.width ? right : s->view.width;
-    for (int y = q->top > 0 ? q->top : 0; y < bottom && y < s->view.height; y++) {
-        splat *row = t->samples + (size_t)y * (size_t)s->view.width;
-        for (int x = left; x < end; x++) {
-            const splat now = row[x];
-            int32_t at;
-            if (find_disc_depth(q, x, y, depth, &at) &&
-                (now.owner == 0 || at < now.depth || (at == now.depth && is_nearer(s, index, now.owner - 1))))
-                row[x] = (splat){at, (uint32_t)index + 1};
-        }
-    }
-}
-
 /* Returns the counter of the pixel that contains the centre of a disc. Returns null if the centre is outside the
  * picture, or if points are not counted. */
 static uint32_t *find_density_counter(const splats *t, const scene *s, const splat_square *q)
@@ -150,7 +95,7 @@ static uint32_t *find_density_counter(const splats *t, const scene *s, const spl
     return &t->shared[(size_t)(y / samples) * (size_t)(s->view.width / samples) + (size_t)(x / samples)];
 }
 
-static void draw_discs(splats *t, const splatter *with)
+static bool draw_discs(splats *t, const splatter *with)
 {
     const scene *s = with->scene;
     for (size_t i = 0; i < s->markers.count; i++) {
@@ -158,60 +103,13 @@ static void draw_discs(splats *t, const splatter *with)
         double depth;
         if (!find_disc_square(with, &s->markers.items[i], &square, &depth))
             continue;
-        draw_disc(t, s, i, &square, depth_in_units(with, depth));
+        if (!splat_buffer_draw_disc(&t->nearest, s, i, &square, depth_in_units(with, depth)))
+            return false;
         uint32_t *shared = find_density_counter(t, s, &square);
         if (shared)
             ++*shared;
     }
-}
-
-/* ---- Light --------------------------------------------------------------------------------------------------- */
-
-/* A sample gets half of the full light if the sum of its slopes is this number, in units of depth per sample. */
-#define HALF_LIGHT 160
-
-/* The steepest slope that is counted, in units of depth per sample. If a slope is steeper, the neighbour belongs to
- * another object. */
-#define STEEPEST (4 * DEPTH_PARTS)
-
-/* Returns how much nearer than `depth` the point at sample (x, y) is. Returns 0 if there is no point. */
-static int32_t find_depth_difference(const splats *t, const scene *s, int x, int y, int32_t depth)
-{
-    if (x < 0 || y < 0 || x >= s->view.width || y >= s->view.height)
-        return 0;
-    const splat *n = &t->samples[(size_t)y * (size_t)s->view.width + (size_t)x];
-    return n->owner ? depth - n->depth : 0;
-}
-
-static int32_t clamp_slope(int32_t value, int32_t most)
-{
-    return value > most ? most : value < -most ? -most : value;
-}
-
-/* Returns how much deeper a sample is than the eight samples around it at distance `reach`. The differences to opposite
- * neighbours are added first, so that a plane is lit evenly, however steep it is. */
-static int32_t measure_depth_below_neighbors(const splats *t, const scene *s, int x, int y, int reach)
-{
-    static const int8_t around[4][2] = {{1, 0}, {0, 1}, {1, 1}, {1, -1}};
-    const int32_t depth = t->samples[(size_t)y * (size_t)s->view.width + (size_t)x].depth, most = STEEPEST * reach;
-    int32_t sum = 0;
-    for (int i = 0; i < 4; i++) {
-        const int dx = around[i][0] * reach, dy = around[i][1] * reach;
-        const int32_t both = clamp_slope(find_depth_difference(t, s, x + dx, y + dy, depth), most) +
-                             clamp_slope(find_depth_difference(t, s, x - dx, y - dy, depth), most);
-        sum += both > 0 ? both : 0;
-    }
-    return sum / reach;
-}
-
-/* Returns the light at a sample; 256 is full light. Eye-dome lighting at two distances shows both fine and large
- * shapes. */
-static int find_light(const splats *t, const scene *s, int x, int y)
-{
-    const int reach = s->unit * s->view.aa;
-    return 256 * HALF_LIGHT /
-           (HALF_LIGHT + measure_depth_below_neighbors(t, s, x, y, reach) +
-            measure_depth_below_neighbors(t, s, x, y, 4 * reach));
+    return true;
 }
 
 /* ---- Colours ------------------------------------------------------------------------------------------------- */
@@ -254,28 +152,30 @@ static void add_run_quad(quad_list *quads, uint32_t index, int left, int right, 
                         (y + 1) * QUAD_SUBPIXELS);
 }
 
-static void set_run_colors(splats *t, const splatter *with, int x, int end, int y)
+/* Set the colours of a run of samples that show the same point. */
+static void set_run_colors(splats *t, const splatter *with, uint32_t index, int x, int end, int y)
 {
     const scene *s = with->scene;
-    const size_t row = (size_t)y * (size_t)s->view.width;
-    const theme_color color = marker_color(t, s, with, t->samples[row + (size_t)x].owner - 1);
+    theme_color *row = t->colors + (size_t)y * (size_t)s->view.width;
+    const theme_color color = marker_color(t, s, with, index);
     for (; x < end; x++)
-        t->colors[row + (size_t)x] =
-            s->view.shade == SHADE_EDL ? theme_fade_color(color, find_light(t, s, x, y)) : color;
+        row[x] = s->view.shade == SHADE_EDL ? theme_fade_color(color, t->light[x]) : color;
 }
 
 /* Add the quads of row y: one quad for each run of samples that show the same point. */
 static void paint_row(splats *t, quad_list *quads, const splatter *with, int y)
 {
     const int width = with->scene->view.width;
-    const splat *row = t->samples + (size_t)y * (size_t)width;
+    const uint32_t *owners = splat_buffer_row(&t->nearest, y);
+    if (with->scene->view.shade == SHADE_EDL)
+        splat_buffer_find_light(&t->nearest, with->scene, y, t->light);
     for (int x = 0, end; x < width; x = end) {
-        for (end = x + 1; end < width && row[end].owner == row[x].owner;)
+        for (end = x + 1; end < width && owners[end] == owners[x];)
             end++;
-        if (row[x].owner == 0)
+        if (owners[x] == 0)
             continue;
-        set_run_colors(t, with, x, end, y);
-        add_run_quad(quads, row[x].owner - 1, x, end, y);
+        set_run_colors(t, with, owners[x] - 1, x, end, y);
+        add_run_quad(quads, owners[x] - 1, x, end, y);
     }
 }
 
@@ -283,7 +183,8 @@ static void paint_row(splats *t, quad_list *quads, const splatter *with, int y)
 
 void splats_release(splats *t)
 {
-    free(t->samples);
+    splat_buffer_release(&t->nearest);
+    free(t->light);
     free(t->shared);
     free(t->colors);
     *t = (splats){0};
@@ -293,11 +194,11 @@ static bool reserve_samples(splats *t, const scene *s)
 {
     const size_t size = (size_t)s->view.width * (size_t)s->view.height, side = (size_t)s->view.aa;
     const size_t pixels = s->view.point_color == POINTS_BY_DENSITY ? size / side / side : 0;
-    if (!array_grow(&t->samples, size, &t->sample_room, sizeof *t->samples) ||
+    if (!splat_buffer_clear(&t->nearest, s) ||
+        !array_grow(&t->light, 2 * (size_t)s->view.width, &t->light_room, sizeof *t->light) ||
         !array_grow(&t->colors, size, &t->color_room, sizeof *t->colors) ||
         !array_grow(&t->shared, pixels, &t->shared_room, sizeof *t->shared))
         return false;
-    memset(t->samples, 0, size * sizeof *t->samples);
     if (pixels > 0)
         memset(t->shared, 0, pixels * sizeof *t->shared);
     return true;
@@ -306,9 +207,8 @@ static bool reserve_samples(splats *t, const scene *s)
 bool splats_paint_points(splats *t, quad_list *quads, const scene *s)
 {
     const splatter with = make_splatter(s);
-    if (!reserve_samples(t, s))
+    if (!reserve_samples(t, s) || !draw_discs(t, &with))
         return false;
-    draw_discs(t, &with);
     for (int y = 0; y < s->view.height; y++)
         paint_row(t, quads, &with, y);
     return true;

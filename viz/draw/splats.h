@@ -8,14 +8,16 @@
 
 #include "array.h"
 #include "quads.h"
+#include "splat_buffer.h"
 
 /* Buffers that are reused from frame to frame. A zeroed struct is empty. */
 typedef struct splats {
-    struct splat *samples; /* for each sample, the nearest point */
+    splat_buffer nearest; /* for each sample, the nearest point */
+    int32_t *light;       /* the light of a row of samples, and as much room again */
     /* with POINTS_BY_DENSITY: for each pixel, the number of points whose centre is in the pixel */
     uint32_t *shared;
     theme_color *colors; /* the colour of each sample; valid only for samples with the index THEME_OWN */
-    size_t sample_room, shared_room, color_room;
+    size_t light_room, shared_room, color_room;
 } splats;
 
 void splats_release(splats *t);
@@ -43,11 +45,6 @@ typedef struct splat_covering {
     double view_depth;
     uint64_t id;
 } splat_covering;
-
-/* A square in samples. */
-typedef struct splat_square {
-    int left, top, side;
-} splat_square;
 
 /* List the points of a scene whose discs cover samples of a square. `s` is from project_scene_to_samples(). Returns
  * false if memory runs out. Cost: O(markers). */
