@@ -86,6 +86,20 @@ async function sayTouch()
     await settled();
 }
 
+/* If a moving view is slow with half of the pixels of an axis, it loses more of them, and gets them back. The first
+ * picture has all pixels. */
+function sayCoarser()
+{
+    const scales = [], now = performance.now;
+    for (const ms of [100, 100, 100, 1, 100, 100, 100, 100, 1, 1, 1]) {
+        performance.now = () => clock += ms;
+        point("pointermove", 1, 170 + scales.length, 100);
+        scales.push(interaction.live.coarse.toFixed(2));
+    }
+    performance.now = now;
+    say("coarser while it is slow", scales.join(" "));
+}
+
 /* A view that moves has fewer pixels if a picture takes long, until it rests. */
 async function sayCoarse()
 {
@@ -95,6 +109,8 @@ async function sayCoarse()
     live.cost = 1000;
     point("pointermove", 1, 160, 100);
     say("coarse while it moves", Math.abs(canvas().width - width / 2) <= 1);
+    await until(fills, "all pixels");
+    sayCoarser();
     await until(fills, "all pixels");
     live.cost = 0;
     point("pointermove", 1, 200, 100);

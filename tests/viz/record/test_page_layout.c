@@ -81,6 +81,8 @@ static void slow_pictures_lose_pixels_while_the_view_moves(void **state)
 {
     const driven *d = need_page(state);
     assert_reported_value(d->said, "coarse while it moves", "true");
+    assert_reported_value(d->said, "coarser while it is slow",
+                          "0.50 0.50 0.35 0.50 0.50 0.35 0.25 0.25 0.36 0.50 0.50");
     assert_reported_value(d->said, "all pixels if they are fast", "true");
 }
 

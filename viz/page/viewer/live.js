@@ -11,7 +11,10 @@ const PICK_RADIUS = 5;       /* CSS pixels */
 const MARK_RADIUS = 9;       /* CSS pixels */
 const KEY_STEP = 16;         /* pixels of the picture: a key turns the camera as much as dragging by this distance */
 const SMOOTH = 10;           /* ms for a picture; if it takes longer, a moving view is drawn with fewer pixels */
-const COARSE = 0.5;          /* the scale of the picture then */
+const SLOW = 50;             /* ms; if two such pictures take longer, the next one is drawn with still fewer */
+const COARSE = 0.5;          /* the scale of the picture then, at first */
+const COARSEST = 0.25;       /* the least scale */
+const COARSER = 0.7;         /* the factor between scales */
 const REST = 100;            /* ms after which a view that moved is drawn with all pixels */
 const SUITED_HEIGHT = 720;   /* lines and letters of the picture look as in a frame of this height, in CSS pixels */
 const MOST_SIDE = 16384;     /* the longest side of a picture in samples (VIEW_MAX_SIDE in scene/view.h) */
@@ -42,6 +45,7 @@ class Live {
         this.exact = false; /* true: the picture has the size and the text of a recorded frame */
         this.scale = 1;     /* pixels of the picture for each pixel of the screen, on one axis; see glide() */
         this.cost = 0;      /* ms that the last picture with all pixels took */
+        this.coarse = COARSE; /* the scale while the view moves */
         this.observer = new ResizeObserver(() => this.isShown && !this.exact && this.draw());
         this.observer.observe(stage);
         this.recorded = player.engine.view;
@@ -133,18 +137,31 @@ class Live {
             if (!this.exact && this.rows !== this.engine.rows)
                 this.showRows(JSON.parse(this.rows = this.engine.rows));
             this.mark();
-            if (this.scale === 1)
-                this.cost = performance.now() - start;
+            this.adapt(performance.now() - start);
         } catch (error) {
             this.showStatus(error.message);
         }
+    }
+
+    /* Choose the scale of a moving view by the ms that the last pictures took. One slow picture alone changes nothing:
+     * the first of a new size has to get memory. */
+    adapt(cost)
+    {
+        const least = Math.min(cost, this.coarseCost ?? 0);
+        this.coarseCost = this.scale < 1 ? cost : undefined;
+        if (this.scale === 1)
+            this.cost = cost;
+        else if (least > SLOW)
+            this.coarse = Math.max(this.coarse * COARSER, COARSEST);
+        else if (cost < SLOW / 3)
+            this.coarse = Math.min(this.coarse / COARSER, COARSE);
     }
 
     /* Change the view while it moves. A slow picture loses pixels until the view rests. */
     glide(changes)
     {
         if (!this.exact && this.cost > SMOOTH)
-            this.scale = COARSE;
+            this.scale = this.coarse;
         clearTimeout(this.resting);
         this.resting = setTimeout(() => {
             const isCoarse = this.scale < 1;
