@@ -92,9 +92,12 @@ static size_t move(contender *c, manner how, const ticks *t, size_t all)
         octree_move_many(c->self, from, (const double(*)[3])t->places[!t->back], t->count, NULL, &done);
         return done;
     }
+    const octree_point *points = t->back ? t->before : t->after;
     if (c->peer == &peer_octree)
-        octree_clear(c->self);
-    return c->peer->change[PEER_BUILD](c->self, t->back ? t->before : t->after, NULL, all) == all ? t->count : 0;
+        octree_replace_all(c->self, points, all, NULL, &done);
+    else
+        done = c->peer->change[PEER_BUILD](c->self, points, NULL, all);
+    return done == all ? t->count : 0;
 }
 
 static bool move_once(contender *c, manner how, const workload *w, const ticks *t, int round)
@@ -109,7 +112,7 @@ static bool play_frame(contender *c, manner how, const workload *w, const ticks 
 {
     const size_t queries = w->query_count < FRAME_QUERIES ? w->query_count : FRAME_QUERIES;
     const double start = processor_time();
-    const size_t moved = move(c, how, t, w->count);
+    const size_t moved = move(c, how == AT_ONCE && t->count == w->count ? ANEW : how, t, w->count);
     c->peer->ask[PEER_BOX](c->self, w->targets, queries, answers);
     c->peer->ask[PEER_NEAREST](c->self, w->targets, queries, answers + FRAME_QUERIES);
     c->round_ns[round] = processor_time() - start;

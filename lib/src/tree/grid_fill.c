@@ -313,7 +313,10 @@ static bool build_tree_from_counts(filling *f, node *made)
     sum_cell_counts(f);
     if (f->counts[0][0] == 0)
         return true;
-    if (!make_grid_node(f, root_cell(), 0, made))
+    store_expect_points(f->whole->store, f->counts[0][0]);
+    const bool ok = make_grid_node(f, root_cell(), 0, made);
+    store_expect_points(f->whole->store, 0);
+    if (!ok)
         return false;
     run_tasks(tree, write_points_of_share, f->tasks, f);
     if (!build_crowded_cells(f))

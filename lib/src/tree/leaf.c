@@ -302,9 +302,25 @@ void store_init(store *s)
     pool_init(&s->points, &s->memory, sizeof(octree_point));
 }
 
+void store_expect_points(store *s, size_t count)
+{
+    s->points.expected = count + count / 12; /* blocks of leaves have room for up to a twelfth more points */
+    s->nodes.expected = count / 16;
+}
+
+/* Free the hashed leaves below a node, which are not in the pools. */
+static void release_hashed_leaves(store *s, const node *n)
+{
+    for (unsigned i = 0; n->below && i < bits_count8(n->octants); i++)
+        release_hashed_leaves(s, &children_of(n)[i]);
+    if (is_hashed(n))
+        leaf_release(s, n);
+}
+
+/* The blocks of the pools are freed with their slabs, so that no leaf is loaded from memory. */
 void store_release(store *s, const node *root)
 {
-    node_release(s, root); /* a hashed leaf is not in the pools, so it must be freed separately */
+    release_hashed_leaves(s, root);
     pool_release(&s->nodes);
     pool_release(&s->points);
 }

@@ -33,6 +33,11 @@ typedef struct store {
 /* Initialize the pools of a store. Its member `memory` is already set. */
 void store_init(store *s);
 
+/* Set the size of the first slabs of empty pools for a number of points. One large slab is allocated faster than many
+ * small slabs, and malloc keeps its memory for the next build instead of returning it to the system. With 0 points, the
+ * pools grow as usual. */
+void store_expect_points(store *s, size_t count);
+
 /* Free the nodes below a root, and all blocks of the pools. */
 void store_release(store *s, const node *root);
 

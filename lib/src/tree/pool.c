@@ -251,13 +251,14 @@ static void join_free_blocks(pool *p)
     arena_free(p->memory, sorted, p->slab_count * sizeof *sorted);
 }
 
-/* Returns the size of the next slab in bytes. The size is an eighth of the pool, so that at most an eighth of the pool
- * is unused. The first slab of a task's pool has the expected size. */
+/* Returns the size of the next slab in bytes. The expected units come first. Further slabs are an eighth of the pool,
+ * so that at most an eighth of the pool is unused, or a thirty-second if the pool knew what to expect. */
 static size_t next_slab_bytes(const pool *p)
 {
     const size_t least = p->lender ? POOL_MAX_UNITS * p->unit : SLAB_MIN_BYTES;
-    const size_t wanted =
-        p->lender && p->total_units == 0 ? p->expected * p->unit : p->total_units * p->unit / (p->expected ? 32 : 8);
+    const size_t more = p->total_units / (p->expected ? 32 : 8);
+    const size_t rest = p->expected > p->total_units ? p->expected - p->total_units : 0;
+    const size_t wanted = (rest > more ? rest : more) * p->unit;
     const size_t most = p->lender && p->total_units == 0 ? SIZE_MAX : SLAB_MAX_BYTES;
     return wanted < least ? least : wanted < most ? wanted : most;
 }

@@ -175,6 +175,33 @@ octree_status rebuild_tree(octree *tree, const octree_def *def)
     return status;
 }
 
+octree_status octree_replace_all(octree *tree, const octree_point *points, size_t count, octree_status *statuses,
+                                 size_t *inserted)
+{
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_replace_all, tree, points, count, statuses, inserted);
+    octree *other;
+    if (!tree || (count && !points))
+        return OCTREE_NULL_ARGUMENT;
+    if (is_running_callback(tree))
+        return OCTREE_BUSY;
+    octree_status status = octree_create(&tree->def, &other);
+    if (status != OCTREE_OK)
+        return status;
+    /* mark `tree` as visited, because its executor runs tasks of the other tree */
+    const unsigned begun = begin_callbacks(tree);
+    if (tree->def.full_leaf == OCTREE_GROW) /* no leaf refuses points */
+        store_expect_points(&other->store, count);
+    status = octree_insert_many(other, points, count, statuses, inserted);
+    store_expect_points(&other->store, 0);
+    end_callbacks(begun);
+    if (status == OCTREE_OK)
+        swap_contents(tree, other);
+    octree_destroy(other);
+    if (status == OCTREE_OK)
+        tune_if_due(tree);
+    return status;
+}
+
 octree_status octree_reworld(octree *tree, const octree_box *world)
 {
     RETURN_IN_DEFAULT_MODE(octree_status, octree_reworld, tree, world);

@@ -213,6 +213,7 @@ static void change(run *r)
     SAY(octree_reworld(tree, &larger));
     SAY(octree_reworld(tree, &smaller));
     SAY(octree_compact(tree));
+    SAY(octree_replace_all(tree, points, POINTS / 2, NULL, &done));
     SAY(octree_tune(tree, NULL));
     r->digest = octree_digest_word(r->digest, octree_digest(tree));
     check_mode(r, "octree_digest");

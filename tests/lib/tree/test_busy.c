@@ -4,7 +4,7 @@
 
 #include "octree/game.h"
 
-enum { COUNT = 3000, CHANGES = 10 }; /* enough points for several tasks */
+enum { COUNT = 3000, CHANGES = 11 }; /* enough points for several tasks */
 
 /* The counts of what callbacks attempted. */
 typedef struct attempts {
@@ -36,6 +36,8 @@ static octree_status change_somehow(octree *tree, int change)
         return octree_tune(tree, NULL);
     case 8:
         return octree_reworld(tree, &world);
+    case 9:
+        return octree_replace_all(tree, &stored, 1, NULL, NULL);
     default:
         return octree_compact(tree);
     }

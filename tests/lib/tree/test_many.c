@@ -411,6 +411,54 @@ static void removing_everything_leaves_the_empty_tree(void **state)
 }
 
 /* What a batch leaves free is taken by the next. */
+/* The tree's own points may be passed, in the memory of a leaf. Some points are outside the world, repeated or
+ * refused. */
+static void replacing_all_points_equals_clearing_and_inserting(void **state)
+{
+    (void)state;
+    for (uint64_t seed = 0; seed < 60; seed++) {
+        uint64_t random = seed;
+        brute old = {0}, all = {0};
+        octree_status expected[400], statuses[400];
+        brute_scatter(&old, &random, 300, seed % 17, 20);
+        brute_scatter(&all, &random, 400, seed % 13, 20);
+        all.points[0].position[1] = 17;
+        all.points[7] = all.points[3];
+        const twins t = make_twins(cube(-16, 16), 2, 21, seed % 2 ? OCTREE_REFUSE : OCTREE_GROW);
+        assert_int_equal(octree_insert_many(t.batched, old.points, old.count, NULL, NULL), OCTREE_OK);
+        size_t inserted = 0, stepped = 0;
+        assert_int_equal(octree_replace_all(t.batched, all.points, all.count, statuses, &inserted), OCTREE_OK);
+        assert_int_equal(octree_insert_many(t.stepped, all.points, all.count, expected, &stepped), OCTREE_OK);
+        assert_int_equal(inserted, stepped);
+        assert_memory_equal(statuses, expected, all.count * sizeof *statuses);
+        assert_twins_equal(t);
+        destroy_twins(t);
+        brute_free(&old);
+        brute_free(&all);
+    }
+}
+
+static void a_tree_may_be_replaced_by_points_of_its_own_leaf(void **state)
+{
+    (void)state;
+    octree *tree = make_tree(cube(-16, 16), 64, 21, OCTREE_GROW);
+    octree_node leaf;
+    for (uint64_t id = 0; id < 40; id++)
+        assert_int_equal(octree_insert(tree, (double[3]){(double)id / 4, 1, 2}, id), OCTREE_OK);
+    const uint64_t version = octree_version(tree);
+    assert_int_equal(octree_node_at(tree, 1, &leaf), OCTREE_OK);
+    assert_int_equal(octree_replace_all(tree, leaf.points + 10, 20, NULL, NULL), OCTREE_OK);
+    assert_int_equal(octree_count(tree), 20);
+    assert_true(octree_contains(tree, (double[3]){2.5, 1, 2}, 10));
+    assert_true(octree_version(tree) > version);
+    assert_valid(tree);
+    assert_int_equal(octree_replace_all(tree, NULL, 0, NULL, NULL), OCTREE_OK);
+    assert_int_equal(octree_count(tree), 0);
+    assert_int_equal(octree_replace_all(tree, NULL, 1, NULL, NULL), OCTREE_NULL_ARGUMENT);
+    assert_int_equal(octree_replace_all(NULL, NULL, 0, NULL, NULL), OCTREE_NULL_ARGUMENT);
+    octree_destroy(tree);
+}
+
 static void batches_one_after_the_other_take_no_more_memory(void **state)
 {
     (void)state;
@@ -512,6 +560,8 @@ int main(void)
         cmocka_unit_test(null_and_oversized_arrays_are_refused),
         cmocka_unit_test(the_order_and_sizes_of_batches_do_not_matter_under_grow),
         cmocka_unit_test(removing_everything_leaves_the_empty_tree),
+        cmocka_unit_test(replacing_all_points_equals_clearing_and_inserting),
+        cmocka_unit_test(a_tree_may_be_replaced_by_points_of_its_own_leaf),
         cmocka_unit_test(batches_one_after_the_other_take_no_more_memory),
         cmocka_unit_test(queries_are_right_after_batches),
     };
