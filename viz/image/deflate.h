@@ -17,12 +17,12 @@ typedef void deflate_sink(void *context, const uint8_t *bytes, size_t size);
 typedef struct deflater deflater;
 
 /* Create an encoder for `rows` rows of `row_size` bytes each, with `pixel` bytes (1 or 3) per pixel. The encoder needs
- * memory for 170 KB and three rows. Returns null if memory runs out. */
+ * memory for 400 KB and two rows. Returns null if memory runs out. */
 deflater *deflater_open(size_t row_size, size_t rows, size_t pixel, deflate_sink *sink, void *context);
 void deflater_close(deflater *d); /* `d` may be null */
 
-/* Append the next row. The first byte of `pixels` is PNG's filter type 0 (no filter); row_size - 1 bytes of pixels
- * follow. */
+/* Append the next row: row_size - 1 bytes of pixels. In the stream, the row begins with its PNG filter, which the
+ * encoder chooses by the rows so far: 0 (none) or, only in RGB pictures, 1 (Sub). */
 void deflater_add_row(deflater *d, const uint8_t *pixels);
 
 /* Pass the rest of the stream to the sink. Must be called after the last row. */

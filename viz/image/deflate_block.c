@@ -22,9 +22,10 @@ enum {
     PRECODE_SYMBOLS = 19,
     LONGEST_PRECODE = 7,
     HEADER_ROOM = DEFLATE_LITERALS + DEFLATE_DISTANCES,
-    /* the greatest size of a block in bytes: at most 48 bits per token and 16 bits per code length, with some
-     * reserve */
-    MOST_OF_BLOCK = 6 * (BLOCK_TOKENS + BLOCK_SPARE) + 2 * HEADER_ROOM + 64
+    PART_TOKENS = INDEXED_BLOCK_TOKENS + BLOCK_SPARE, /* room is reserved for so many tokens at once */
+    /* the greatest size in bytes of a header and PART_TOKENS tokens: at most 48 bits per token and 16 bits per code
+     * length, with some reserve */
+    MOST_OF_PART = 6 * PART_TOKENS + 2 * HEADER_ROOM + 64
 };
 
 /* RFC 1951, 3.2.5: the smallest length or distance of each symbol, and the symbol's number of extra bits. */
@@ -39,8 +40,9 @@ static const uint16_t distance_bases[] = {1,    2,    3,    4,    5,    7,    9,
 static const uint8_t distance_extra[] = {0, 0, 0, 0, 1, 1, 2,  2,  3,  3,  4,  4,  5,  5,  6, 6,
                                          7, 7, 8, 8, 9, 9, 10, 10, 11, 11, 12, 12, 13, 13, 0};
 
-void deflate_begin_blocks(deflate_blocks *b, deflate_sink *sink, void *context)
+void deflate_begin_blocks(deflate_blocks *b, size_t most, deflate_sink *sink, void *context)
 {
+    b->most = most;
     b->sink = sink;
     b->context = context;
     b->writer.to = b->output;
@@ -57,6 +59,7 @@ void deflate_add_repeat(deflate_blocks *b, size_t length, size_t distance)
 {
     const unsigned symbol = b->distance_symbols[distance <= 256 ? distance - 1 : 256 + ((distance - 1) >> 7)];
     const size_t extra = distance - distance_bases[symbol];
+    b->distance_counts[symbol]++;
     b->tokens[b->count++] = (deflate_token)(DEFLATE_REPEAT + length - DEFLATE_SHORTEST) | symbol << DISTANCE_AT |
                             (deflate_token)extra << DISTANCE_EXTRA_AT;
 }
@@ -71,6 +74,13 @@ void deflate_flush_output(deflate_blocks *b)
         b->sink(b->context, b->output, size);
 }
 
+/* Make room for the next PART_TOKENS tokens, and for a header before them. */
+static void reserve_output(deflate_blocks *b)
+{
+    if ((size_t)(b->writer.to - b->output) > sizeof b->output - MOST_OF_PART)
+        deflate_flush_output(b);
+}
+
 /* Append `count` bits. At most 56 bits may be appended between two calls of output_whole_bytes(). */
 static inline void append_bits(bit_writer *w, uint32_t bits, int count)
 {
@@ -78,7 +88,7 @@ static inline void append_bits(bit_writer *w, uint32_t bits, int count)
     w->count += count;
 }
 
-/* Move all whole bytes from the 64-bit word to the output. deflate_write_block() has reserved room for the block. */
+/* Move all whole bytes from the 64-bit word to the output. reserve_output() has made room. */
 static inline void output_whole_bytes(bit_writer *w)
 {
     bytes_store_word(w->to, w->bits);
@@ -238,15 +248,12 @@ static inline unsigned distance_symbol(deflate_token token)
     return (token >> DISTANCE_AT) % (1 << (DISTANCE_EXTRA_AT - DISTANCE_AT));
 }
 
-static void count_symbols(deflate_blocks *b)
+static void count_literals(deflate_blocks *b)
 {
     uint32_t kinds[TOKEN_KINDS] = {0};
     memset(b->literal_counts, 0, sizeof b->literal_counts);
-    memset(b->distance_counts, 0, sizeof b->distance_counts);
-    for (size_t i = 0; i < b->count; i++) {
+    for (size_t i = 0; i < b->count; i++)
         kinds[token_kind(b->tokens[i])]++;
-        b->distance_counts[distance_symbol(b->tokens[i])]++;
-    }
     memcpy(b->literal_counts, kinds, DEFLATE_REPEAT * sizeof *kinds);
     b->literal_counts[DEFLATE_END] = 1;
     for (int more = 0; more < TOKEN_KINDS - DEFLATE_REPEAT; more++)
@@ -277,21 +284,25 @@ static void list_token_prefixes(bit_string of[TOKEN_KINDS], const deflate_blocks
 static void append_tokens(deflate_blocks *b)
 {
     bit_string prefixes[TOKEN_KINDS];
-    bit_writer w = b->writer; /* a local copy of the writer, which the compiler keeps in registers */
     list_token_prefixes(prefixes, b);
     b->distances.lengths[DEFLATE_DISTANCES] = 0;
     b->distances.bits[DEFLATE_DISTANCES] = 0;
-    for (size_t i = 0; i < b->count; i++) {
-        const deflate_token t = b->tokens[i];
-        const bit_string prefix = prefixes[token_kind(t)];
-        append_bits(&w, prefix.bits, prefix.count);
-        append_symbol(&w, &b->distances, distance_symbol(t));
-        append_bits(&w, t >> DISTANCE_EXTRA_AT, distance_extra[distance_symbol(t)]);
-        output_whole_bytes(&w);
+    for (size_t i = 0, end; i < b->count;) {
+        if (i > 0)
+            reserve_output(b);
+        bit_writer w = b->writer; /* a local copy of the writer, which the compiler keeps in registers */
+        for (end = i + PART_TOKENS < b->count ? i + PART_TOKENS : b->count; i < end; i++) {
+            const deflate_token t = b->tokens[i];
+            const bit_string prefix = prefixes[token_kind(t)];
+            append_bits(&w, prefix.bits, prefix.count);
+            append_symbol(&w, &b->distances, distance_symbol(t));
+            append_bits(&w, t >> DISTANCE_EXTRA_AT, distance_extra[distance_symbol(t)]);
+            output_whole_bytes(&w);
+        }
+        b->writer = w;
     }
-    append_symbol(&w, &b->literals, DEFLATE_END);
-    output_whole_bytes(&w);
-    b->writer = w;
+    append_symbol(&b->writer, &b->literals, DEFLATE_END);
+    output_whole_bytes(&b->writer);
 }
 
 enum { STORED, FIXED, DYNAMIC };
@@ -318,9 +329,8 @@ void deflate_write_block(deflate_blocks *b, const uint8_t *bytes, size_t size, b
 {
     header h;
     huffman_code fixed[2];
-    if ((size_t)(b->writer.to - b->output) > sizeof b->output - MOST_OF_BLOCK)
-        deflate_flush_output(b);
-    count_symbols(b);
+    reserve_output(b);
+    count_literals(b);
     huffman_build_code(&b->literals, b->literal_counts, DEFLATE_LITERALS - 2, HUFFMAN_LONGEST);
     huffman_build_code(&b->distances, b->distance_counts, DEFLATE_DISTANCES, HUFFMAN_LONGEST);
     make_header(&h, b);
@@ -340,4 +350,5 @@ void deflate_write_block(deflate_blocks *b, const uint8_t *bytes, size_t size, b
         write_coded_block(b, NULL, last);
     }
     b->count = 0;
+    memset(b->distance_counts, 0, sizeof b->distance_counts);
 }

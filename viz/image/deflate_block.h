@@ -32,9 +32,10 @@ enum {
     DEFLATE_LITERALS = 288,   /* number of symbols for bytes, the block's end, and lengths; the last two are unused */
     DEFLATE_DISTANCES = 30,   /* number of symbols for distances */
     DEFLATE_END = 256,        /* the symbol that ends a block */
-    BLOCK_TOKENS = 4096,      /* a block with this many tokens is full */
-    BLOCK_SPARE = 16,         /* number of tokens that may be added to a block after it is full */
-    DEFLATE_GROUP = 6,        /* maximum number of literals that one call adds */
+    BLOCK_TOKENS = 32768,     /* the largest number of tokens with which a block is full */
+    INDEXED_BLOCK_TOKENS = 4096, /* the number for palette indices, whose codes change more from row to row */
+    BLOCK_SPARE = 16,            /* number of tokens that may be added to a block after it is full */
+    DEFLATE_GROUP = 6,           /* maximum number of literals that one call adds */
 };
 
 /* A literal or a repeat, packed. The lowest 9 bits hold the byte, or DEFLATE_REPEAT + (length - DEFLATE_SHORTEST). The
@@ -57,7 +58,8 @@ typedef struct deflate_blocks {
     void *context;
     bit_writer writer; /* writes into the buffer `output` */
     size_t count;      /* number of tokens in `tokens` */
-    /* number of times that each symbol occurs in the tokens */
+    size_t most;       /* a block with this many tokens is full */
+    /* number of times that each symbol occurs in the tokens; literal_counts is computed when the block is written */
     uint32_t literal_counts[DEFLATE_LITERALS], distance_counts[DEFLATE_DISTANCES + 1];
     huffman_code literals, distances;
     /* index: length - DEFLATE_SHORTEST; value: the symbol of this length, minus 257 */
@@ -69,12 +71,12 @@ typedef struct deflate_blocks {
     uint8_t output[1 << 16];
 } deflate_blocks;
 
-/* Initialize a zeroed struct. */
-void deflate_begin_blocks(deflate_blocks *b, deflate_sink *sink, void *context);
+/* Initialize a zeroed struct. A block with `most` tokens, at most BLOCK_TOKENS, is full. */
+void deflate_begin_blocks(deflate_blocks *b, size_t most, deflate_sink *sink, void *context);
 
 static inline bool deflate_is_block_full(const deflate_blocks *b)
 {
-    return b->count >= BLOCK_TOKENS;
+    return b->count >= b->most;
 }
 
 /* Add `count` literals, at most DEFLATE_GROUP. Reads DEFLATE_GROUP bytes even if `count` is smaller. */

@@ -11,8 +11,8 @@
  *
  * 3. Assign canonical code words by length, then by symbol, so that only the lengths need to be sent.
  *
- * The limited code is not always optimal; the package-merge algorithm would find an optimal code. But blocks of 4096
- * tokens reach deflate's limit of 15 bits so rarely that the difference does not matter. */
+ * The limited code is not always optimal; the package-merge algorithm would find an optimal code. But few
+ * blocks reach deflate's limit of 15 bits, and only with their rarest symbols, so the difference does not matter. */
 #include "deflate_block.h"
 
 #include <string.h>
@@ -21,18 +21,21 @@
  * by symbol. */
 enum { SYMBOL_BITS = 9, SYMBOL_MASK = (1 << SYMBOL_BITS) - 1 };
 
-/* Sorts by Shellsort, which is short, and faster than qsort() for 288 keys. */
+/* Sort keys by their counts, which are below 65536, by two passes of a radix sort. A pass keeps the order of equal
+ * digits, and the keys begin in the order of their symbols. */
 static void sort_keys(uint32_t *keys, size_t count)
 {
-    static const size_t gaps[] = {132, 57, 23, 10, 4, 1};
-    for (size_t g = 0; g < sizeof gaps / sizeof gaps[0]; g++)
-        for (size_t i = gaps[g]; i < count; i++) {
-            const uint32_t key = keys[i];
-            size_t at = i;
-            for (; at >= gaps[g] && keys[at - gaps[g]] > key; at -= gaps[g])
-                keys[at] = keys[at - gaps[g]];
-            keys[at] = key;
-        }
+    uint32_t sorted[HUFFMAN_MOST_SYMBOLS];
+    for (int shift = SYMBOL_BITS; shift < SYMBOL_BITS + 16; shift += 8) {
+        uint16_t next[257] = {0}; /* next[digit]: the place of the next key with this digit */
+        for (size_t i = 0; i < count; i++)
+            next[(keys[i] >> shift & 255) + 1]++;
+        for (int digit = 0; digit < 255; digit++)
+            next[digit + 1] = (uint16_t)(next[digit + 1] + next[digit]);
+        for (size_t i = 0; i < count; i++)
+            sorted[next[keys[i] >> shift & 255]++] = keys[i];
+        memcpy(keys, sorted, count * sizeof *keys);
+    }
 }
 
 /* List the sort keys of the symbols that occur, in ascending order of their counts. Returns the number of keys. If
@@ -101,12 +104,14 @@ static void count_limited_lengths(const uint32_t *lengths, size_t count, int lon
     }
 }
 
+/* Returns the lowest `count` bits in reverse order. */
 static uint16_t reverse_bits(uint32_t bits, int count)
 {
-    uint32_t made = 0;
-    for (; count > 0; count--, bits >>= 1)
-        made = made << 1 | (bits & 1);
-    return (uint16_t)made;
+    bits = (bits & 0x5555) << 1 | (bits >> 1 & 0x5555);
+    bits = (bits & 0x3333) << 2 | (bits >> 2 & 0x3333);
+    bits = (bits & 0x0f0f) << 4 | (bits >> 4 & 0x0f0f);
+    bits = (bits & 0x00ff) << 8 | bits >> 8;
+    return (uint16_t)(bits >> (16 - count));
 }
 
 /* The last loop must run from the last symbol to the first. With the opposite order, GCC 12 for 64-bit Arm concludes

@@ -13,7 +13,7 @@ typedef struct image_text {
 
 /* Write a PNG file. The file appears at `path`, by a rename, when it is complete (see file_writer). An indexed image
  * becomes a palette PNG with 8 bits per pixel and exactly palette.count colours; an RGB image becomes an 8-bit RGB PNG.
- * Rows are not filtered; deflate.h compresses them. The file has no dates: the same image and texts give the same bytes
+ * deflate.h filters and compresses the rows. The file has no dates: the same image and texts give the same bytes
  * on every machine.
  *
  * Returns false and sets *error for an index beyond the palette, a keyword that PNG does not allow, or a failed write.
