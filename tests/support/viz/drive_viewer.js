@@ -217,6 +217,8 @@ function sayHelp()
 
 async function drive()
 {
+    if (octreel.interaction.canPlay)
+        await octreel.interaction.start(); /* sentences then have positions */
     press("p"); /* show the recorded frames */
     sayFacts();
     sayKeys();

@@ -235,6 +235,8 @@ class Interaction {
         this.exact = exact;
         if (this.isLive)
             this.live.exact = exact;
+        if (this.isLive && this.showsFrames)
+            this.live.stale = false; /* a picture that was requested before would replace the frame */
         showExact(exact, this.recorded.about.size);
     }
 
