@@ -29,11 +29,11 @@ function hasModule()
     return Boolean(moduleText()) && typeof WebAssembly === "object";
 }
 
-/* Compile the module that the page contains. */
+/* The compiled module of the page; unpack.js compiles it. */
 async function compileModule()
 {
     try {
-        return await WebAssembly.compile(await unpack(moduleText()).arrayBuffer());
+        return await compiled;
     } catch (error) {
         throw new Error(`the WebAssembly module in this page is damaged (${error.message}); record or copy the page ` +
                         "again");
