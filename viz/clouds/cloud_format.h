@@ -10,6 +10,7 @@
 #include "cloud.h"
 
 #include <stdint.h>
+#include <string.h>
 
 /* What a column, a field or a property of a file means. */
 typedef enum cloud_channel {
@@ -78,8 +79,9 @@ bool cloud_add_channel(cloud_file *file, int channel, cloud_span name);
  * were read before are rescaled. */
 void cloud_complete_channels(cloud_file *file, unsigned full);
 
-/* Converts the numbers of one point, indexed by cloud_channel, to the values of the point. */
-point_value cloud_convert_values(cloud_file *file, const double *numbers);
+/* Converts the numbers of one point, indexed by cloud_channel, to the values of the point. `value` is a row of
+ * file->out->values, without values. */
+void cloud_convert_values(cloud_file *file, const double *numbers, point_value *value);
 
 /* If the colours are zero in all points, discards the colours and adds a note. Does the same for intensities. Call
  * this function after the last point was added. */
@@ -191,10 +193,49 @@ typedef struct cloud_scalar {
 } cloud_scalar;
 
 /* Reads an unsigned integer of 1 to 8 bytes. */
-uint64_t cloud_read_bits(unsigned size, bool big_endian, const unsigned char *bytes);
+static inline uint64_t cloud_read_bits(unsigned size, bool big_endian, const unsigned char *bytes)
+{
+    uint64_t bits = 0;
+    /* the most frequent case has its own code, because compilers turn this code into one load */
+    if (size == 4 && !big_endian)
+        return bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 | (uint32_t)bytes[3] << 24;
+    for (unsigned i = 0; i < size; i++)
+        bits = bits << 8 | bytes[big_endian ? i : size - 1 - i];
+    return bits;
+}
 
 /* Reads a number. Integers above 2^53 are rounded to doubles. */
-double cloud_read_scalar(cloud_scalar type, bool big_endian, const unsigned char *bytes);
+static inline double cloud_read_scalar(cloud_scalar type, bool big_endian, const unsigned char *bytes)
+{
+    const uint64_t bits = cloud_read_bits(type.size, big_endian, bytes), sign = UINT64_C(1) << (8 * type.size - 1);
+    const uint32_t low = (uint32_t)bits;
+    float narrow;
+    double wide;
+    switch (type.kind) {
+    case CLOUD_FLOAT:
+        memcpy(&narrow, &low, sizeof narrow);
+        memcpy(&wide, &bits, sizeof wide);
+        return type.size == 8 ? wide : (double)narrow;
+    case CLOUD_SIGNED: /* in two's complement, the sign bit stands for minus its value in an unsigned integer */
+        return bits & sign ? -(double)(sign - (bits & (sign - 1))) : (double)bits;
+    case CLOUD_UNSIGNED:
+        break;
+    }
+    return (double)bits;
+}
+
+/* A number that each of many records contains. */
+typedef struct cloud_field {
+    cloud_scalar type;
+    bool big_endian;
+    int channel;                /* the cloud_channel that the number stands for */
+    const unsigned char *first; /* the number in the first record */
+    size_t step;                /* distance from the number in one record to that in the next, in bytes */
+} cloud_field;
+
+/* Adds the points of `count` records. The caller has checked that the file contains so many. Returns false if memory
+ * runs out. */
+bool cloud_add_records(cloud_file *file, const cloud_field *fields, size_t field_count, uint64_t count);
 
 /* Adds a note if any byte from `offset` to the end of the file is not zero. Zeros are accepted, because some writers
  * fill the last page of a file with zeros. */

@@ -327,23 +327,15 @@ static bool read_ascii_points(pcd_reader *reader, size_t offset)
 static bool add_points(const pcd_reader *reader, const unsigned char *bytes)
 {
     const bool packed = reader->encoding == PCD_BINARY;
-    size_t first[CLOUD_CHANNELS], step[CLOUD_CHANNELS];
-    if (!cloud_reserve(reader->file, reader->points))
-        return false;
+    cloud_field fields[CLOUD_CHANNELS];
     for (size_t k = 0; k < reader->field_count; k++) {
-        first[k] = (size_t)(reader->fields[k].offset * (packed ? 1 : reader->points));
-        step[k] = packed ? (size_t)reader->stride : reader->fields[k].type.size;
+        const pcd_field *field = &reader->fields[k];
+        fields[k] = (cloud_field){.type = field->type,
+                                  .channel = field->channel,
+                                  .first = bytes + field->offset * (packed ? 1 : reader->points),
+                                  .step = packed ? (size_t)reader->stride : field->type.size};
     }
-    for (size_t i = 0; i < reader->points; i++) {
-        double numbers[CLOUD_CHANNELS];
-        cloud_report_progress(reader->file, i, i, reader->points);
-        for (size_t k = 0; k < reader->field_count; k++)
-            numbers[reader->fields[k].channel] =
-                cloud_read_scalar(reader->fields[k].type, false, bytes + first[k] + i * step[k]);
-        if (!cloud_add_point(reader->file, numbers))
-            return false;
-    }
-    return true;
+    return cloud_add_records(reader->file, fields, reader->field_count, reader->points);
 }
 
 static bool read_binary_points(pcd_reader *reader, size_t offset)

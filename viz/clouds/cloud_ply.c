@@ -273,6 +273,30 @@ static bool read_binary_row(ply_reader *reader, const ply_element *element, uint
     return true;
 }
 
+/* Read the points of an element whose rows have all the same size. Returns false, without an error, if the element has
+ * lists or if the file ends before its last row; the caller then reads row by row. */
+static bool read_equal_rows(ply_reader *reader, const ply_element *element, bool *read)
+{
+    cloud_field fields[CLOUD_CHANNELS];
+    size_t field_count = 0, size = 0;
+    for (size_t i = 0; i < element->property_count; i++) {
+        const ply_property *property = &reader->properties[element->first_property + i];
+        if (property->length.size > 0)
+            return false;
+        if (property->channel >= 0)
+            fields[field_count++] = (cloud_field){property->type, reader->encoding == PLY_BIG_ENDIAN, property->channel,
+                                                  reader->file->bytes + reader->offset + size, 0};
+        size += property->type.size;
+    }
+    if (element->count > (reader->file->size - reader->offset) / size)
+        return false;
+    for (size_t i = 0; i < field_count; i++)
+        fields[i].step = size;
+    reader->offset += (size_t)element->count * size;
+    *read = cloud_add_records(reader->file, fields, field_count, element->count);
+    return true;
+}
+
 /* ---- Elements ----------------------------------------------------------------------------------------------- */
 
 /* The reader found an error. If all points were read, turn the error into a note. But a truncated file remains an
@@ -290,6 +314,8 @@ static bool read_rows(ply_reader *reader, const ply_element *element)
     double numbers[CLOUD_CHANNELS];
     if (element->property_count == 0)
         return true;
+    if (has_points && reader->encoding != PLY_ASCII && read_equal_rows(reader, element, &reader->has_all_points))
+        return reader->has_all_points;
     if (has_points && !cloud_reserve_announced(reader->file, element->count, element->property_count))
         return false;
     for (uint64_t row = 0; row < element->count; row++) {

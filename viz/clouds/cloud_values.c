@@ -158,15 +158,17 @@ static bool has_channel(const cloud_file *file, cloud_channel channel)
     return file->channels >> channel & 1;
 }
 
-/* Returns `valid`. If a value is not valid, counts it as out of range. NaN and infinity are not counted, because
- * many files mark missing values with them. */
-static bool count_if_out_of_range(const cloud_file *file, point_value_kind kind, bool valid, const double *numbers,
-                                  size_t count)
+/* Records whether a point has a value of a kind, and returns `valid`. If the value is not valid, counts it as out of
+ * range. NaN and infinity are not counted, because many files mark missing values with them. */
+static bool set_has_value(const cloud_file *file, point_value_kind kind, bool valid, const double *numbers,
+                          size_t count, point_value *value)
 {
     bool finite = !valid;
     for (size_t i = 0; finite && i < count; i++)
         finite = isfinite(numbers[i]);
     file->out->out_of_range[kind] += finite;
+    file->out->values.kinds |= (unsigned)valid << kind;
+    value->has[kind] = valid;
     return valid;
 }
 
@@ -192,29 +194,25 @@ const char *cloud_describe_out_of_range(const size_t count[POINT_VALUE_KINDS], c
     return text;
 }
 
-point_value cloud_convert_values(cloud_file *file, const double *numbers)
+/* Returns whether a number is a class, that is, an integer from 0 to 65535. */
+static bool is_class(double number)
+{
+    return number >= 0 && number <= UINT16_MAX && number == (uint16_t)number;
+}
+
+void cloud_convert_values(cloud_file *file, const double *numbers, point_value *value)
 {
     const double *color = numbers + CLOUD_RED, *packed = numbers + CLOUD_PACKED;
     const double *intensity = numbers + CLOUD_INTENSITY, *class = numbers + CLOUD_CLASS;
-    point_value value = {0};
     if (has_channel(file, CLOUD_RED))
-        value.has[POINT_COLOR] =
-            count_if_out_of_range(file, POINT_COLOR, convert_color(file->out, color, value.color), color, 3);
+        set_has_value(file, POINT_COLOR, convert_color(file->out, color, value->color), color, 3, value);
     else if (has_channel(file, CLOUD_PACKED))
-        value.has[POINT_COLOR] =
-            count_if_out_of_range(file, POINT_COLOR, unpack_color(*packed, value.color), packed, 1);
+        set_has_value(file, POINT_COLOR, unpack_color(*packed, value->color), packed, 1, value);
     if (has_channel(file, CLOUD_INTENSITY) &&
-        count_if_out_of_range(file, POINT_INTENSITY, fabs(*intensity) <= FLT_MAX, intensity, 1)) {
-        value.has[POINT_INTENSITY] = true;
-        value.intensity = (float)*intensity;
-    }
-    if (has_channel(file, CLOUD_CLASS) &&
-        count_if_out_of_range(file, POINT_CLASS, *class >= 0 && *class <= UINT16_MAX && *class == floor(*class), class,
-                              1)) {
-        value.has[POINT_CLASS] = true;
-        value.class = (uint16_t) * class;
-    }
-    return value;
+        set_has_value(file, POINT_INTENSITY, fabs(*intensity) <= FLT_MAX, intensity, 1, value))
+        value->intensity = (float)*intensity;
+    if (has_channel(file, CLOUD_CLASS) && set_has_value(file, POINT_CLASS, is_class(*class), class, 1, value))
+        value->class = (uint16_t) * class;
 }
 
 void cloud_discard_zeros(cloud_file *file)

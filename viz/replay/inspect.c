@@ -124,8 +124,8 @@ static octree_walk_order widen_bounds(const octree_node *node, void *context)
     for (size_t i = 0; node->leaf && i < node->count; i++)
         for (int axis = 0; axis < 3; axis++) {
             const double at = node->points[i].position[axis];
-            bounds->min[axis] = fmin(bounds->min[axis], at);
-            bounds->max[axis] = fmax(bounds->max[axis], at);
+            bounds->min[axis] = at < bounds->min[axis] ? at : bounds->min[axis];
+            bounds->max[axis] = at > bounds->max[axis] ? at : bounds->max[axis];
         }
     return OCTREE_WALK_ON;
 }

@@ -2,6 +2,7 @@
 /* test_cloud_ply.c - the PLY reader. */
 #include "clouds.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -109,6 +110,39 @@ static void ply_reads_every_type(void **state)
             assert_reads("a.ply", file.data, file.size, (const double(*)[3])expected, 1, 0);
         }
     }
+}
+
+/* Rows without lists are read in blocks, rows with lists one by one. Both give the same points and values. */
+static void ply_rows_are_read_alike_in_blocks_and_one_by_one(void **state)
+{
+    enum { ROWS = 400, WITHOUT_POSITION = 300 };
+    octreel_error error;
+    cloud clouds[2];
+    (void)state;
+    for (int list = 0; list < 2; list++) {
+        bytes file = {.size = 0};
+        put_text(&file, "ply\nformat binary_little_endian 1.0\nelement vertex 400\nproperty float x\n"
+                        "property double y\nproperty short z\nproperty uchar red\nproperty uchar green\n"
+                        "property uchar blue\n");
+        put_text(&file, list ? "property list uchar int none\nend_header\n" : "end_header\n");
+        for (int i = 0; i < ROWS; i++) {
+            put_float(&file, i == WITHOUT_POSITION ? NAN : (float)i, false);
+            put_double(&file, i * 0.1, false);
+            put_bits(&file, (uint64_t)-i, 2, false);
+            put_bytes(&file, (unsigned char[]){(unsigned char)i, 1, 255, 0}, list ? 4 : 3);
+        }
+        assert_true(cloud_parse("a.ply", file.data, file.size, &clouds[list], &error));
+        assert_int_equal(clouds[list].count, ROWS - 1);
+    }
+    assert_memory_equal(clouds[0].positions, clouds[1].positions, (ROWS - 1) * sizeof *clouds[0].positions);
+    assert_memory_equal(clouds[0].rows, clouds[1].rows, (ROWS - 1) * sizeof *clouds[0].rows);
+    assert_memory_equal(clouds[0].values.rows, clouds[1].values.rows, ROWS * sizeof *clouds[0].values.rows);
+    assert_int_equal(clouds[0].rows[ROWS - 2], ROWS - 1);
+    assert_true(clouds[0].positions[ROWS - 2][2] == 1 - ROWS);
+    assert_int_equal(clouds[0].values.rows[ROWS - 1].color[0], (ROWS - 1) % 256);
+    assert_false(clouds[0].values.rows[WITHOUT_POSITION].has[POINT_COLOR]);
+    cloud_release(&clouds[0]);
+    cloud_release(&clouds[1]);
 }
 
 /* The data's first byte is a \n that is not part of the header's last line end. */
@@ -245,6 +279,7 @@ int main(void)
         cmocka_unit_test(ply_ascii_skips_other_elements_and_lists),
         cmocka_unit_test(ply_binary_is_read_in_both_byte_orders),
         cmocka_unit_test(ply_reads_every_type),
+        cmocka_unit_test(ply_rows_are_read_alike_in_blocks_and_one_by_one),
         cmocka_unit_test(ply_header_may_end_in_carriage_returns_alone),
         cmocka_unit_test(invalid_ply_headers_are_refused),
         cmocka_unit_test(ply_data_that_does_not_fit_its_header_is_refused),
