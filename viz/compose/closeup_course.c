@@ -116,7 +116,9 @@ static view_scale make_view_scale(const layer_source *in)
     scene_set_view(&with, in->view);
     scene_box_middle(&in->world, center);
     const camera c = camera_make(in->view, layout_camera_area(&with, &in->world), &in->world, center, 0);
-    return (view_scale){view_height_at_16_9(in->view), camera_world_length_of_pixel(&c)};
+    view own = *in->view;
+    own.suited_height = 0; /* a page enlarges the same things as the recorded frame, whatever the size of its picture */
+    return (view_scale){view_height_at_16_9(&own), camera_world_length_of_pixel(&c)};
 }
 
 static double find_part_of_height(const view_scale *m, double reach)

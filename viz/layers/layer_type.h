@@ -10,6 +10,8 @@
 #include "pen.h"
 #include "point_values.h"
 
+#include "octree/octree.h"
+
 /* The input of a scene: a tick of a game, or a tree without a game. */
 typedef struct layer_source {
     const view *view; /* the view as the user requested it; with DIAGRAM_ONLY the scene's own view has fewer layers */
@@ -32,6 +34,13 @@ typedef struct layer_source {
     /* the node that the user asked to mark (octreel inspect --node), or 0; only for a tree without a game */
     octree_address requested;
 } layer_source;
+
+/* Returns the depth of the tree's deepest node. Cost: O(nodes) if the scene shows a tree without a game. */
+static inline size_t find_depth_of_tree(const layer_source *in)
+{
+    octree_stats stats;
+    return in->tick ? in->tick->stats.depth : octree_statistics(in->tree, &stats) == OCTREE_OK ? stats.depth : 0;
+}
 
 /* A layer's lines in the legend: either one line with `sign` and `text`, or the lines that add_lines() adds. */
 typedef struct legend_entry {

@@ -460,7 +460,7 @@ static void add_occupancy_legend(legend *l, const layer_source *in)
 
 static void add_node_legend(legend *l, const layer_source *in)
 {
-    const size_t deepest = shows_foreign_nodes(in) ? OCTREE_MAX_DEPTH : octree_definition(in->tree).max_depth;
+    const size_t deepest = shows_foreign_nodes(in) ? OCTREE_MAX_DEPTH : find_depth_of_tree(in);
     if (l->scene->view.coloring == COLORING_KIND)
         add_kinds_legend(l, in);
     else if (l->scene->view.coloring == COLORING_DEPTH)

@@ -153,7 +153,7 @@ void add_point_legend(legend *l, const layer_source *in)
             legend_add(l, SIGN_DOT, "points, without classes");
         return;
     case POINTS_BY_DEPTH:
-        legend_add_depths(l, "points, leaf depth", octree_definition(in->tree).max_depth);
+        legend_add_depths(l, "points, leaf depth", find_depth_of_tree(in));
         return;
     case POINTS_BY_LEAF:
         add_leaf_legend(l, in);
