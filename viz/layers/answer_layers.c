@@ -43,6 +43,7 @@ static void mark_answer_points(scene *s, const octree_answer *answer, view_layer
 static const octree_answer *append_query(description *d, const char *what, uint64_t place)
 {
     const octree_answer *answer = &d->tick->answers[place];
+    d->subject->query = place + 1;
     append_text(d, "the %s of the %s query", what, octree_query_name(answer->kind));
     if (d->tick->answer_count > 1)
         append_text(d, " (answer %" PRIu64 " of %zu)", place + 1, d->tick->answer_count);

@@ -16,6 +16,7 @@ typedef struct element_subject {
     octree_node node;   /* the node that the element shows; if `gone` is true, the empty cell where the node was */
     bool gone;          /* true: the tree no longer has the node */
     octree_point point; /* the point that the element shows */
+    uint64_t query;     /* the number of the query that the element shows, from 1; 0: none */
     const octree_foreign_place
         *foreign; /* the foreign node that the element shows; null: none. Valid until the next tick */
     /* The description, such as "node 0/3: leaf at depth 2, 1 point, box (0, 0, 0) to (5, 5, 5)". */

@@ -171,6 +171,7 @@ static void append_wrong_answer(description *d, uint64_t place)
     char words[JUDGEMENT_TEXT];
     if (place >= tick->answer_count)
         return;
+    d->subject->query = place + 1;
     append_text(d, "the foreign answer to the %s query", octree_query_name(tick->answers[place].kind));
     if (tick->answer_count > 1)
         append_text(d, " (answer %zu of %zu)", place + 1, tick->answer_count);

@@ -327,7 +327,7 @@ static void write_node(json_writer *w, const pick_element *e)
 static void write_foreign_node(json_writer *w, const octree_foreign_place *place)
 {
     const octree_foreign_node *node = place->node;
-    json_begin_object_member(w, "program_node");
+    json_begin_object_member(w, "foreign_node");
     json_write_integer_member(w, "id", node->id);
     if (node->has_parent)
         json_write_integer_member(w, "parent", node->parent);
@@ -361,6 +361,8 @@ static void write_subject(json_writer *w, const pick_element *e)
         write_foreign_node(w, e->subject.foreign);
     if (e->subject.has_point)
         write_point(w, &e->subject.point);
+    if (e->subject.query)
+        json_write_integer_member(w, "query", e->subject.query);
     json_write_text_member(w, "text", element_text(e));
 }
 

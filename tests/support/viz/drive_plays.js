@@ -35,6 +35,16 @@ async function sayTold()
         say(`told ${name}`, textsOf(byId("picked"), "h2, p, dd"));
         say(`marked ${name}`, JSON.stringify(interaction.live.placeOfSubject()));
     }
+    octreel.goTo(7);
+    await until(() => !interaction.busy && player().engine.tick === 7, "tick 7");
+    await octreel.inspector.select("query 1");
+    say("told query 1", textsOf(byId("picked"), "h2, p, td"));
+    octreel.address.write();
+    say("address of query 1", location.hash);
+    await octreel.inspector.select("query 2");
+    say("told query 2", textsOf(byId("picked"), "h2, p"));
+    octreel.goTo(226);
+    await until(() => !interaction.busy && player().engine.tick === 226, "tick 226");
     await octreel.inspector.select("node 7/7/7/0");
     byId("picked").querySelector('[data-select="point 8"]').click();
     await until(() => byId("picked").textContent.startsWith("Point 8"), "point 8");

@@ -332,8 +332,8 @@ static void foreign_nodes_are_named_with_their_errors(void **state)
         said = json_read(result.out);
         command_release(&result);
         json_t *id = json_real(9);
-        const json_t *element = element_with(said, "program_node", "id", id);
-        node = json_object_get(element, "program_node");
+        const json_t *element = element_with(said, "foreign_node", "id", id);
+        node = json_object_get(element, "foreign_node");
         json_decref(id);
     }
     assert_non_null(node);

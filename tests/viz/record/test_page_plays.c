@@ -110,6 +110,10 @@ static void links_select_nodes_and_points(void **state)
         {"told point 6", "Point 6 | (850, 900, 850) | 0 from the player | 7/7/7/2"},
         {"told point 10", "Point 10 | This tick has no such element"},
         {"told foreign 3", "Foreign node 3 | This tick has no such element"},
+        {"told query 1", "Query 1: Nearest to (-50, 0, 100) | 1 point found; 4 nodes visited (2 leaves), 4 points "
+                         "compared, 2 nodes pruned | 1 | 50 | (-50, -50, 100)"},
+        {"address of query 1", "#t=7&select=query+1"},
+        {"told query 2", "Query 2 | This tick has no such element"},
         {"marked node root", "[0,0,0]"},
         {"marked point 6", "[850,900,850]"},
         {"marked point 10", "null"},

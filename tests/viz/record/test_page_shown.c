@@ -126,10 +126,11 @@ static void page_tells_each_kind_of_event_in_a_sentence(void **state)
                                   "750, 800) refused: its leaf is full and cannot split further"},
         {"6 told", "✕Key s (−y): collided with point 1; step to (-50, -50, 100) taken back"},
         {"7 told", "Key n (nearest neighbour): the player is at (-50, 0, 100)"},
-        {"7 sections", "Query: Nearest to (-50, 0, 100)1 point found; 4 nodes visited (2 leaves), 4 points compared, 2 "
-                       "nodes prunedpointdistanceposition150(-50, -50, 100) | Tree11 points in 7 leaves; 12 nodes, "
-                       "deepest at depth 5Collision test: 3 nodes visited (2 leaves), 4 points compared, 2 nodes "
-                       "prunedvisited4pruned2with hits1all nodes12"},
+        {"7 sections",
+         "Query 1: Nearest to (-50, 0, 100)1 point found; 4 nodes visited (2 leaves), 4 points compared, 2 "
+         "nodes prunedpointdistanceposition150(-50, -50, 100) | Tree11 points in 7 leaves; 12 nodes, "
+         "deepest at depth 5Collision test: 3 nodes visited (2 leaves), 4 points compared, 2 nodes "
+         "prunedvisited4pruned2with hits1all nodes12"},
         {"74 told", "⊘Key a (−x): step refused: it would leave the world; the player stays at (-1000, -1000, -1000)"},
         {"214 told", "■Key e (+z): step to (800, 750, 750) taken back: its leaf is full and cannot split further"},
         {"225 told",
@@ -362,7 +363,7 @@ static void page_tolerates_unexpected_members(void **state)
     assert_has(page, "<dd data-fact=\"unheard_of.weight\">-0.5</dd>");
     assert_has(page, "long\"><span title=\"17.299999999999997\">17.3</span></dd>");
     assert_has(page, "<dd data-fact=\"unheard_of.of\">true, x</dd>");
-    assert_has(page, "Query: frustum</p>");
+    assert_has(page, ": frustum</p>");
     assert_has(page, "<dd data-fact=\"answers.0.frustum.corner\">7, 8, 9</dd>");
     assert_has(page, "<dd data-fact=\"answers.0.frustum.cost.cache\">77</dd>");
     assert_has(page, "<dd data-fact=\"tree.holes\">55</dd>");
@@ -418,7 +419,7 @@ static void wrong_answers_and_foreign_nodes_are_told_first(void **state)
                      "Foreign nodes: a point is in no node (point 8)"
                      "\xe2\x89\xa0"
                      "1 more wrong foreign node"
-                     "\xe2\x86\x92Key w (+y): the player moved to (0, 5, 0)Query: Within 5 of (1, 2, 3)");
+                     "\xe2\x86\x92Key w (+y): the player moved to (0, 5, 0)Query 2: Within 5 of (1, 2, 3)");
     assert_has(text, "Wrong foreign answer, 2 points of 2 expected: 4 and 22");
     assert_has(text, "Right foreign answer, 0 points of 0 expected: ");
     assert_has(text, "Foreign nodes5 nodes, 3 leaves, deepest at depth 2; 3 wrong");

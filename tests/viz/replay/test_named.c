@@ -102,7 +102,7 @@ static void foreign_node_has_its_parent_and_errors(void **state)
     playback p = open_session(&session, NULL);
     assert_true(playback_advance(&p, &error));
     json_t *described = describe(&p, "foreign 4"); /* FOREIGN_LOW */
-    const json_t *node = json_member(described, "program_node");
+    const json_t *node = json_member(described, "foreign_node");
     assert_whole_number(json_member(node, "parent"), FOREIGN_LEFT);
     assert_string_equal(json_string_value(json_array_get(json_member(node, "wrong"), 0)), "outside_parent");
     json_decref(described);

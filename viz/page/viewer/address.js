@@ -142,10 +142,11 @@ class Address {
 
     async copy()
     {
+        const {opened} = this.interaction, own = opened ? ` It opens this page without ${shownName(opened)}.` : "";
         this.write();
         try {
             await navigator.clipboard.writeText(location.href);
-            this.interaction.showStatus("The link is copied.");
+            this.interaction.showStatus(`The link is copied.${own}`);
         } catch {
             this.interaction.showStatus("The browser does not let this page copy: copy its address, which is the link.");
         }

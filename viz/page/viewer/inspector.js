@@ -162,7 +162,8 @@ function showQuery([kind, query], look, path)
         parts.push(`; ${skip === "coincident" ? "points at the position itself" : `point ${textOf(skip)}`} skipped`);
     if (epsilon !== undefined)
         parts.push("; permitted error ", numberText(epsilon));
-    return section(["Query: ", ...queryTitle(kind, query)],
+    const number = Number(path.split(".")[1]) + 1;
+    return section([elementLink(`query ${number}`, `Query ${number}`), ": ", ...queryTitle(kind, query)],
                    ...(judged ? showJudged(judged, path) : []), paragraph(parts), ...showHits(query, look),
                    ...otherMembers(query, [...ANSWER_MEMBERS, ...QUERY_PARAMETERS[kind] ?? []], `${path}.`),
                    ...(cost ? otherMembers(cost, COST_MEMBERS, `${path}.cost.`) : []));
@@ -238,9 +239,10 @@ function tellTick(tick, look)
 /* ---- Elements ---------------------------------------------------------------------------------------------------- */
 
 /* The name of the element that a pick or Engine.describe() describes: what select() takes. */
-function elementName({point, node, program_node: foreign})
+function elementName({point, node, foreign_node: foreign, query})
 {
-    return point ? `point ${point.id}` : node ? `node ${node.path}` : foreign ? `foreign ${foreign.id}` : "";
+    return point ? `point ${point.id}` : node ? `node ${node.path}` : foreign ? `foreign ${foreign.id}`
+        : query ? `query ${query}` : "";
 }
 
 function row(term, parts)
@@ -415,7 +417,16 @@ class Inspector {
         if (!this.wasPlayed && this.engine)
             this.show(this.tick);
         if (this.name && this.engine)
-            this.showCard(this.engine.describe(this.name));
+            this.showCard(this.describe(this.name));
+    }
+
+    /* What is known of an element of the shown tick, by its name. Undefined if the tick has no such element. */
+    describe(name)
+    {
+        const [word, id] = name.split(" ");
+        if (word !== "query")
+            return this.viewer.interaction.player.engine.describe(name);
+        return this.tick.answers?.[id - 1] && {query: Number(id), answer: this.tick.answers[id - 1]};
     }
 
     /* Select an element by its name: mark it in the picture and describe it. */
@@ -424,7 +435,7 @@ class Inspector {
         const {interaction} = this.viewer;
         if (!await interaction.start() || !interaction.isLive)
             return;
-        const {live, player} = interaction, found = player.engine.describe(name);
+        const {live} = interaction, found = this.describe(name);
         live.subject = found;
         this.name = name;
         this.others.replaceChildren();
@@ -437,10 +448,16 @@ class Inspector {
     showCard(found)
     {
         const {look} = this, [word, id] = this.name.split(" ");
-        const kinds = {node: found?.node?.leaf ? "Leaf" : "Node", point: "Point", foreign: "Foreign node"};
+        const kinds = {node: found?.node?.leaf ? "Leaf" : "Node", point: "Point", foreign: "Foreign node", query: "Query"};
+        if (found?.answer) {
+            const [entry] = Object.entries(found.answer);
+            this.card.replaceChildren(showQuery(entry, look, `answers.${id - 1}.${entry[0]}`));
+            this.picked.hidden = false;
+            return;
+        }
         const told = !found ? [paragraph(["This tick has no such element"])]
             : found.point ? tellPoint(found, this.tick.player)
-            : found.node ? tellNode(found, look) : tellForeign(found.program_node);
+            : found.node ? tellNode(found, look) : tellForeign(found.foreign_node);
         this.card.replaceChildren(element("h2", `${kinds[word]} ${id}`), ...told);
         this.picked.hidden = false;
     }
@@ -451,7 +468,7 @@ class Inspector {
         this.name = subject ? elementName(subject) : "";
         this.card.replaceChildren();
         if (this.name && this.engine)
-            this.showCard(this.engine.describe(this.name) ?? subject);
+            this.showCard(this.describe(this.name) ?? subject);
         const title = pixel ? `At pixel (${pixel.join(", ")}), ${color}` : "Nothing is drawn here";
         const list = table([], elements, found => [this.pickedParts(found)]);
         this.others.replaceChildren(paragraph([title], {class: "title"}), ...(elements.length ? list : []));

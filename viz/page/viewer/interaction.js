@@ -335,7 +335,7 @@ class Interaction {
         this.live.subject = null;
         byId("picked").hidden = true;
         this.live.mark();
-        if (name && !(/^\w+ [\w/]+$/.test(name) && this.player.engine.describe(name)))
+        if (name && !(/^\w+ [\w/]+$/.test(name) && inspector.describe(name)))
             throw new Error(`tick ${this.viewer.tick} has no "${shownName(name)}"`);
         if (name)
             await inspector.select(name);
@@ -376,6 +376,7 @@ class Interaction {
             this.module ??= await compileModule();
             const text = await readSession(file);
             await this.play(text, plainView(this.recorded.about), new Recording(this.recorded.about, []));
+            this.opened = file.name; /* the name of the file whose session replaces that of the page */
             this.starting = Promise.resolve(true);
             this.viewer.goTo(0);
         } catch (error) {

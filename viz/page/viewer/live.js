@@ -52,7 +52,7 @@ class Live {
         this.canvas = element("canvas", "", {class: "live", role: "img"});
         this.marks = element("canvas", "", {class: "marks", "aria-hidden": "true"});
         this.measured = [];  /* the positions between which a line is drawn, at most two */
-        this.subject = null; /* the marked element, as {node}, {program_node} or {point}; null: no element */
+        this.subject = null; /* the marked element, as {node}, {foreign_node}, {point} or {query}; null: no element */
         this.pointers = new Map();
     }
 
@@ -312,7 +312,7 @@ class Live {
         if (x < 0 || y < 0 || x >= width || y >= height)
             return;
         const pick = this.engine.pick(x, y, Math.round(PICK_RADIUS * this.ratio));
-        this.subject = ["point", "node", "program_node"].map(kind => pick.elements.find(found => found[kind]))
+        this.subject = ["point", "node", "foreign_node", "query"].map(kind => pick.elements.find(found => found[kind]))
             .find(found => found) ?? null;
         this.picked(pick, this.placeOfSubject() ?? this.placeAt([x, y]));
         this.mark();
@@ -331,7 +331,7 @@ class Live {
 
     get boxOfSubject()
     {
-        return (this.subject?.node ?? this.subject?.program_node)?.box;
+        return (this.subject?.node ?? this.subject?.foreign_node)?.box;
     }
 
     /* The position of the marked element. For a node this is the center of its box. Null if no element is marked. */

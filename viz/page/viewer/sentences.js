@@ -156,7 +156,12 @@ function describeChanges(event, nodes, look, describeOne)
     if (count === 1)
         return [[event, "Node ", nodeLink(nodes[0], nodes[0]), ` ${verb}`, ...describeOne(look.node(nodes[0]))]];
     const limit = look.capacity ? `; capacity ${grouped(look.capacity)}` : "";
-    return [[event, `${grouped(count)} nodes ${verb}: `, ...enumerated(nodes, path => nodeLink(path, path), 4), limit]];
+    const one = path => {
+        const made = element("span", nodeLink(path, path)), points = look.node(path)?.node.points;
+        made.append(points === undefined ? "" : ` (${counted(points, "point")})`);
+        return made;
+    };
+    return [[event, `${grouped(count)} nodes ${verb}: `, ...enumerated(nodes, one, 4), limit]];
 }
 
 function describeSplit({capacity})
