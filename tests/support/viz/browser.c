@@ -16,7 +16,7 @@
 /* Nothing is asked of a network, and nothing is kept. The sandbox needs more of the system than containers give. */
 static const char options[] = "--headless --no-sandbox --disable-gpu --disable-extensions --no-first-run "
                               "--disable-background-networking --disable-component-update "
-                              "--host-resolver-rules='MAP * ~NOTFOUND' --virtual-time-budget=1000000 --dump-dom";
+                              "--host-resolver-rules='MAP * ~NOTFOUND' --virtual-time-budget=10000000 --dump-dom";
 
 bool is_browser_installed(void)
 {
@@ -94,8 +94,10 @@ static void write_driving_script(const char *folder, const char *const scripts[]
     FILE *file = fopen(place_below(folder, "driven.js").path, "w");
     assert_non_null(file);
     /* While a timer is due the browser's clock goes on by its steps. Without one it would run to its end at once where
-     * the page waits for what has no clock, as for a compiler or a file. */
-    fputs("setInterval(() => {}, 1);\n(async () => {\n"
+     * the page waits for what has no clock, as for a compiler or a file. The timer ends with the script: the page is
+     * read when the clock has run to its end. */
+    fputs("const clock = setInterval(() => document.getElementById(\"said\") && clearInterval(clock), 1);\n(async () => "
+          "{\n"
           "while (document.getElementById(\"scripts\") && typeof octreel === \"undefined\")\n"
           "    await new Promise(done => setTimeout(done, 1));\n",
           file);
