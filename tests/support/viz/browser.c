@@ -96,11 +96,12 @@ static void write_driving_script(const char *folder, const char *const scripts[]
     /* While a timer is due the browser's clock goes on by its steps. Without one it would run to its end at once where
      * the page waits for what has no clock, as for a compiler or a file. The timer ends with the script: the page is
      * read when the clock has run to its end. */
-    fputs("const clock = setInterval(() => document.getElementById(\"said\") && clearInterval(clock), 1);\n(async () => "
-          "{\n"
-          "while (document.getElementById(\"scripts\") && typeof octreel === \"undefined\")\n"
-          "    await new Promise(done => setTimeout(done, 1));\n",
-          file);
+    fputs(
+        "const clock = setInterval(() => document.getElementById(\"said\") && clearInterval(clock), 1);\n(async () => "
+        "{\n"
+        "while (document.getElementById(\"scripts\") && typeof octreel === \"undefined\")\n"
+        "    await new Promise(done => setTimeout(done, 1));\n",
+        file);
     for (size_t i = 0; scripts[i] != NULL; i++) {
         char *text = file_read(scripts[i], NULL);
         fputs(text, file);
