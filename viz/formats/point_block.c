@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* point_block.c - writes and reads the points of a cloud as a block of bytes that compresses well.
+/* point_block.c - writes and reads the points of a cloud or session as a block of bytes that compresses well.
  *
  * The problem: a page holds a million points as text, and its reader waits for every byte. As doubles, three
  * coordinates and a colour take 27 bytes, and deflate finds almost no repeats in the bytes of doubles.
@@ -11,9 +11,9 @@
  * then their next bytes, and so on: the high bytes are nearly constant and take almost no space after compression.
  *
  * Layout, in little-endian order: "octreel points 1\n", the count of points, the address of the marked node, the kinds
- * of values, the size of the title, each in 8 bytes; the title; then the columns of column_names. A column has the
- * bytes form, digits, is-difference and width; the smallest code in 8 bytes; then `width` planes of one byte for each
- * point. Cost: O(points). */
+ * of values with the bit MOVING, the size of the title, each in 8 bytes; the title; then the columns of column_names. A
+ * column has the bytes form, digits, is-difference and width; the smallest code in 8 bytes; then `width` planes of one
+ * byte for each point. Cost: O(points). */
 #include "point_block.h"
 #include "text.h"
 
@@ -29,6 +29,9 @@ typedef enum column_name {
     COLUMN_X,
     COLUMN_Y,
     COLUMN_Z,
+    COLUMN_VX, /* the velocity; this and the next two columns only if points move */
+    COLUMN_VY,
+    COLUMN_VZ,
     COLUMN_HAS, /* the kinds of values that the point has, as bits; this and the next columns only if there are values
                  */
     COLUMN_RED, /* minus green, as blue: the channels of most colours are alike */
@@ -39,9 +42,12 @@ typedef enum column_name {
     COLUMNS
 } column_name;
 
-static unsigned count_columns(const point_block *b)
+/* In the head of a block: the points have velocities. */
+#define MOVING (1u << POINT_VALUE_KINDS)
+
+static bool has_column(const point_block *b, column_name column)
 {
-    return b->values.kinds ? COLUMNS : COLUMN_HAS;
+    return column < COLUMN_VX || (column < COLUMN_HAS ? b->moving : b->values.kinds != 0);
 }
 
 /* ---- The code of a number -------------------------------------------------------------------------------------- */
@@ -137,8 +143,10 @@ static double decode_number(number_form form, uint64_t code)
 
 static double number_at(const point_block *b, column_name column, size_t i)
 {
-    return column == COLUMN_INTENSITY ? (double)point_values_get(&b->values, b->bodies[i].id).intensity
-                                      : b->bodies[i].position[column - COLUMN_X];
+    const octree_body *body = &b->bodies[i];
+    return column == COLUMN_INTENSITY ? (double)point_values_get(&b->values, body->id).intensity
+           : column >= COLUMN_VX      ? body->velocity[column - COLUMN_VX]
+                                      : body->position[column - COLUMN_X];
 }
 
 /* Returns true if the form returns every number of a column with all its bits, among them the sign of -0. */
@@ -154,7 +162,7 @@ static bool fits_form(const point_block *b, column_name column, number_form form
 
 static bool has_numbers(column_name column)
 {
-    return (column >= COLUMN_X && column <= COLUMN_Z) || column == COLUMN_INTENSITY;
+    return (column >= COLUMN_X && column <= COLUMN_VZ) || column == COLUMN_INTENSITY;
 }
 
 static number_form find_form(const point_block *b, column_name column)
@@ -267,7 +275,7 @@ static void write_column(const point_block *b, column_name column, uint64_t *cod
 bool point_block_write(const point_block *b, FILE *out)
 {
     const size_t length = strlen(b->title), room = b->count > 0 ? b->count : 1;
-    const uint64_t head[] = {b->count, b->node, b->values.kinds, length};
+    const uint64_t head[] = {b->count, b->node, b->values.kinds | (b->moving ? MOVING : 0), length};
     uint64_t *codes = malloc(room * sizeof *codes);
     char *plane = malloc(room);
     const bool ok = codes && plane;
@@ -275,8 +283,9 @@ bool point_block_write(const point_block *b, FILE *out)
     for (size_t i = 0; i < sizeof head / sizeof head[0]; i++)
         write_whole(out, head[i]);
     fwrite(b->title, 1, length, out);
-    for (unsigned column = 0; ok && column < count_columns(b); column++)
-        write_column(b, (column_name)column, codes, plane, out);
+    for (unsigned column = 0; ok && column < COLUMNS; column++)
+        if (has_column(b, (column_name)column))
+            write_column(b, (column_name)column, codes, plane, out);
     free(codes);
     free(plane);
     return ok;
@@ -316,13 +325,14 @@ static bool read_head(block_reader *r, point_block *b)
     const unsigned char *begins = read_bytes(r, BEGINNING), *title;
     if (!begins || memcmp(begins, beginning, BEGINNING) != 0 || !read_whole_number(r, &count) ||
         !read_whole_number(r, &b->node) || !read_whole_number(r, &kinds) || !read_whole_number(r, &length) ||
-        count > POINT_BLOCK_MOST || kinds >= 1 << POINT_VALUE_KINDS || length >= sizeof b->title)
+        count > POINT_BLOCK_MOST || kinds >= 2 * MOVING || length >= sizeof b->title)
         return false;
     title = read_bytes(r, (size_t)length);
     if (title)
         memcpy(b->title, title, (size_t)length);
     b->count = (size_t)count;
-    b->values.kinds = (unsigned)kinds;
+    b->values.kinds = (unsigned)kinds & (MOVING - 1);
+    b->moving = kinds & MOVING;
     return title != NULL;
 }
 
@@ -333,6 +343,8 @@ static void set_code(point_block *b, column_name column, number_form form, size_
         b->bodies[i].id = code;
     else if (column <= COLUMN_Z)
         b->bodies[i].position[column - COLUMN_X] = decode_number(form, code);
+    else if (column <= COLUMN_VZ)
+        b->bodies[i].velocity[column - COLUMN_VX] = decode_number(form, code);
     else if (column == COLUMN_INTENSITY)
         value->intensity = (float)decode_number(form, code);
     else if (column == COLUMN_CLASS)
@@ -404,8 +416,8 @@ static bool read_columns(block_reader *r, point_block *b, octreel_error *error)
     b->values.rows = b->values.kinds ? calloc(room, sizeof *b->values.rows) : NULL;
     const bool has_memory = codes && b->bodies && (b->values.rows || !b->values.kinds);
     bool ok = has_memory;
-    for (unsigned column = 0; ok && column < count_columns(b); column++)
-        ok = read_column(r, b, (column_name)column, codes);
+    for (unsigned column = 0; ok && column < COLUMNS; column++)
+        ok = !has_column(b, (column_name)column) || read_column(r, b, (column_name)column, codes);
     free(codes);
     if (!has_memory || (ok && b->values.kinds && !finish_values(b)))
         return error_set(error, "out of memory for %zu points", b->count);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* point_block.h - the points of a cloud as a block of bytes, for a page that shows the cloud. */
+/* point_block.h - the points of a cloud or of a session as a block of bytes, for a page that shows them. */
 #ifndef FORMATS_POINT_BLOCK_H
 #define FORMATS_POINT_BLOCK_H
 
@@ -18,8 +18,9 @@
 typedef struct point_block {
     char title[POINT_BLOCK_TITLE]; /* the name of the cloud */
     octree_address node;           /* the node that is marked in the picture; 0: no node */
-    octree_body *bodies;           /* `count` points in ascending order of their ids; velocities are zero; owned */
+    octree_body *bodies;           /* `count` points in ascending order of their ids; owned */
     size_t count;
+    bool moving;         /* the block has velocities; false: all velocities are zero */
     point_values values; /* colours, intensities and classes of the points; owned */
 } point_block;
 

@@ -2,8 +2,10 @@
 /* page.c - writes the page of a recording or session. */
 #include "page.h"
 #include "file.h"
+#include "folder_files.h"
 #include "frame_file.h"
 #include "json_read.h"
+#include "packed_points.h"
 #include "page_html.h"
 #include "text.h"
 #include "ticks_write.h"
@@ -261,13 +263,30 @@ static void write_letters(FILE *page, const unsigned char *bytes, size_t size)
 }
 
 void page_end_with_points(page_writer *w, const char *session, size_t size, const unsigned char *points,
-                          size_t points_size)
+                          size_t points_size, bool cloud)
 {
     begin_session(w);
     write_escaped_json(w->out, session, size);
-    fputs("</script>\n<script type=\"application/gzip;z85\" id=\"points\">", w->out);
+    fprintf(w->out, "</script>\n<script type=\"application/gzip;z85\" id=\"points\"%s>", cloud ? " data-cloud" : "");
     write_letters(w->out, points, points_size);
     end_session(w);
+}
+
+bool page_end_with_packed_session(page_writer *w, const octree_session *session, const point_values *values,
+                                  octreel_error *error)
+{
+    octree_session rest = *session;
+    session_bytes text = {0};
+    size_t size = 0;
+    rest.bodies = NULL;
+    rest.body_count = 0;
+    unsigned char *points = pack_points_of_session(session, values, &size);
+    const bool ok = points ? make_session_bytes(&rest, NULL, &text, error) : error_no_memory(error);
+    if (ok)
+        page_end_with_points(w, text.bytes, text.size, points, size, false);
+    free(text.bytes);
+    free(points);
+    return ok;
 }
 
 void page_release(page_writer *w)
@@ -335,14 +354,16 @@ static bool end_folder_page(page_writer *w, const char *path, octreel_error *err
     return ok;
 }
 
-static bool write_page(const char *folder, FILE *page, octreel_error *error)
+static bool write_page(const char *folder, const octree_session *points, const point_values *values, FILE *page,
+                       octreel_error *error)
 {
     char *recording = path_join(folder, "recording.json"), *ticks = path_join(folder, "ticks.jsonl"),
          *session = path_join(folder, "session.json");
     page_writer w = {0};
     const bool ok = recording && ticks && session
                         ? begin_folder_page(&w, page, recording, error) && add_ticks(&w, ticks, error) &&
-                              end_folder_page(&w, session, error)
+                              (points ? page_end_with_packed_session(&w, points, values, error)
+                                      : end_folder_page(&w, session, error))
                         : error_no_memory(error);
     page_release(&w);
     free(recording);
@@ -351,13 +372,15 @@ static bool write_page(const char *folder, FILE *page, octreel_error *error)
     return ok;
 }
 
-bool page_write(const char *folder, octreel_error *error)
+bool page_write(const char *folder, const octree_session *session, const point_values *values, octreel_error *error)
 {
+    const bool packed = session && are_points_packed(session, values);
     char *path = path_join(folder, "index.html");
     file_writer file;
     bool ok = path ? file_writer_open_replacing(&file, path, error) : error_no_memory(error);
     if (ok)
-        ok = write_page(folder, file.stream, error) ? file_writer_close(&file, error) : file_writer_discard(&file);
+        ok = write_page(folder, packed ? session : NULL, values, file.stream, error) ? file_writer_close(&file, error)
+                                                                                     : file_writer_discard(&file);
     free(path);
     return ok;
 }

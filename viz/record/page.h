@@ -5,6 +5,8 @@
 #define RECORD_PAGE_H
 
 #include "error.h"
+#include "octree/game.h"
+#include "point_values.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -39,13 +41,20 @@ bool page_begin(page_writer *w, FILE *page, const char *path, const char *record
 bool page_add_tick(page_writer *w, const char *path, const char *line, size_t size, octreel_error *error);
 void page_end(page_writer *w, const char *session, size_t size);
 
-/* End a page whose session has its points in a block: `points` is the block of point_block.h, compressed by gzip. */
+/* End a page whose points are not in its session.json, but in a block that pack_points() made. `cloud`: the page shows
+ * a cloud and not a game. */
 void page_end_with_points(page_writer *w, const char *session, size_t size, const unsigned char *points,
-                          size_t points_size);
+                          size_t points_size, bool cloud);
+
+/* End a page with the points of a session in a block. are_points_packed() must be true. */
+bool page_end_with_packed_session(page_writer *w, const octree_session *session, const point_values *values,
+                                  octreel_error *error);
 void page_release(page_writer *w);
 
-/* Write the file index.html of a recording, from the other files in its folder. An incomplete last line of ticks.jsonl
- * is ignored. An existing index.html is replaced; if writing fails, it stays unchanged. */
-bool page_write(const char *folder, octreel_error *error);
+/* Write the file index.html of a recording, from the other files in its folder. `session` is the session of
+ * session.json, and null if it is not in memory: then the page has the text of session.json, also if its points could
+ * be packed. An incomplete last line of ticks.jsonl is ignored. An existing index.html is replaced; if writing fails,
+ * it stays unchanged. */
+bool page_write(const char *folder, const octree_session *session, const point_values *values, octreel_error *error);
 
 #endif

@@ -3,6 +3,7 @@
 #include "played_page.h"
 #include "film.h"
 #include "folder_files.h"
+#include "packed_points.h"
 #include "page.h"
 #include "playback.h"
 #include "recording_file.h"
@@ -86,8 +87,10 @@ bool write_played_page(const octree_session *session, const film_options *option
         !make_session_bytes(session, options->values, &written, error))
         return false;
     playing p = {.options = options, .summary = summary, .out = page};
-    const bool ok = check_size(written.size, error) && play_and_write_ticks(&p, session, error);
-    if (ok)
+    bool ok = check_size(written.size, error) && play_and_write_ticks(&p, session, error);
+    if (ok && are_points_packed(session, options->values))
+        ok = page_end_with_packed_session(&p.page, session, options->values, error);
+    else if (ok)
         page_end(&p.page, written.bytes, written.size);
     page_release(&p.page);
     free(written.bytes);

@@ -143,5 +143,6 @@ bool recording_end(recording *r, bool ok, octreel_error *error)
         return ok;
     if (whole && r->options->resume)
         replacement_remove_leftovers(folder);
-    return page_write(folder, error) && (!whole || !r->options->resume || folder_remove_leftovers(folder, error));
+    return page_write(folder, r->session, r->options->values, error) &&
+           (!whole || !r->options->resume || folder_remove_leftovers(folder, error));
 }

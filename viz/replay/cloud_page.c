@@ -6,16 +6,15 @@
  * viewer, the module and the facts are those of every page. */
 #include "cloud_page.h"
 #include "octree/octree.h"
+#include "packed_points.h"
 #include "page.h"
 #include "picture.h"
-#include "point_block.h"
 #include "recording_file.h"
 #include "text.h"
 #include "ticks_write.h"
 
 #include <stdlib.h>
 #include <string.h>
-#include <zlib.h>
 
 /* ---- Points ----------------------------------------------------------------------------------------------------- */
 
@@ -52,39 +51,12 @@ static bool collect_points(const inspection *made, point_block *b)
     return ok;
 }
 
-/* Compress bytes as gzip does. image/deflate.h compresses the rows of pictures only, so this is zlib, which libpng
- * needs anyway. The caller frees the result. Returns null if memory runs out. */
-static unsigned char *compress_bytes(char *bytes, size_t size, size_t *packed)
-{
-    enum { GZIP = 16 };
-    z_stream z = {.next_in = (unsigned char *)bytes};
-    if (deflateInit2(&z, 6, Z_DEFLATED, MAX_WBITS + GZIP, MAX_MEM_LEVEL, Z_DEFAULT_STRATEGY) != Z_OK)
-        return NULL;
-    const size_t room = deflateBound(&z, size);
-    unsigned char *result = malloc(room);
-    z.next_out = result;
-    z.avail_in = (unsigned)size; /* a block has less than 4 GB: POINT_BLOCK_MOST points of at most 50 bytes */
-    z.avail_out = (unsigned)room;
-    if (result)
-        deflate(&z, Z_FINISH);
-    *packed = z.total_out;
-    deflateEnd(&z);
-    return result;
-}
-
 static unsigned char *make_packed_points(const cloud_page *c, size_t *packed)
 {
     point_block b = {.node = c->node, .values = c->made->values};
-    text_stream s;
-    char *bytes = NULL;
     snprintf(b.title, sizeof b.title, "%s", c->title);
-    bool ok = collect_points(c->made, &b);
-    if (text_stream_begin(&s))
-        ok = ok && point_block_write(&b, s.stream);
-    ok = text_stream_end(&s, &bytes) && ok;
+    unsigned char *result = collect_points(c->made, &b) ? pack_points(&b, packed) : NULL;
     free(b.bodies);
-    unsigned char *result = ok ? compress_bytes(bytes, s.size, packed) : NULL;
-    free(bytes);
     return result;
 }
 
@@ -135,7 +107,7 @@ static bool end_page(const cloud_page *c, page_writer *w, octreel_error *error)
     const bool written = text_stream_end(&s, &text);
     unsigned char *points = written ? make_packed_points(c, &size) : NULL;
     if (points)
-        page_end_with_points(w, text, s.size, points, size);
+        page_end_with_points(w, text, s.size, points, size, true);
     free(text);
     free(points);
     return points || error_no_memory(error);

@@ -37,6 +37,7 @@ static void assert_restored(const point_block *b)
     assert_int_equal(read.node, b->node);
     assert_int_equal(read.count, b->count);
     assert_int_equal(read.values.kinds, b->values.kinds);
+    assert_int_equal(read.moving, b->moving);
     for (size_t i = 0; i < b->count; i++) {
         const point_value was = point_values_get(&b->values, b->bodies[i].id),
                           is = point_values_get(&read.values, b->bodies[i].id);
@@ -105,6 +106,11 @@ static void block_restores_every_bit(void **state)
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++)
         for (size_t count = 0; count <= POINTS; count += count ? POINTS - 1 : 1) {
             point_block b = make_block(count, numbers[i]);
+            assert_restored(&b);
+            b.moving = true;
+            for (size_t body = 0; body < count; body++)
+                for (size_t axis = 0; axis < 3; axis++)
+                    b.bodies[body].velocity[axis] = numbers[i](body + axis);
             assert_restored(&b);
             point_block_release(&b);
         }

@@ -190,6 +190,53 @@ static void unreadable_session_is_reported_and_the_old_one_stays(void **state)
     assert_reported_value(d->said, "dropped", "2 0,100,0");
 }
 
+/* ---- Many points -------------------------------------------------------------------------------------------- */
+
+enum { MANY = 10000 };
+
+/* Film a session with so many points that its page has them in a block. Some move, and some have colours. */
+static place film_many_points(const driven *d)
+{
+    static octree_body bodies[MANY];
+    static point_value rows[MANY];
+    const place film = place_in(d->folder, "many");
+    const point_values values = {.rows = rows, .count = MANY, .first = 100, .kinds = 1u << POINT_COLOR};
+    octree_session session = octree_session_default();
+    film_options options = small_film(film.path);
+    for (size_t i = 0; i < MANY; i++) {
+        bodies[i] = (octree_body){.id = i + 100, .velocity = {i % 7 == 0 ? 0.125 * (double)(i % 5) : 0}};
+        for (size_t axis = 0; axis < 3; axis++)
+            bodies[i].position[axis] = (double)((i + 1) * (31 + axis * 6) % 2000) - 1000 + 1 / (double)(i + 3);
+        rows[i] = (point_value){.color = {(uint8_t)i, 90, (uint8_t)(i >> 8)}, .has[POINT_COLOR] = i % 3 > 0};
+    }
+    session.tree.full_leaf = OCTREE_GROW;
+    session.bodies = bodies;
+    session.body_count = MANY;
+    session.keys = "wd.n";
+    session.ticks = 4;
+    options.values = &values;
+    options.view.point_color = POINTS_BY_FILE;
+    assert_filmed(&session, &options);
+    return film;
+}
+
+static void many_points_are_packed_and_play_the_same(void **state)
+{
+    const driven *d = need_page(state);
+    const place film = film_many_points(d);
+    char *said = run_scripts_in_playing_page(d->folder, place_below(film.path, "index.html").path,
+                                             (const char *const[]){"drive_packed.js", NULL});
+    char *session = file_read(place_below(film.path, "session.json").path, NULL);
+    for (char *at = session; (at = strchr(at, '\n'));)
+        *at = ' ';
+    assert_reported_value(said, "packed", "true true false");
+    assert_reported_ticks(said, "tick", film.path, 5, false);
+    assert_reported_value(said, "session", session);
+    assert_reported_value(said, "errors", "");
+    free(session);
+    free(said);
+}
+
 /* ---- Without frames ----------------------------------------------------------------------------------------- */
 
 static place write_page_without_frames(const driven *d)
@@ -260,6 +307,7 @@ int main(void)
         cmocka_unit_test(session_played_on_the_page_records_the_same),
         cmocka_unit_test(random_gestures_change_no_tick_and_raise_no_error),
         cmocka_unit_test(unreadable_session_is_reported_and_the_old_one_stays),
+        cmocka_unit_test(many_points_are_packed_and_play_the_same),
         cmocka_unit_test(page_without_frames_draws_at_once),
         cmocka_unit_test(page_that_cannot_draw_explains_the_remedy),
         cmocka_unit_test(page_of_the_default_session_is_small),

@@ -104,7 +104,7 @@ static void damaged_page_says_so(void **state)
     const place page = place_in(folder, "cloud.html"), damaged = place_in(folder, "damaged.html");
     free(drive_cloud(folder, "x y z red green blue", ""));
     size_t size;
-    char *text = file_read(page.path, &size), *points = strstr(text, "id=\"points\">");
+    char *text = file_read(page.path, &size), *points = strstr(text, "id=\"points\"");
     assert_non_null(points);
     points[5000] = points[5000] == '0' ? '1' : '0';
     file_write(damaged.path, text, size);

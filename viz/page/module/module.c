@@ -32,7 +32,7 @@
 
 typedef struct web {
     session_file session;
-    point_block points; /* the title and the marked node of a cloud; its points and values are those of the session */
+    point_block points; /* the title and the marked node of a cloud; points and values are those of the session */
     tree_subject cloud;
     playback playback;
     bool open, drawn;       /* true: the playback is open; true: the current tick is drawn */
@@ -134,9 +134,9 @@ static bool take_points(const char *block, size_t size)
 }
 
 /* Open a session and play its tick 0. The input buffer holds `session` bytes of a session.json, followed by `recording`
- * bytes of a recording.json and `points` bytes of a block of points (point_block.h), 0 if the session is not a cloud. A
- * session that is already open is closed first. */
-bool web_open(size_t session, size_t recording, size_t points)
+ * bytes of a recording.json and `points` bytes of a block of points (point_block.h), 0 if session.json has the points.
+ * `cloud`: the session is a cloud. A session that is already open is closed first. */
+bool web_open(size_t session, size_t recording, size_t points, bool cloud)
 {
     view v;
     uint64_t every;
@@ -153,7 +153,7 @@ bool web_open(size_t session, size_t recording, size_t points)
     page.summed_layers = v.layers & VIEW_HEAT_LAYERS ? VIEW_HEAT_LAYERS : 0;
     page.open = playback_open(&page.playback, &page.session.session, &page.session.values, &v, &page.error);
     page.playback.history.changes.tracked = page.open;
-    page.playback.cloud = points > 0 ? &page.cloud : NULL;
+    page.playback.cloud = cloud ? &page.cloud : NULL;
     if (!page.open)
         close_game_and_picture();
     return page.open || report_error_text();

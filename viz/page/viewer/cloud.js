@@ -1,13 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 /* cloud.js - the page of a point cloud, and the measure between two points.
  *
- * A cloud is a session of one tick whose points are a compressed block in the page (formats/point_block.c). The module
- * decodes it. Only the parts of the page that belong to a game are hidden. */
+ * A cloud is a session of one tick whose points are a compressed block in the page (formats/point_block.c), like those
+ * of a large session. The module decodes it. Only the parts of the page that belong to a game are hidden. */
 "use strict";
 
 const NO_POINTS = new Uint8Array(0);
 
-const isCloudPage = document.getElementById("points") !== null;
+const isCloudPage = document.getElementById("points")?.dataset.cloud !== undefined;
+
+/* Whether a block of points is the cloud of the page. */
+const isCloud = points => isCloudPage && points.length > 0;
 
 /* The keys of a cloud's page; the others belong to ticks and to the player. */
 const CLOUD_KEYS = ["Shift+ArrowLeft", "Shift+ArrowRight", "Shift+ArrowUp", "Shift+ArrowDown", "Shift+PageUp",
@@ -18,10 +21,10 @@ const keysOf = keys => isCloudPage ? keys.filter(([[name]]) => CLOUD_KEYS.includ
 /* The block of points in the page; empty if the page has none. */
 async function unpackPoints()
 {
-    if (!isCloudPage)
+    if (!byId("points"))
         return NO_POINTS;
     try {
-        return new Uint8Array(await unpack(byId("points").textContent.trim()).arrayBuffer());
+        return new Uint8Array(await unpackedPoints);
     } catch {
         throw new Error("the points in this page are cut off or damaged; copy the page or make it again");
     }

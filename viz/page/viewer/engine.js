@@ -89,10 +89,10 @@ class Engine {
         return parts.map(part => part.length);
     }
 
-    /* Open a session. The points of a cloud are a block of bytes. */
+    /* Open a session. Many points are a block of bytes. */
     open(session, view, points = NO_POINTS)
     {
-        this.textAfter(this.wasm.web_open(...this.writeInput(session, JSON.stringify(view), points)));
+        this.textAfter(this.wasm.web_open(...this.writeInput(session, JSON.stringify(view), points), isCloud(points)));
         this.view = view;
         this.tick = 0;
         this.length = this.wasm.web_length() + 1;

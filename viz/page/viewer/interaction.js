@@ -4,7 +4,7 @@
 "use strict";
 
 const LONG_WAIT = 100; /* ms; if the user waits longer, a progress bar is shown */
-const LARGE = 1 << 20; /* characters; before a longer session is read, a progress bar is shown */
+const LARGE = 1 << 22; /* characters; before a longer session is read, a progress bar is shown */
 const MOST_FILE = 256 << 20; /* the maximum size of a session file in bytes */
 
 /* A view for a session that comes without a view: the recording's view, without the options that depend on the

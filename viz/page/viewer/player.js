@@ -14,7 +14,7 @@ const nextTask = () => new Promise(done => setTimeout(done));
 
 class Player {
     /* `known` is the number of ticks whose facts the recording has. `played(tick, engine)` is called for each tick that
-     * is played ahead. `points` is the block of points of a cloud, otherwise empty. */
+     * is played ahead. `points` is the block of the points of a cloud or of a large session, otherwise empty. */
     constructor(module, session, view, known, played, points = NO_POINTS)
     {
         this.points = points;
@@ -47,7 +47,7 @@ class Player {
 
     get isCloud()
     {
-        return this.points.length > 0;
+        return isCloud(this.points);
     }
 
     get isBranched()

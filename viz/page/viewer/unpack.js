@@ -36,8 +36,8 @@ async function compileText(text)
     return WebAssembly.compile(await unpack(text).arrayBuffer());
 }
 
-/* The compiled module; a promise. */
-let compiled;
+/* Promises of the compiled module, and of the bytes of the page's block of points if there is one. */
+let compiled, unpackedPoints;
 
 async function addParts()
 {
@@ -50,6 +50,8 @@ async function addParts()
     const parts = [["styles", "style"], ["scripts", "script"]].map(([id, name]) => [name, unpack(lettersOf(id)).text()]);
     if (typeof WebAssembly === "object")
         (compiled = compileText(lettersOf("module"))).catch(() => {}); /* who awaits it gets the error */
+    if (lettersOf("points"))
+        (unpackedPoints = unpack(lettersOf("points")).arrayBuffer()).catch(() => {});
     for (const [name, text] of parts) {
         const part = document.createElement(name);
         part.textContent = await text;

@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: MIT */
+/* packed_points.h - packs the points of a page: a block (point_block.h), compressed as gzip does. */
+#ifndef RECORD_PACKED_POINTS_H
+#define RECORD_PACKED_POINTS_H
+
+#include "point_block.h"
+
+/* A page with fewer points has them in its session.json, which people can read. */
+#define PACKED_FEWEST 10000
+
+/* Pack a block. The caller frees the result. Returns null if memory runs out. Cost: O(points). */
+unsigned char *pack_points(const point_block *b, size_t *packed);
+
+/* Returns whether the page of a session has the points in a block: there are many, with ascending ids, and no value
+ * belongs to a point that an edit inserts. `values` may be null. */
+bool are_points_packed(const octree_session *session, const point_values *values);
+
+/* Pack the points of a session for which are_points_packed() is true. The caller frees the result. Returns null if
+ * memory runs out. */
+unsigned char *pack_points_of_session(const octree_session *session, const point_values *values, size_t *packed);
+
+#endif
