@@ -49,7 +49,7 @@
       "wrong answers and wrong nodes of a foreign index, and missing and extra points", ROLE_WRONG, false, true)       \
     X(BROKEN, "broken", "the broken node", "the node in which the validator finds a broken invariant", ROLE_WARNING,   \
       false, true)                                                                                                     \
-    X(TEXT, "text", "text", "the text column, the legend and all labels", ROLE_TEXT, false, true)                      \
+    X(TEXT, "text", "text", "the text column, the caption, the legend and all labels", ROLE_TEXT, false, true)         \
     X(CLOSEUP, "closeup", "the close-up", "the frame of the close-up, and the part of the world that it shows",        \
       ROLE_FAINT, false, false)                                                                                        \
     X(DIAGRAM, "diagram", "the diagram", "the diagram of the tree, where view.diagram places it", ROLE_BACKGROUND,     \

@@ -226,8 +226,6 @@ typedef struct octree_tick {
      * queries, in their order */
     const octree_answer *answers;
     size_t answer_count;
-    /* bit mask, bit 1 << octree_query_kind: the kinds of queries that were asked at this tick or earlier */
-    unsigned asked;
     bool judged;                /* true: a foreign answer was compared with the exact answer at this tick or earlier */
     const octree_visit *visits; /* the nodes that searches visited or pruned, each once, in pre-order */
     size_t visit_count;

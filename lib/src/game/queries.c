@@ -48,7 +48,6 @@ static bool run_game_query(octree_game *game, const octree_query *query, bool by
     const size_t points = game->found_points.count, neighbors = game->found_neighbors.count;
     const octree_status status = run_query(&run, query, game->tick.player, answer);
     answer->by_key = by_key;
-    game->tick.asked |= 1u << query->kind;
     return status == OCTREE_OK && judge_foreign_query(game, query, &run.how, points, neighbors);
 }
 

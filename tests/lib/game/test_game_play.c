@@ -31,7 +31,7 @@ static void assert_same_answers(const octree_tick *a, const octree_tick *b)
 static void assert_same_tick(const octree_game *left, const octree_game *right)
 {
     const octree_tick *a = octree_game_tick(left), *b = octree_game_tick(right);
-    assert_true(a->number == b->number && a->key == b->key && a->events == b->events && a->asked == b->asked);
+    assert_true(a->number == b->number && a->key == b->key && a->events == b->events);
     assert_memory_equal(a->player, b->player, sizeof a->player);
     assert_memory_equal(a->attempt, b->attempt, sizeof a->attempt);
     assert_true(same_points(a->hits, a->hit_count, b->hits, b->hit_count));
