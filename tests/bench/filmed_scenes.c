@@ -96,6 +96,18 @@ const filmed_scene filmed_scenes[FILMED_SCENES] = {
      .page_fps = 10,
      .turn_fps = 15,
      .page_first_ms = 3000},
+    {.name = "cloud",
+     .about = "the page of a cloud of 1,000,000 colored points",
+     .points = 1000000,
+     .cloud = true,
+     .camera = CAMERA_ISO,
+     .lod = 2,
+     .budget = 250000,
+     .shorter = 2,
+     .naive_shorter = 1,
+     .page_fps = 10,
+     .turn_fps = 15,
+     .page_first_ms = 3000},
 };
 
 view filmed_view(const filmed_scene *scene)
@@ -106,6 +118,10 @@ view filmed_view(const filmed_scene *scene)
     v.camera = scene->camera;
     v.lod = scene->lod;
     v.budget = scene->budget;
+    if (scene->cloud) {
+        v.point_color = POINTS_BY_FILE;
+        v.shade = SHADE_EDL;
+    }
     return v;
 }
 

@@ -10,6 +10,7 @@ typedef struct filmed_scene {
     const char *name, *about;
     size_t points; /* clustered, capacity 8; 0 is the default session */
     bool moving;   /* every point has a velocity */
+    bool cloud;    /* a point cloud with colours, not a game: only its page is measured */
     view_camera camera;
     double lod;           /* pixels */
     uint64_t budget;      /* boxes and points per frame; 0: any number */
@@ -40,7 +41,7 @@ typedef struct page_turning {
     double scale;   /* the page draws this part of the pixels of an axis to be fast enough; 1: all */
 } page_turning;
 
-#define FILMED_SCENES 6
+#define FILMED_SCENES 7
 extern const filmed_scene filmed_scenes[FILMED_SCENES];
 
 /* The goal for the additional time of comparing answers, as a share of a frame without queries. */

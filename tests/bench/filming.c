@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* filming.c - see filming.h. */
 #include "filming.h"
+#include "cloud_page.h"
+#include "file.h"
 #include "film.h"
 #include "frame_file.h"
 #include "naive.h"
@@ -203,16 +205,66 @@ static bool film_naive(work *w)
 
 /* ---- The page ----------------------------------------------------------------------------------------------- */
 
-static bool film_page(work *w)
+static bool film_session_page(work *w)
 {
     film_summary summary;
     octreel_error error;
-    page_times t;
     const film_options options = {.folder = w->order->folder, .view = filmed_view(w->order->scene), .every = 0};
+    return film_session(w->session, &options, &summary, &error) || fail(w, error.text);
+}
+
+/* Make a cloud of the points of the session. The color of a point shows its position. */
+static bool make_cloud(const octree_session *session, cloud *c)
+{
+    *c = (cloud){.count = session->body_count, .color_full = 255};
+    c->positions = malloc(c->count * sizeof *c->positions);
+    for (size_t i = 0; c->positions && i < c->count; i++) {
+        point_value value = {.has[POINT_COLOR] = true};
+        memcpy(c->positions[i], session->bodies[i].position, sizeof c->positions[i]);
+        for (int axis = 0; axis < 3; axis++)
+            value.color[axis] = (unsigned char)((c->positions[i][axis] + 1000) / 8);
+        if (!point_values_append_row(&c->values, &value))
+            return false;
+    }
+    return c->positions;
+}
+
+static bool write_cloud_page(work *w, const inspection *made)
+{
+    const view v = filmed_view(w->order->scene);
+    const cloud_page page = {.title = w->order->scene->name, .made = made, .view = &v};
+    octreel_error error;
+    file_writer file;
+    char *path = folder_create(w->order->folder, &error) ? path_join(w->order->folder, "index.html") : NULL;
+    const bool open = path && file_writer_open(&file, path, &error);
+    const bool ok = open && (cloud_page_write(&page, file.stream, &error) ? file_writer_close(&file, &error)
+                                                                          : file_writer_discard(&file));
+    free(path);
+    return ok || fail(w, error.text);
+}
+
+static bool film_cloud_page(work *w)
+{
+    octree_def def = w->session->tree;
+    inspection made;
+    octreel_error error;
+    cloud c;
+    def.leaf_capacity = 64;
+    const bool built = make_cloud(w->session, &c) && inspect_build(&c, &def, NULL, &made, &error);
+    const bool ok = built ? write_cloud_page(w, &made) : fail(w, "the cloud has no tree");
+    if (built)
+        inspect_release(&made);
+    cloud_release(&c);
+    return ok;
+}
+
+static bool film_page(work *w)
+{
+    page_times t;
     if (!page_plays())
         return fail(w, "octreel was built without WebAssembly");
-    if (!film_session(w->session, &options, &summary, &error))
-        return fail(w, error.text);
+    if (!(w->order->scene->cloud ? film_cloud_page : film_session_page)(w))
+        return false;
     if (!page_time(w->order->browser, w->order->folder, w->order->frames, &t, w->result->trouble,
                    sizeof w->result->trouble))
         return false;

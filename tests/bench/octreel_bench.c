@@ -190,7 +190,7 @@ static bool has_page(const options *o, const filmed_scene *scene)
 static bool is_filmed(const options *o, const filmed_scene *scene, filming_who who)
 {
     const bool asks = who == FILM_ASKED || who == FILM_ANSWERED;
-    if (o->only_page && who != FILM_PAGE)
+    if ((o->only_page || scene->cloud) && who != FILM_PAGE)
         return false;
     return (who != FILM_PAGE || has_page(o, scene)) && (!asks || scene->asked > 0);
 }
@@ -398,7 +398,7 @@ static void print_json(const filmed_scene *scene, const filming result[FILM_KIND
 
 static void print_scene(const options *o, const filmed_scene *scene, const filming result[FILM_KINDS])
 {
-    if (!o->only_page) {
+    if (!o->only_page && !scene->cloud) {
         if (!o->json)
             print_naive(scene, &result[FILM_NAIVE]);
         (o->json ? print_json : print_octreel)(scene, result);
