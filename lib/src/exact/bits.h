@@ -6,12 +6,11 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* A table of 16 entries of four bits each. Entry i is the number of set bits in the number i, from 0 to 15. */
-#define BITS_COUNTS UINT64_C(0x4332322132212110)
-
+/* Returns the number of set bits in a mask of eight bits. The first multiplication moves each bit into a group of four
+ * bits of its own; the second adds all groups into the highest group. */
 static inline unsigned bits_count8(unsigned mask)
 {
-    return (unsigned)((BITS_COUNTS >> 4 * (mask & 15) & 15) + (BITS_COUNTS >> 4 * (mask >> 4) & 15));
+    return ((mask * 0x08040201u >> 3) & 0x11111111u) * 0x11111111u >> 28;
 }
 
 /* Returns the number of set bits. Partial sums are taken over 2, 4 and 8 bits; a multiplication then adds all bytes

@@ -43,6 +43,14 @@
 #include <emmintrin.h>
 #endif
 
+/* Returns the sign bit of a number. The function has no branch. */
+static inline unsigned is_negative(double x)
+{
+    uint64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return (unsigned)(bits >> 63);
+}
+
 /* Subnormal numbers are converted to normal numbers, because many processors multiply subnormal numbers in microcode,
  * at some 150 cycles each. (In a measurement, a nearest-neighbour search in a world at 1e-310 took 21 times as long as
  * in other worlds.) A subnormal number is an integer multiple of 2^-1074, and this integer is a normal double. The

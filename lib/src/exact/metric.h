@@ -2,11 +2,11 @@
 /* metric.h - computes squared distances in doubles, with a proven error bound. They neither overflow nor underflow in
  * any world.
  *
- * Coordinates are multiplied by a power of two, so that the world's extent is near 1. For points of the world this
- * product is exact, or has an error below 2^-1074 if the product is subnormal. The computed square s of a real scaled
- * square S satisfies |s - S| <= 6u s + 2^-1000 with u = 2^-53: one rounding in each difference, one in each product,
- * two in the sum. A target far outside the world may give infinity or NaN; comparisons with infinity or NaN decide
- * nothing.
+ * Coordinates are multiplied by a power of two, so that the world's extent is moderate: from 2^-99 to 2^100. Nearly all
+ * worlds are moderate by themselves, and are not multiplied. For points of the world the product is exact, or has an
+ * error below 2^-1074 if it is subnormal. The computed square s of a real scaled square S satisfies |s - S| <= 6u s +
+ * 2^-1000 with u = 2^-53: one rounding in each difference, one in each product, two in the sum. A target far outside
+ * the world may give infinity; comparisons with infinity decide nothing.
  */
 #ifndef OCTREE_METRIC_H
 #define OCTREE_METRIC_H
@@ -21,16 +21,34 @@ typedef struct metric {
     double grain; /* in a world of subnormal coordinates: scale * 2^-1074; else 0 */
 } metric;
 
-/* Returns the power of two by which the coordinates of a world are multiplied. The power is between 2^-1020 and 2^1000,
- * so that it is a normal double. */
+/* Returns the power of two by which the coordinates of a world are multiplied. If the world's extent is moderate, it is
+ * 1. Otherwise it brings the extent near 1, and is between 2^-1020 and 2^1000, so that it is a normal double. */
 double metric_scale(const octree_box *world);
-
-metric metric_make(double scale, bool subnormal, const double target[3]);
 
 /* Returns a coordinate of the world multiplied by the scale. */
 static inline double metric_scaled(const metric *m, double x)
 {
     return m->grain > 0 ? subnormal_count(x) * m->grain : x * m->scale;
+}
+
+/* Complete a metric whose target is set, for a scale that is not 1. */
+void metric_set_scaled(metric *m, double scale, bool subnormal);
+
+static inline void metric_set(metric *m, double scale, bool subnormal, const double target[3])
+{
+    m->scale = 1;
+    m->grain = 0;
+    for (int i = 0; i < 3; i++)
+        m->target[i] = m->scaled[i] = target[i];
+    if (scale != 1)
+        metric_set_scaled(m, scale, subnormal);
+}
+
+static inline metric metric_make(double scale, bool subnormal, const double target[3])
+{
+    metric m;
+    metric_set(&m, scale, subnormal, target);
+    return m;
 }
 
 /* Returns the scaled squared distance of a point from the target, (dx^2 + dy^2) + dz^2. The terms are added in this
@@ -43,28 +61,33 @@ static inline double metric_square(const metric *m, const double p[3])
     return (x * x + y * y) + z * z;
 }
 
-/* The result of computing the squared distances of up to 64 points. It has the least square, and a bit mask of the
- * points whose square is not above a limit. Each square equals the result of metric_square() in every bit. */
-typedef struct metric_scan {
-    uint64_t within;
-    double least;
-} metric_scan;
+/* Compute the squared distances of 1 to 64 points. Each square equals the result of metric_square() in every bit.
+ * Returns the least of the squares. */
+double metric_squares(const metric *m, const octree_point *points, unsigned count, double squares[]);
 
-metric_scan metric_scan_points(const metric *m, const octree_point *points, unsigned count, double reach,
-                               double squares[]);
+#ifdef OCTREE_SSE2
+/* Returns a mask of the four squares that are not above `reach`. */
+static inline uint64_t metric_mask_four_within(const double squares[4], __m128d reach)
+{
+    const __m128d a = _mm_cmpngt_pd(_mm_loadu_pd(squares), reach), b = _mm_cmpngt_pd(_mm_loadu_pd(squares + 2), reach);
+    return (uint64_t)_mm_movemask_ps(_mm_shuffle_ps(_mm_castpd_ps(a), _mm_castpd_ps(b), _MM_SHUFFLE(2, 0, 2, 0)));
+}
+#endif
 
-/* Returns a bit mask of the squares that are not above `reach`. The function has no branches, because the branches
+/* Returns a bit mask of 1 to 64 squares that are not above `reach`. The function has no branches, because the branches
  * would be unpredictable. */
 static inline uint64_t metric_mask_within(const double squares[], unsigned count, double reach)
 {
     uint64_t within = 0;
-    unsigned i = 0;
 #ifdef OCTREE_SSE2
-    const __m128d bound = _mm_set1_pd(reach);
-    for (; i + 1 < count; i += 2)
-        within |= (uint64_t)_mm_movemask_pd(_mm_cmpngt_pd(_mm_loadu_pd(&squares[i]), bound)) << i;
+    if (count >= 4) {
+        const __m128d bound = _mm_set1_pd(reach);
+        for (unsigned i = 0; i < count - 4; i += 4)
+            within |= metric_mask_four_within(&squares[i], bound) << i;
+        return within | metric_mask_four_within(&squares[count - 4], bound) << (count - 4);
+    }
 #endif
-    for (; i < count; i++)
+    for (unsigned i = 0; i < count; i++)
         within |= (uint64_t) !(squares[i] > reach) << i;
     return within;
 }
@@ -106,8 +129,20 @@ int metric_compare(const double target[3], const double a[3], const double b[3])
  * radius must not be negative. */
 int metric_compare_radius(const double target[3], const double p[3], double radius);
 
-/* Returns the Euclidean distance, within 4 ulp. Differences are divided by the largest difference, so that the result
- * is infinite only if the distance is beyond DBL_MAX. */
-double metric_distance(const double a[3], const double b[3]);
+static inline double metric_length(double x, double y, double z)
+{
+    return sqrt((x * x + y * y) + z * z);
+}
+
+/* Returns the distance if the square of `largest`, the largest difference, may overflow or underflow. */
+double metric_extreme_distance(const double a[3], const double b[3], double largest);
+
+/* Returns the Euclidean distance, within 4 ulp. The result is infinite only if the distance is beyond DBL_MAX. */
+static inline double metric_distance(const double a[3], const double b[3])
+{
+    const double x = fabs(a[0] - b[0]), y = fabs(a[1] - b[1]), z = fabs(a[2] - b[2]);
+    const double xy = x > y ? x : y, largest = xy > z ? xy : z;
+    return 0x1p-480 < largest && largest < 0x1p480 ? metric_length(x, y, z) : metric_extreme_distance(a, b, largest);
+}
 
 #endif

@@ -10,9 +10,13 @@
  * this path on the way back up. By then the best distance is small, and most siblings are out of reach. From the best
  * distance and the keys, count_nodes_out_of_reach() finds how many nodes of the path need no measuring at all.
  *
+ * Distances from planes: planes are whole numbers in keys, so the distance is the difference from the target's position
+ * in keys. It has a known error, by which the reach of nodes is widened (find_node_reach() in neighbor_heap.c). In
+ * worlds where keys may be wrong, and for targets outside the world, the planes themselves are computed.
+ *
  * Order of siblings: a child's squared distance is a sum of one term per axis. The term is the parent's (near half) or
  * the squared distance to the splitting plane (far half). The eight sums are ordered like the subset sums of three
- * increments, so three comparisons sort them, and the first child out of reach ends the node.
+ * increments, so comparisons find their order in a table, and the first child out of reach ends the node.
  *
  * Cost: O(D + M) on average for points of bounded density, O(n) at worst. Source: the paper, Algorithms
  * 6 and 7; Samet (2006) on best-first and depth-first search. neighbor_heap.c keeps the results and decides near ties.
@@ -24,180 +28,166 @@
 #include "search.h"
 #include "../tree/tasks.h"
 
-/* An inner node on the current path, whose children are being searched. */
-typedef struct frame {
+enum { CACHED = 300000 }; /* a tree with fewer points fits into a processor's caches, where prefetching gains nothing */
+
+/* An inner node that is within reach. */
+typedef struct branch {
     const node *node;
     octree_address address;
-    double center[3];     /* the centre of the node's cell, in units in which the world extends from -1 to 1 */
-    double squares[3][2]; /* on each axis, the squared distance from the target to a child: [axis][0: near half, 1: far
-                             half] */
-    uint8_t near;         /* the octant whose cell is nearest to the target */
-    uint8_t flips[8];     /* `octant ^ near` of each child, sorted by distance */
-    uint8_t next;         /* the index of the next element of `flips` */
-    uint8_t left;         /* bit mask of the octants that are not searched yet */
-} frame;
+    double center[3]; /* the splitting planes of the node's cell, in keys */
+    double half;      /* half of the cell's size, in keys */
+    /* on each axis, the squared distance from the target to the octants: [axis][0: near half, 1: far half] */
+    double squares[3][2];
+} branch;
 
 typedef struct search {
     const octree *tree;
     neighbor_heap found;
     meter meter;
-    double root_squares[3];         /* on each axis, the squared distance from the target to the world */
-    unsigned open;                  /* the number of open frames; the innermost one has depth open - 1 */
-    frame frames[OCTREE_MAX_DEPTH]; /* frames[d] is the frame of the path's node of depth d */
+    bool is_metered;             /* the caller wants costs or a trace */
+    bool is_in_keys;             /* distances from planes are differences of keys; false: the planes are computed */
+    double place[3];             /* the target's position in keys; only if is_in_keys */
+    double root_squares[3];      /* on each axis, the squared distance from the target to the world */
+    double squares[SCAN_POINTS]; /* of the points that are being scanned */
+    branch branches[OCTREE_MAX_DEPTH]; /* a node on the path to the target's leaf, and nodes below it */
 } search;
 
-/* Swap two values, and the labels that belong to them, if the values are out of order. The code has no branches,
- * because branches would be unpredictable. */
-static inline void sort_two_labeled(double *a, double *b, uint8_t *of_a, uint8_t *of_b)
+/* The order of a node's octants by distance. Elements are the values `octant ^ near`, where `near` is the octant
+ * nearest to the target. a, b and c are the bits of the axes with the least, the middle and the greatest increment; d
+ * is the fourth element: a | b or c. */
+#define ORDER_ROW(a, b, c, d)                                                                                          \
+    {                                                                                                                  \
+        0, a, b, d, 7 ^ (d), 7 ^ (b), 7 ^ (a), 7                                                                       \
+    }
+#define ORDER_ROWS(a, b, c)                                                                                            \
+    {                                                                                                                  \
+        ORDER_ROW(a, b, c, c), ORDER_ROW(a, b, c, (a) | (b))                                                           \
+    }
+typedef const uint8_t octant_order[8];
+static octant_order orders[8][2] = {
+    ORDER_ROWS(4, 2, 1), ORDER_ROWS(2, 4, 1), ORDER_ROWS(4, 1, 2), ORDER_ROWS(4, 2, 1),
+    ORDER_ROWS(4, 2, 1), ORDER_ROWS(2, 1, 4), ORDER_ROWS(1, 4, 2), ORDER_ROWS(1, 2, 4),
+};
+
+/* Return the order of the octants. The first index of the table has a bit for each of three comparisons; two of its
+ * values do not occur. An octant's distance is a sum of some of three increments a <= b
+ * <= c. The eight sums ascend as 0, a, b, min(c, a + b), and then the complements of these four in reverse order. */
+static inline const uint8_t *find_octant_order(const branch *b)
 {
-    const double lesser = *b < *a ? *b : *a, greater = *b < *a ? *a : *b;
-    const uint8_t change = (uint8_t)mask_if(*b < *a, *of_a ^ *of_b);
-    *a = lesser;
-    *b = greater;
-    *of_a ^= change;
-    *of_b ^= change;
+    const double x = b->squares[0][1] - b->squares[0][0];
+    const double y = b->squares[1][1] - b->squares[1][0];
+    const double z = b->squares[2][1] - b->squares[2][0];
+    const double most = larger(larger(x, y), z);
+    return orders[(y < x) | (z < y) << 1 | (z < x) << 2][(x + y) + z < 2 * most];
 }
 
-/* Sort the octants by distance. An octant's distance is a sum of some of three increments a <= b <= c. The eight sums
- * ascend as 0, a, b, min(c, a + b), and then the complements of these four in reverse order. */
-static void sort_octants_by_distance(frame *f)
+/* Measure the squared distances from the target to the planes that split a cell: the distances of the far halves.
+ * Returns the octant that is nearest to the target. */
+static inline unsigned measure_planes(const search *s, branch *b)
 {
-    double a = f->squares[0][1] - f->squares[0][0];
-    double b = f->squares[1][1] - f->squares[1][0];
-    double c = f->squares[2][1] - f->squares[2][0];
-    uint8_t bit_a = 4, bit_b = 2, bit_c = 1;
-    sort_two_labeled(&a, &b, &bit_a, &bit_b);
-    sort_two_labeled(&b, &c, &bit_b, &bit_c);
-    sort_two_labeled(&a, &b, &bit_a, &bit_b);
-    f->flips[0] = 0;
-    f->flips[1] = bit_a;
-    f->flips[2] = bit_b;
-    f->flips[3] = a + b < c ? bit_a | bit_b : bit_c;
-    for (int i = 0; i < 4; i++)
-        f->flips[7 - i] = 7 ^ f->flips[i];
-}
-
-/* Measure the distances from the target to the planes that split a frame's cell. The cell's centre and the squares of
- * the near halves are already set. */
-static void measure_planes(const search *s, frame *f)
-{
-    f->near = 0;
+    unsigned below = 0;
     for (int i = 0; i < 3; i++) {
-        const double plane = metric_scaled(&s->found.metric, plane_inside(&s->tree->axes[i], f->center[i]));
-        const double beyond = s->found.metric.scaled[i] - plane;
-        f->squares[i][1] = beyond * beyond;
-        f->near |= beyond >= 0 ? 4 >> i : 0;
-    }
-}
-
-static void open_child_frame(search *s, unsigned flip, const node *child)
-{
-    const frame *parent = &s->frames[s->open - 1];
-    frame *f = &s->frames[s->open];
-    const unsigned octant = parent->near ^ flip;
-    const double half = 1.0 / (double)(1u << s->open++), sides[2] = {-half, half};
-    for (int i = 0; i < 3; i++) {
-        f->center[i] = parent->center[i] + sides[octant >> (2 - i) & 1];
-        f->squares[i][0] = parent->squares[i][flip >> (2 - i) & 1];
-    }
-    f->node = child;
-    f->address = parent->address << 3 | octant;
-    f->next = 0;
-    f->left = child->octants;
-    measure_planes(s, f);
-    sort_octants_by_distance(f);
-}
-
-static void scan_points(search *s, const octree_point *points, unsigned count)
-{
-    neighbor_heap *found = &s->found;
-    double squares[SCAN_POINTS];
-    const metric_scan scan = metric_scan_points(&found->metric, points, count, found->point_reach, squares);
-    const double reach = neighbor_heap_reach(found, scan.least);
-    uint64_t left = scan.within;
-    if (reach < found->point_reach && (left & (left - 1)))
-        left = metric_mask_within(squares, count, reach);
-    for (; left; left &= left - 1) {
-        const unsigned i = bits_lowest(left);
-        if (!(squares[i] > found->point_reach))
-            neighbor_heap_add(found, &points[i], squares[i]);
-    }
-}
-
-static void scan_leaf(search *s, const node *leaf)
-{
-    s->meter.count.leaves++;
-    s->meter.count.points += leaf->count;
-    for (uint32_t i = 0; i < leaf->count; i += SCAN_POINTS)
-        scan_points(s, leaf_points(leaf) + i, leaf->count - i < SCAN_POINTS ? leaf->count - i : SCAN_POINTS);
-}
-
-static double squared_distance_to_child(const frame *f, unsigned flip)
-{
-    return (f->squares[0][flip >> 2] + f->squares[1][flip >> 1 & 1]) + f->squares[2][flip & 1];
-}
-
-/* Search the nearest unsearched child of the innermost node. If no such child is within reach, close the node. */
-static void search_next_child(search *s)
-{
-    frame *f = &s->frames[s->open - 1];
-    while (f->left) {
-        const unsigned flip = f->flips[f->next], octant = f->near ^ flip;
-        if (f->left >> octant & 1) {
-            if (squared_distance_to_child(f, flip) > s->found.node_reach)
-                break;
-            const node *child = &children_of(f->node)[child_index(f->node, octant)];
-            f->left &= ~(1u << octant);
-            f->next++;
-            meter_visit(&s->meter, f->address << 3 | octant);
-            if (child->octants) {
-                open_child_frame(s, flip, child);
-                return;
-            }
-            scan_leaf(s, child);
+        double beyond, unit = 1;
+        if (s->is_in_keys) {
+            beyond = s->place[i] - b->center[i];
+            unit = s->tree->key_squares[i];
         } else {
-            f->next++;
+            const double plane = plane_inside(&s->tree->axes[i], b->center[i] * 0x1p-20 - 1);
+            beyond = s->found.metric.scaled[i] - metric_scaled(&s->found.metric, plane);
+        }
+        b->squares[i][1] = beyond * beyond * unit;
+        below = 2 * below + is_negative(beyond);
+    }
+    return 7 ^ below;
+}
+
+static inline void scan_leaf(search *s, const node *leaf)
+{
+    const octree_point *points = leaf_points(leaf);
+    if (RARELY(s->is_metered)) {
+        s->meter.count.leaves++;
+        s->meter.count.points += leaf->count;
+    }
+    for (uint32_t left = leaf->count, count; left > 0; left -= count, points += count) {
+        count = left < SCAN_POINTS ? left : SCAN_POINTS;
+        const double least = metric_squares(&s->found.metric, points, count, s->squares);
+        if (!(least > s->found.point_reach)) {
+            const double reach = neighbor_heap_reach(&s->found, s->squares, count, least);
+            neighbor_heap_add(&s->found, points, s->squares, metric_mask_within(s->squares, count, reach));
         }
     }
-    meter_prune(&s->meter, f->address, f->left);
-    s->open--;
 }
 
-/* Fill the frame of a node on the path to the target's leaf. The octant that is on this path counts as already
- * searched. */
-static frame *open_path_node(search *s, const node *n, uint64_t code, const uint32_t keys[3], unsigned depth)
+static inline double squared_distance_to_octant(const branch *b, unsigned flip)
 {
-    frame *f = &s->frames[depth];
-    const uint32_t half = cell_size(depth + 1);
+    return (b->squares[0][flip >> 2] + b->squares[1][flip >> 1 & 1]) + b->squares[2][flip & 1];
+}
+
+/* For each octant and axis, the side on which the octant lies. */
+static const double sides[8][3] = {{-1, -1, -1}, {-1, -1, 1}, {-1, 1, -1}, {-1, 1, 1},
+                                   {1, -1, -1},  {1, -1, 1},  {1, 1, -1},  {1, 1, 1}};
+
+/* Make the branch of a node's child in an octant. Its planes are not measured yet. */
+static inline void make_child_branch(const branch *parent, const node *child, unsigned octant, unsigned flip, branch *b)
+{
+    b->node = child;
+    b->address = parent->address << 3 | octant;
+    b->half = parent->half / 2;
     for (int i = 0; i < 3; i++) {
-        f->center[i] = (double)((keys[i] & ~(2 * half - 1)) + half) * 0x1p-20 - 1;
-        f->squares[i][0] = s->root_squares[i];
+        b->center[i] = parent->center[i] + sides[octant][i] * b->half;
+        b->squares[i][0] = parent->squares[i][flip >> (2 - i) & 1];
     }
-    f->node = n;
-    f->address = morton_address(code, depth);
-    measure_planes(s, f);
-    f->near = (uint8_t)morton_octant(code, depth);
-    f->next = 1;
-    f->left = n->octants & ~(1u << f->near);
-    return f;
+}
+
+/* Search the children of a node in the octants `left`, nearest first, as far as they are within reach. `near` is the
+ * octant that is nearest to the target. The element after *b is free for a child. */
+static void search_octants(search *s, branch *b, unsigned near, unsigned left)
+{
+    const uint8_t *flips = find_octant_order(b);
+    for (; left; flips++) {
+        const unsigned flip = *flips, octant = near ^ flip;
+        if (!(left >> octant & 1))
+            continue;
+        if (squared_distance_to_octant(b, flip) > s->found.node_reach)
+            break;
+        const node *child = &children_of(b->node)[child_index(b->node, octant)];
+        left &= ~(1u << octant);
+        if (RARELY(s->is_metered))
+            meter_visit(&s->meter, b->address << 3 | octant);
+        if (child->octants) {
+            make_child_branch(b, child, octant, flip, b + 1);
+            search_octants(s, b + 1, measure_planes(s, b + 1), child->octants);
+        } else {
+            scan_leaf(s, child);
+        }
+    }
+    if (RARELY(s->is_metered))
+        meter_prune(&s->meter, b->address, left);
 }
 
 /* Search those octants of a node that are not on the path to the target's leaf. Usually all these octants are out of
  * reach. */
-static void search_siblings(search *s, frame *f, unsigned depth)
+static void search_siblings(search *s, const node *n, uint64_t code, const uint32_t keys[3], unsigned depth)
 {
     const double reach = s->found.node_reach;
-    const double x = squared_distance_to_child(f, 4), y = squared_distance_to_child(f, 2),
-                 z = squared_distance_to_child(f, 1);
-    /* A single branch: three branches, one per axis, would be unpredictable. */
-    if ((x > reach) & (y > reach) & (z > reach)) {
-        meter_prune(&s->meter, f->address, f->left);
-        return;
+    const uint32_t half = cell_size(depth + 1);
+    const unsigned near = morton_octant(code, depth), left = n->octants & ~(1u << near);
+    branch *b = s->branches;
+    b->node = n;
+    b->address = morton_address(code, depth);
+    b->half = (double)(int32_t)half;
+    for (int i = 0; i < 3; i++) {
+        b->center[i] = (double)(int32_t)((keys[i] & ~(2 * half - 1)) + half);
+        b->squares[i][0] = s->root_squares[i];
     }
-    sort_octants_by_distance(f);
-    s->open = depth + 1;
-    while (s->open > depth)
-        search_next_child(s);
+    measure_planes(s, b);
+    const double x = squared_distance_to_octant(b, 4), y = squared_distance_to_octant(b, 2),
+                 z = squared_distance_to_octant(b, 1);
+    /* A single branch: three branches, one per axis, would be unpredictable. */
+    if (!((x > reach) & (y > reach) & (z > reach)))
+        search_octants(s, b, near, left);
+    else if (RARELY(s->is_metered))
+        meter_prune(&s->meter, b->address, left);
 }
 
 /* Find the cells adjacent to the target's cell that the search will probably visit, and store their Morton codes. Such
@@ -251,28 +241,64 @@ static void find_nearest_keys(const octree *tree, const double target[3], uint32
  * of reach of the target.
  *
  * The number is 20 minus the highest bit in which the keys of target - reach and target + reach differ on any axis. The
- * reach in keys is widened by the error of the keys plus two. The result is 0 if the keys are not reliable or the
- * target is outside the world. */
+ * reach in keys is widened by the error of the keys plus two. The result is 0 if distances are not in keys. */
 static unsigned count_nodes_out_of_reach(const search *s, const uint32_t keys[3])
 {
-    const double reach = sqrt(s->found.node_reach) / s->found.metric.scale;
-    uint32_t differ = 0;
+    const double reach = sqrt(s->found.node_reach);
+    uint32_t differ = 1;
     for (int i = 0; i < 3; i++) {
-        const axis *a = &s->tree->axes[i];
-        const double width = reach * a->keys_per_unit + a->guess_error + 2;
-        if (!(width < PLANE_GRID) || !(a->keys_per_unit > 0) || a->subnormal || s->root_squares[i] > 0)
+        const double width = reach * s->tree->axes[i].keys_per_unit + 3; /* the keys' error is less than a half */
+        if (!(width < PLANE_GRID) || !s->is_in_keys)
             return 0;
-        const uint32_t wide = (uint32_t)width + 1, low = keys[i] > wide ? keys[i] - wide : 0;
-        const uint32_t high = keys[i] + wide < PLANE_GRID ? keys[i] + wide : PLANE_GRID - 1;
-        differ |= low ^ high;
+        const int32_t key = (int32_t)keys[i], wide = (int32_t)width, low = key - wide, high = key + wide;
+        differ |=
+            (uint32_t)(low > 0 ? low : 0) ^ (uint32_t)(high < (int32_t)PLANE_GRID ? high : (int32_t)PLANE_GRID - 1);
     }
-    return OCTREE_MAX_DEPTH - 1 - bits_highest(differ); /* `differ` is not 0, because low < high on every axis */
+    return OCTREE_MAX_DEPTH - 1 - bits_highest(differ);
 }
 
-static void search_from_root(search *s)
+/* Search the nodes of the path to the target's leaf, from the depth `depth` up, as far as they are within reach. */
+static void search_path(search *s, const path *p, uint64_t code, const uint32_t keys[3], unsigned depth)
+{
+    const unsigned first_near = count_nodes_out_of_reach(s, keys);
+    while (depth > first_near) {
+        depth--;
+        search_siblings(s, p->nodes[depth], code, keys, depth);
+    }
+    while (s->is_metered && depth-- > 0)
+        meter_prune(&s->meter, morton_address(code, depth),
+                    p->nodes[depth]->octants & ~(1u << morton_octant(code, depth)));
+}
+
+/* Search the leaf at some keys, then the nodes above it. */
+static inline void search_from_leaf(search *s, const uint32_t keys[3])
 {
     const octree *tree = s->tree;
-    uint32_t keys[3];
+    const uint64_t code = morton_interleave(keys);
+    path p;
+    begin_path(&p, (octree *)(uintptr_t)tree);
+    extend_path(&p, code);
+    const node *end = path_end(&p);
+    s->meter.count.nodes += p.depth + 1;
+    for (unsigned depth = 0; s->meter.how->trace && depth <= p.depth; depth++)
+        meter_trace(&s->meter, morton_address(code, depth), OCTREE_TRACE_VISITED);
+    if (end->octants) {
+        /* no node exists for the target's octant, so all children of this node are searched like siblings */
+        search_path(s, &p, code, keys, p.depth + 1);
+        return;
+    }
+    if (tree->root.count > CACHED) {
+        leaf_prefetch(end);
+        prefetch_adjacent_leaves(&p, code, keys, s->found.k);
+    }
+    scan_leaf(s, end);
+    search_path(s, &p, code, keys, p.depth);
+}
+
+/* Find the keys of the target's position after clamping it to the world. Returns false if the world is out of reach. */
+static bool find_keys_from_planes(search *s, uint32_t keys[3])
+{
+    const octree *tree = s->tree;
     double squares = 0;
     for (int i = 0; i < 3; i++) {
         const axis *a = &tree->axes[i];
@@ -280,31 +306,35 @@ static void search_from_root(search *s)
         s->root_squares[i] = gap * gap;
         squares += s->root_squares[i];
     }
-    if (squares > s->found.node_reach) {
-        meter_prune_root(&s->meter);
-        return;
-    }
     find_nearest_keys(tree, s->found.metric.target, keys);
-    const uint64_t code = morton_interleave(keys);
-    const path p = find_path(tree, code);
-    s->meter.count.nodes += p.depth + 1;
-    for (unsigned depth = 0; s->meter.how->trace && depth <= p.depth; depth++)
-        meter_trace(&s->meter, morton_address(code, depth), OCTREE_TRACE_VISITED);
-    unsigned depth = p.depth;
-    if (p.nodes[depth]->octants) {
-        depth++; /* no node exists for the target's octant, so all children of this node are searched like siblings */
-    } else {
-        leaf_prefetch(p.nodes[depth]);
-        prefetch_adjacent_leaves(&p, code, keys, s->found.k);
-        scan_leaf(s, p.nodes[depth]);
+    return !(squares > s->found.node_reach);
+}
+
+/* Compute the position in keys of a target in the world, and round it down. The results may be off by one, because the
+ * search may begin at any leaf near the target. */
+static inline void guess_keys(search *s, uint32_t keys[3])
+{
+    for (int i = 0; i < 3; i++) {
+        const axis *a = &s->tree->axes[i];
+        s->place[i] = (s->found.metric.target[i] - a->min) * a->keys_per_unit;
+        const int32_t key = (int32_t)s->place[i];
+        keys[i] = key < (int32_t)PLANE_GRID ? (uint32_t)key : PLANE_GRID - 1;
+        s->root_squares[i] = 0;
     }
-    const unsigned first_near = count_nodes_out_of_reach(s, keys);
-    while (depth-- > 0)
-        if (depth >= first_near)
-            search_siblings(s, open_path_node(s, p.nodes[depth], code, keys, depth), depth);
-        else
-            meter_prune(&s->meter, morton_address(code, depth),
-                        p.nodes[depth]->octants & ~(1u << morton_octant(code, depth)));
+}
+
+static inline void search_from_root(search *s)
+{
+    uint32_t keys[3];
+    bool is_near = true;
+    if (s->is_in_keys)
+        guess_keys(s, keys);
+    else
+        is_near = find_keys_from_planes(s, keys);
+    if (is_near)
+        search_from_leaf(s, keys);
+    else
+        meter_prune_root(&s->meter);
 }
 
 #define NO_RADIUS (-1.0)
@@ -315,10 +345,12 @@ static size_t search_tree(const octree *tree, const double target[3], size_t k, 
 {
     search s;
     s.tree = tree;
-    s.found.metric = metric_make(tree->scale, is_subnormal_world(tree), target);
+    s.is_in_keys = tree->has_key_squares && box_contains(&tree->def.world, target);
+    metric_set(&s.found.metric, tree->scale, is_subnormal_world(tree), target);
+    s.found.node_error = s.is_in_keys ? tree->key_error : 0;
     neighbor_heap_begin(&s.found, how, radius, neighbors, k);
     s.meter = (meter){.how = how};
-    s.open = 0;
+    s.is_metered = how->cost || how->trace;
     const unsigned begun = how->trace ? begin_callbacks(tree) : 0;
     search_from_root(&s);
     if (how->trace)
@@ -336,12 +368,13 @@ static octree_status check_and_search(const octree *tree, const double target[3]
     *count = 0;
     if (!tree || !target || (!neighbors && k > 0))
         return OCTREE_NULL_ARGUMENT;
-    const octree_search search = search_or_default(how);
+    static const octree_search none = {0};
+    how = how ? how : &none;
     octree_status status = check_finite_position(target);
     if (status == OCTREE_OK)
-        status = check_search_options(&search);
+        status = check_search_options(how);
     if (status == OCTREE_OK && k > 0)
-        *count = search_tree(tree, target, k, radius, &search, neighbors);
+        *count = search_tree(tree, target, k, radius, how, neighbors);
     return status;
 }
 

@@ -23,13 +23,18 @@
 #define RARE
 #endif
 
-/* Set the reach of the search: once k neighbours are found, the farthest of them limits the search. Nodes have the same
- * tolerance in FAST mode as in EXACT mode, because the bound of epsilon and the order of siblings (nearest.c) depend on
- * it. */
-static void set_search_reach(neighbor_heap *h, double worst)
+/* Return the reach of nodes for a limit of the squares of points. */
+static inline double find_node_reach(const neighbor_heap *h, double square)
 {
-    h->point_reach = h->how.mode == OCTREE_FAST ? worst : metric_above(worst);
-    h->node_reach = metric_above(worst * h->shrink);
+    const double reach = sqrt(square) + h->node_error;
+    return metric_above(h->node_error > 0 ? reach * reach : square);
+}
+
+/* Return the reach of points for the square of the farthest of k neighbours. Nodes have the same tolerance in FAST mode
+ * as in EXACT mode, because the bound of epsilon and the order of siblings (nearest.c) depend on it. */
+static inline double find_point_reach(const neighbor_heap *h, double worst)
+{
+    return h->how->mode == OCTREE_FAST ? worst : metric_above(worst);
 }
 
 static bool keeps_few_neighbors(const neighbor_heap *h)
@@ -39,9 +44,9 @@ static bool keeps_few_neighbors(const neighbor_heap *h)
 
 static bool is_skipped(const neighbor_heap *h, const octree_point *point)
 {
-    switch (h->how.skip) {
+    switch (h->how->skip) {
     case OCTREE_SKIP_ID:
-        return point->id == h->how.skip_id;
+        return point->id == h->how->skip_id;
     case OCTREE_SKIP_COINCIDENT:
         return same_position(point->position, h->metric.target);
     default:
@@ -49,15 +54,20 @@ static bool is_skipped(const neighbor_heap *h, const octree_point *point)
     }
 }
 
-static bool is_within_radius(const neighbor_heap *h, const octree_point *point, double square)
+static inline bool is_within_radius(const neighbor_heap *h, const octree_point *point, double square)
 {
-    return h->radius < 0 || is_within_ball(&h->metric, h->how.mode, point, square, h->radius, h->radius_square);
+    return h->radius < 0 || is_within_ball(&h->metric, h->how->mode, point, square, h->radius, h->radius_square);
+}
+
+static inline bool is_accepted(const neighbor_heap *h, const octree_point *point, double square)
+{
+    return !is_skipped(h, point) && is_within_radius(h, point, square);
 }
 
 static int compare_near_tie(const neighbor_heap *h, const octree_point *p, const octree_point *q, double square)
 {
     const int order =
-        is_compared_as_double(h->how.mode, square) ? 0 : metric_compare(h->metric.target, p->position, q->position);
+        is_compared_as_double(h->how->mode, square) ? 0 : metric_compare(h->metric.target, p->position, q->position);
     return order ? order : octree_compare_points(p, q);
 }
 
@@ -67,7 +77,7 @@ static inline int compare_neighbors(const neighbor_heap *h, const octree_point *
 {
     const bool ascend = p_square < q_square;
     const double less = ascend ? p_square : q_square, more = ascend ? q_square : p_square;
-    if (h->how.mode == OCTREE_FAST ? less < more : metric_above(less) < more)
+    if (h->how->mode == OCTREE_FAST ? less < more : metric_above(less) < more)
         return ascend ? -1 : 1;
     return compare_near_tie(h, p, q, p_square);
 }
@@ -127,10 +137,11 @@ static inline void insert_key(double *keys, size_t last, double key)
 #ifdef OCTREE_SSE2
     const __m128d both = _mm_set1_pd(key);
     __m128d own = _mm_loadl_pd(both, &keys[last - 1]);
-    for (size_t at = last - 1; at >= FEW_FIRST - 1; at -= 2) {
-        const __m128d below = _mm_loadu_pd(&keys[at - 2]), before = _mm_shuffle_pd(below, own, 1);
-        _mm_storeu_pd(&keys[at], _mm_max_pd(before, _mm_min_pd(own, both)));
-        own = below;
+    for (size_t at = last - 1; at >= FEW_FIRST - 1; at -= 4) {
+        const __m128d below = _mm_loadu_pd(&keys[at - 2]);
+        _mm_storeu_pd(&keys[at], _mm_max_pd(_mm_shuffle_pd(below, own, 1), _mm_min_pd(own, both)));
+        own = _mm_loadu_pd(&keys[at - 4]);
+        _mm_storeu_pd(&keys[at - 2], _mm_max_pd(_mm_shuffle_pd(own, below, 1), _mm_min_pd(below, both)));
     }
 #else
     double own = key;
@@ -156,24 +167,36 @@ static RARE void move_farthest_to_end(const neighbor_heap *h, double *keys, size
     keys[last] = key;
 }
 
-static void add_to_few_neighbors(neighbor_heap *h, const octree_point *point, double square)
+/* Returns whether a point takes the place of the farthest of k neighbours. */
+static inline bool is_among_few(const neighbor_heap *h, const octree_point *point, double square, double farthest)
+{
+    return square < find_certainly_nearer_limit(farthest) || is_nearer(h, point, square, find_slot_of_key(farthest));
+}
+
+static void add_to_few_neighbors(neighbor_heap *h, const octree_point *points, const double squares[], uint64_t within)
 {
     few_neighbors *f = &h->few;
     const size_t last = FEW_FIRST - 1 + h->k;
-    const unsigned place = find_slot_of_key(f->keys[last]);
-    if (h->count < h->k)
-        h->count++;
-    else if (!(square < find_certainly_nearer_limit(f->keys[last])) && !is_nearer(h, point, square, place))
-        return;
-    f->points[place] = point;
-    f->squares[place] = square;
-    /* A square that is too large or NaN becomes METRIC_FINITE. */
-    insert_key(f->keys, last, make_slot_key(square < METRIC_FINITE ? square : METRIC_FINITE, place));
-    if (h->count < h->k)
-        return;
-    if (f->keys[last - 1] >= find_certainly_nearer_limit(f->keys[last]))
-        move_farthest_to_end(h, f->keys, last);
-    set_search_reach(h, f->squares[find_slot_of_key(f->keys[last])]);
+    double reach = h->point_reach;
+    for (; within; within &= within - 1) {
+        const unsigned i = bits_lowest(within);
+        const double square = squares[i], farthest = f->keys[last];
+        if (square > reach || (h->is_filtered && !is_accepted(h, &points[i], square)) ||
+            (h->count == h->k && !is_among_few(h, &points[i], square, farthest)))
+            continue;
+        const unsigned place = find_slot_of_key(farthest);
+        f->points[place] = &points[i];
+        f->squares[place] = square;
+        /* A square that is too large or NaN becomes METRIC_FINITE. */
+        insert_key(f->keys, last, make_slot_key(square < METRIC_FINITE ? square : METRIC_FINITE, place));
+        h->count += h->count < h->k;
+        if (h->count < h->k)
+            continue;
+        if (f->keys[last - 1] >= find_certainly_nearer_limit(f->keys[last]))
+            move_farthest_to_end(h, f->keys, last);
+        h->worst = f->squares[find_slot_of_key(f->keys[last])];
+        reach = h->point_reach = find_point_reach(h, h->worst);
+    }
 }
 
 /* Sort the neighbours exactly and store them in the caller's array. */
@@ -188,6 +211,20 @@ static void sort_few_neighbors(const neighbor_heap *h, double *keys)
     }
     for (size_t i = 0; i < h->count; i++)
         h->items[i].point = *h->few.points[find_slot_of_key(keys[i])];
+}
+
+/* ---- One neighbour: the first slot, without a key ------------------------------------------------------------- */
+
+static inline void add_to_one_neighbor(neighbor_heap *h, const octree_point *point, double square)
+{
+    few_neighbors *f = &h->few;
+    if (square > h->point_reach || (h->is_filtered && !is_accepted(h, point, square)) ||
+        (h->count > 0 && !is_among_few(h, point, square, make_slot_key(f->squares[0], 0))))
+        return;
+    f->points[0] = point;
+    f->squares[0] = h->worst = square;
+    h->count = 1;
+    h->point_reach = find_point_reach(h, square);
 }
 
 /* ---- More than 32 neighbours: a binary heap ------------------------------------------------------------------- */
@@ -221,15 +258,21 @@ static void rise_in_heap(const neighbor_heap *h, const octree_neighbor *item, si
     items[at] = *item;
 }
 
-static RARE void add_to_heap(neighbor_heap *h, const octree_point *point, double square)
+static RARE void add_to_heap(neighbor_heap *h, const octree_point *points, const double squares[], uint64_t within)
 {
-    const octree_neighbor found = {*point, square};
-    if (h->count < h->k)
-        rise_in_heap(h, &found, h->count++);
-    else if (compare_items(h, &found, &h->items[0]) < 0)
-        sink_in_heap(h, &found, h->count);
-    if (h->count == h->k)
-        set_search_reach(h, h->items[0].distance);
+    for (; within; within &= within - 1) {
+        const unsigned i = bits_lowest(within);
+        const octree_neighbor found = {points[i], squares[i]};
+        if (squares[i] > h->point_reach || (h->is_filtered && !is_accepted(h, &points[i], squares[i])))
+            continue;
+        if (h->count < h->k)
+            rise_in_heap(h, &found, h->count++);
+        else if (compare_items(h, &found, &h->items[0]) < 0)
+            sink_in_heap(h, &found, h->count);
+        h->worst = h->items[0].distance;
+        if (h->count == h->k)
+            h->point_reach = find_point_reach(h, h->worst);
+    }
 }
 
 static void sort_heap(const neighbor_heap *h)
@@ -246,26 +289,43 @@ static void sort_heap(const neighbor_heap *h)
 void neighbor_heap_begin(neighbor_heap *h, const octree_search *how, double radius, octree_neighbor *room, size_t k)
 {
     const double scaled = radius * h->metric.scale;
-    h->how = *how;
+    h->how = how;
+    h->is_filtered = how->skip != OCTREE_SKIP_NONE || radius >= 0;
     h->radius = radius;
     h->radius_square = scaled * scaled;
     h->shrink = how->epsilon > 0 ? (1 + 0x1p-50) / ((1 + how->epsilon) * (1 + how->epsilon)) : 1;
-    h->point_reach = h->node_reach = radius >= 0 ? metric_above(h->radius_square) : INFINITY;
+    h->point_reach = radius >= 0 ? metric_above(h->radius_square) : INFINITY;
+    h->node_reach = radius >= 0 ? find_node_reach(h, h->radius_square) : INFINITY;
     h->items = room;
     h->count = 0;
     h->k = k;
-    if (keeps_few_neighbors(h))
+    if (k > 1 && keeps_few_neighbors(h))
         begin_few_neighbors(h);
 }
 
-void neighbor_heap_add(neighbor_heap *h, const octree_point *point, double square)
+void neighbor_heap_add(neighbor_heap *h, const octree_point *points, const double squares[], uint64_t within)
 {
-    if (is_skipped(h, point) || !is_within_radius(h, point, square))
-        return;
-    if (keeps_few_neighbors(h))
-        add_to_few_neighbors(h, point, square);
+    if (h->k == 1)
+        for (; within; within &= within - 1)
+            add_to_one_neighbor(h, &points[bits_lowest(within)], squares[bits_lowest(within)]);
+    else if (keeps_few_neighbors(h))
+        add_to_few_neighbors(h, points, squares, within);
     else
-        add_to_heap(h, point, square);
+        add_to_heap(h, points, squares, within);
+    if (h->count == h->k)
+        h->node_reach = find_node_reach(h, h->worst * h->shrink);
+}
+
+double neighbor_heap_bound(const double squares[], unsigned count)
+{
+    double least[NEIGHBOR_GROUPS], bound = 0;
+    memcpy(least, squares, sizeof least);
+    for (unsigned i = NEIGHBOR_GROUPS; i + NEIGHBOR_GROUPS <= count; i += NEIGHBOR_GROUPS)
+        for (unsigned k = 0; k < NEIGHBOR_GROUPS; k++)
+            least[k] = squares[i + k] < least[k] ? squares[i + k] : least[k];
+    for (unsigned k = 0; k < NEIGHBOR_GROUPS; k++)
+        bound = least[k] > bound ? least[k] : bound;
+    return bound;
 }
 
 /* Sort by the distances themselves. In FAST mode squares may underflow or round to the same double, so the order of the
@@ -281,19 +341,23 @@ static RARE void sort_by_distance(neighbor_heap *h)
 
 void neighbor_heap_finish(neighbor_heap *h)
 {
+    const bool is_fast = h->how->mode == OCTREE_FAST;
     bool ascend = true;
-    if (keeps_few_neighbors(h))
+    double before = 0;
+    if (h->k == 1 && h->count > 0)
+        h->items[0].point = *h->few.points[0];
+    else if (keeps_few_neighbors(h))
         sort_few_neighbors(h, h->few.keys + FEW_FIRST);
     else
         sort_heap(h);
     for (size_t i = 0; i < h->count; i++) {
         const double distance = metric_distance(h->metric.target, h->items[i].point.position);
-        const double before = i > 0 ? h->items[i - 1].distance : 0;
-        ascend = ascend && distance >= before;
+        ascend &= distance >= before;
         /* In EXACT mode the order is exact. If rounding made a distance smaller than its predecessor, the distance is
          * raised to the predecessor. */
-        h->items[i].distance = h->how.mode == OCTREE_FAST ? distance : fmax(distance, before);
+        before = is_fast ? distance : larger(distance, before);
+        h->items[i].distance = before;
     }
-    if (h->how.mode == OCTREE_FAST && !ascend)
+    if (is_fast && !ascend)
         sort_by_distance(h);
 }

@@ -18,7 +18,7 @@
 #define FEW_NEIGHBORS (1 << FEW_BITS)
 /* The index of the first key. The elements before it are smaller sentinels, so that insertion in pairs may run past the
  * start. */
-#define FEW_FIRST 3
+#define FEW_FIRST 5
 typedef struct few_neighbors {
     double keys[FEW_FIRST + FEW_NEIGHBORS];
     double squares[FEW_NEIGHBORS]; /* the square of each neighbour, indexed by slot like `points` */
@@ -27,32 +27,46 @@ typedef struct few_neighbors {
 
 typedef struct neighbor_heap {
     metric metric;
-    octree_search how;
-    double radius; /* the search radius; negative: the distance is not limited */
+    const octree_search *how;
+    bool is_filtered; /* some points are skipped, or the distance is limited */
+    double radius;    /* the search radius; negative: the distance is not limited */
     double radius_square;
     double shrink; /* 1 / (1 + epsilon)^2, rounded up: a node is pruned if its square exceeds the farthest square times
                       this factor */
+    double worst;  /* once k neighbours are found, the square of the farthest */
     double point_reach;     /* a point with a greater scaled squared distance is not among the k nearest */
+    double node_error;      /* the greatest error of the distances of nodes */
     double node_reach;      /* a node with a greater scaled squared distance contains none of the k nearest */
     octree_neighbor *items; /* the caller's array. Until the end of the search `distance` holds scaled squares */
     size_t count, k;
     few_neighbors few; /* if k <= FEW_NEIGHBORS, holds the neighbours in place of `items` until the end of the search */
 } neighbor_heap;
 
-/* Start a search for the k nearest neighbours. The caller has set h->metric. If `radius` is negative, the distance is
- * not limited. `room` is the caller's array of k neighbours. */
+/* Start a search for the k nearest neighbours. The caller has set h->metric and h->node_error. If `radius` is negative,
+ * the distance is not limited. `room` is the caller's array of k neighbours. */
 void neighbor_heap_begin(neighbor_heap *h, const octree_search *how, double radius, octree_neighbor *room, size_t k);
 
-/* Return a limit for squares: a point with a greater square is not among the k nearest. If k = 1 and no point is
- * skipped, the existence of a point with the square `square` lowers the limit. */
-static inline double neighbor_heap_reach(const neighbor_heap *h, double square)
+/* Return a number that at least NEIGHBOR_GROUPS of the squares do not exceed: the greatest of the least squares of as
+ * many groups. No square is NaN, because points of the world are finite. */
+#define NEIGHBOR_GROUPS 8
+double neighbor_heap_bound(const double squares[], unsigned count);
+
+/* Return a limit for the squares of some points: a point with a greater square is not among the k nearest. `least` is
+ * the least of the squares. If these points are the first ones, the existence of the nearest k of them lowers the
+ * limit. */
+static inline double neighbor_heap_reach(const neighbor_heap *h, const double squares[], unsigned count, double least)
 {
-    const double reach = metric_above(square);
-    return h->k == 1 && h->how.skip == OCTREE_SKIP_NONE && reach < h->point_reach ? reach : h->point_reach;
+    double reach = h->point_reach;
+    if (h->how->skip == OCTREE_SKIP_NONE && h->k == 1)
+        reach = metric_above(least);
+    else if (h->how->skip == OCTREE_SKIP_NONE && h->count == 0 && h->k <= NEIGHBOR_GROUPS && count >= NEIGHBOR_GROUPS)
+        reach = metric_above(neighbor_heap_bound(squares, count));
+    return reach < h->point_reach ? reach : h->point_reach;
 }
 
-/* Offer a point whose square is at most point_reach. The point is kept if it is among the k nearest and not skipped. */
-void neighbor_heap_add(neighbor_heap *h, const octree_point *point, double square);
+/* Offer some of up to 64 points: those of the bit mask `within`. A point is kept if it is among the k nearest and not
+ * skipped. */
+void neighbor_heap_add(neighbor_heap *h, const octree_point *points, const double squares[], uint64_t within);
 
 /* Sort the neighbours by distance, id and position. Replace their squares by distances. */
 void neighbor_heap_finish(neighbor_heap *h);

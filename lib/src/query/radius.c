@@ -75,8 +75,8 @@ static uint64_t scan_ball_points(const void *shape, const octree_point *points, 
     const ball *b = shape;
     double squares[SCAN_POINTS];
     uint64_t found = 0;
-    for (uint64_t left = metric_scan_points(&b->metric, points, count, b->reach, squares).within; left;
-         left &= left - 1) {
+    metric_squares(&b->metric, points, count, squares);
+    for (uint64_t left = metric_mask_within(squares, count, b->reach); left; left &= left - 1) {
         const unsigned i = bits_lowest(left);
         found |= (uint64_t)is_within_ball(&b->metric, b->mode, &points[i], squares[i], b->radius, b->square) << i;
     }

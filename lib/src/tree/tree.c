@@ -53,6 +53,18 @@ static octree_def clamp_definition(octree_def def)
     return def;
 }
 
+static void set_key_squares(octree *tree)
+{
+    tree->has_key_squares = tree->scale == 1;
+    for (int i = 0; i < 3; i++) {
+        const axis *a = &tree->axes[i];
+        const double gap = 1 / a->keys_per_unit;
+        tree->key_squares[i] = gap * gap;
+        tree->key_error += gap * a->guess_error;
+        tree->has_key_squares &= a->sure_span > 0;
+    }
+}
+
 octree_status octree_create(const octree_def *def, octree **tree)
 {
     RETURN_IN_DEFAULT_MODE(octree_status, octree_create, def, tree);
@@ -74,6 +86,7 @@ octree_status octree_create(const octree_def *def, octree **tree)
         made->tuning.choose = octree_tune;
     for (int i = 0; i < 3; i++)
         made->axes[i] = axis_make(def->world.min[i], def->world.max[i]);
+    set_key_squares(made);
     store_init(&made->store);
     *tree = made;
     return OCTREE_OK;
@@ -231,25 +244,6 @@ octree_status check_position(const octree *tree, const double position[3])
     if (box_contains(&tree->def.world, position))
         return OCTREE_OK;
     return is_finite_position(position) ? OCTREE_OUTSIDE : OCTREE_NOT_FINITE;
-}
-
-void extend_path(path *p, uint64_t code)
-{
-    for (; path_end(p)->octants; p->depth++) {
-        node *child = child_at(path_end(p), morton_octant(code, p->depth));
-        if (!child)
-            break;
-        p->nodes[p->depth + 1] = child;
-    }
-}
-
-path find_path(const octree *tree, uint64_t code)
-{
-    /* The cast removes const, only here. A caller that changes nodes through the path has a tree that is not const. */
-    path p;
-    begin_path(&p, (octree *)(uintptr_t)tree);
-    extend_path(&p, code);
-    return p;
 }
 
 bool find_point(const octree *tree, const double position[3], uint64_t id, found_point *found)

@@ -24,8 +24,11 @@ typedef struct tuning {
 struct octree {
     octree_def def; /* the caller's definition with clamped values, and with the capacity in force */
     axis axes[3];
-    /* a power of two by which coordinates are multiplied, so that the world's extent is near 1 (metric.h) */
+    /* a power of two by which coordinates are multiplied, so that the world's extent is moderate (metric.h) */
     double scale;
+    double key_squares[3]; /* on each axis, the square of the distance between two grid planes */
+    double key_error;      /* the greatest error of a distance between a point and planes that is computed from keys */
+    bool has_key_squares;  /* false: keys may be wrong, or the scale is not 1; then the values above are not used */
     uint64_t version;
     change_log changes;
     tuning tuning;
@@ -91,8 +94,6 @@ typedef struct path {
     unsigned depth; /* the depth of the path's last node */
 } path;
 
-path find_path(const octree *tree, uint64_t code);
-
 /* begin_path() makes a path that ends at the root. extend_path() continues a path towards a code, as far as there are
  * nodes. */
 static inline void begin_path(path *p, octree *tree)
@@ -101,11 +102,27 @@ static inline void begin_path(path *p, octree *tree)
     p->depth = 0;
 }
 
-void extend_path(path *p, uint64_t code);
-
 static inline node *path_end(const path *p)
 {
     return p->nodes[p->depth];
+}
+
+static inline void extend_path(path *p, uint64_t code)
+{
+    node *n = path_end(p);
+    unsigned depth = p->depth;
+    while (n->octants && (n = child_at(n, morton_octant(code, depth))))
+        p->nodes[++depth] = n;
+    p->depth = depth;
+}
+
+static inline path find_path(const octree *tree, uint64_t code)
+{
+    /* The cast removes const, only here. A caller that changes nodes through the path has a tree that is not const. */
+    path p;
+    begin_path(&p, (octree *)(uintptr_t)tree);
+    extend_path(&p, code);
+    return p;
 }
 
 /* Where a pair (position, id) is stored: the path to its leaf, and its index in the leaf. */

