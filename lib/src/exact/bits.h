@@ -6,11 +6,15 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Returns the number of set bits in a mask of eight bits. The first multiplication moves each bit into a group of four
- * bits of its own; the second adds all groups into the highest group. */
+/* For each mask of eight bits, the number of set bits. */
+#define BITS_ROW(n) n, n + 1, n + 1, n + 2
+#define BITS_ROWS(n) BITS_ROW(n), BITS_ROW(n + 1), BITS_ROW(n + 1), BITS_ROW(n + 2)
+#define BITS_BLOCK(n) BITS_ROWS(n), BITS_ROWS(n + 1), BITS_ROWS(n + 1), BITS_ROWS(n + 2)
+static const uint8_t bits_counts[256] = {BITS_BLOCK(0), BITS_BLOCK(1), BITS_BLOCK(1), BITS_BLOCK(2)};
+
 static inline unsigned bits_count8(unsigned mask)
 {
-    return ((mask * 0x08040201u >> 3) & 0x11111111u) * 0x11111111u >> 28;
+    return bits_counts[mask];
 }
 
 /* Returns the number of set bits. Partial sums are taken over 2, 4 and 8 bits; a multiplication then adds all bytes

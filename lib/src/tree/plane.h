@@ -101,6 +101,20 @@ static inline uint32_t plane_key(const axis *a, double x)
     return plane_mark_uncertain(a->sure_span, fixed) >> 63 ? plane_key_near(a, x) : (uint32_t)(fixed >> PLANE_FRACTION);
 }
 
+/* Compute the keys of a position, shifted so that their highest bits are the highest bits of the words. Returns false
+ * if a guessed key is not certain, or if the position is outside the world. */
+static inline bool plane_shifted_keys(const axis axes[3], const double position[3], uint64_t keys[3])
+{
+    uint64_t unsure = 0, all = 0;
+    for (int i = 0; i < 3; i++) {
+        const uint64_t fixed = plane_fixed_point_key(&axes[i], position[i]);
+        unsure |= axes[i].sure_span - 1 - (fixed & PLANE_FRACTION_MASK);
+        all |= fixed;
+        keys[i] = fixed << (64 - PLANE_FIXED_BITS);
+    }
+    return !((unsure >> 63) | (all >> PLANE_FIXED_BITS));
+}
+
 /* A cell: the number of its lowest grid plane on each axis, and its depth. */
 typedef struct cell {
     uint32_t low[3];

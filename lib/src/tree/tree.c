@@ -256,27 +256,93 @@ bool find_point(const octree *tree, const double position[3], uint64_t id, found
     return found->index != LEAF_NONE;
 }
 
+/* Returns the leaf of shifted keys, or the inner node that has no child in their octant. */
+static inline const node *find_end(const octree *tree, const uint64_t keys[3])
+{
+    const node *n = &tree->root;
+    for (uint64_t x = keys[0], y = keys[1], z = keys[2]; n->octants; x <<= 1, y <<= 1, z <<= 1) {
+        const unsigned octant = (unsigned)(x >> 63 << 2 | y >> 63 << 1 | z >> 63);
+        if (!(n->octants >> octant & 1))
+            break;
+        n = children_of(n) + child_index(n, octant);
+    }
+    return n;
+}
+
+#ifdef OCTREE_SSE2
+static inline uint64_t mask_four_equal(const octree_point *points, __m128d x)
+{
+    const __m128d a = _mm_loadh_pd(_mm_load_sd(points[0].position), points[1].position);
+    const __m128d b = _mm_loadh_pd(_mm_load_sd(points[2].position), points[3].position);
+    const __m128 a_equal = _mm_castpd_ps(_mm_cmpeq_pd(a, x)), b_equal = _mm_castpd_ps(_mm_cmpeq_pd(b, x));
+    return (uint64_t)_mm_movemask_ps(_mm_shuffle_ps(a_equal, b_equal, _MM_SHUFFLE(2, 0, 2, 0)));
+}
+#endif
+
+/* Returns a bit mask of those of 1 to 64 points that have this x. The last four points may overlap the previous four.
+ */
+static inline uint64_t mask_equal_x(const octree_point *points, unsigned count, double x)
+{
+    uint64_t equal = 0;
+#ifdef OCTREE_SSE2
+    if (count >= 4) {
+        const __m128d both = _mm_set1_pd(x);
+        const octree_point *last = points + (count - 4);
+        for (unsigned i = 0; points < last; i += 4, points += 4)
+            equal |= mask_four_equal(points, both) << i;
+        return equal | mask_four_equal(last, both) << (count - 4);
+    }
+#endif
+    for (unsigned i = 0; i < count; i++)
+        equal |= (uint64_t)(points[i].position[0] == x) << i;
+    return equal;
+}
+
+/* Returns the point at a position that has the lowest id. Returns null if no point of the leaf is at the position. */
+static inline const octree_point *find_in_leaf(const node *leaf, const double position[3])
+{
+    enum { TOGETHER = 64 };
+    const octree_point *points = leaf_points(leaf), *found = NULL;
+    for (uint32_t left = leaf->count, count; left > 0; left -= count, points += count) {
+        count = left < TOGETHER ? left : TOGETHER;
+        for (uint64_t equal = mask_equal_x(points, count, position[0]); equal; equal &= equal - 1) {
+            const octree_point *point = &points[bits_lowest(equal)];
+            if (same_position(point->position, position) && (!found || point->id < found->id))
+                found = point;
+        }
+    }
+    return found;
+}
+
+static inline octree_status find_from_keys(const octree *tree, const uint64_t keys[3], const double position[3],
+                                           uint64_t *id)
+{
+    const node *end = find_end(tree, keys);
+    const octree_point *found = end->octants ? NULL : find_in_leaf(end, position);
+    if (found && id)
+        *id = found->id;
+    return found ? OCTREE_OK : OCTREE_NOT_FOUND;
+}
+
+/* Find a position near a plane, or outside the world. */
+static octree_status find_near_plane(const octree *tree, const double position[3], uint64_t *id)
+{
+    const octree_status status = check_position(tree, position);
+    uint64_t keys[3];
+    for (int i = 0; i < 3 && status == OCTREE_OK; i++)
+        keys[i] = (uint64_t)plane_key(&tree->axes[i], position[i]) << (64 - OCTREE_MAX_DEPTH);
+    return status == OCTREE_OK ? find_from_keys(tree, keys, position, id) : status;
+}
+
 octree_status octree_find(const octree *tree, const double position[3], uint64_t *id)
 {
     RETURN_IN_DEFAULT_MODE(octree_status, octree_find, tree, position, id);
-    const octree_status status = check_position(tree, position);
-    if (status != OCTREE_OK)
-        return status;
-    const path p = find_path(tree, morton_code(tree->axes, position));
-    const node *leaf = path_end(&p);
-    leaf_prefetch(leaf->octants ? &(node){0} : leaf);
-    bool found = false;
-    uint64_t lowest = UINT64_MAX;
-    for (uint32_t i = 0; leaf->octants == 0 && i < leaf->count; i++) {
-        const octree_point *point = &leaf_points(leaf)[i];
-        if (same_position(point->position, position)) {
-            found = true;
-            lowest = point->id < lowest ? point->id : lowest;
-        }
-    }
-    if (found && id)
-        *id = lowest;
-    return found ? OCTREE_OK : OCTREE_NOT_FOUND;
+    uint64_t keys[3];
+    if (!tree || !position)
+        return OCTREE_NULL_ARGUMENT;
+    if (RARELY(!plane_shifted_keys(tree->axes, position, keys)))
+        return find_near_plane(tree, position, id);
+    return find_from_keys(tree, keys, position, id);
 }
 
 bool octree_contains(const octree *tree, const double position[3], uint64_t id)

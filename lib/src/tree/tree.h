@@ -109,10 +109,15 @@ static inline node *path_end(const path *p)
 
 static inline void extend_path(path *p, uint64_t code)
 {
-    node *n = path_end(p);
+    const node *n = path_end(p);
     unsigned depth = p->depth;
-    while (n->octants && (n = child_at(n, morton_octant(code, depth))))
-        p->nodes[++depth] = n;
+    while (n->octants) {
+        const unsigned octant = morton_octant(code, depth);
+        if (!(n->octants >> octant & 1))
+            break;
+        p->nodes[++depth] = children_of(n) + child_index(n, octant);
+        n = p->nodes[depth];
+    }
     p->depth = depth;
 }
 
