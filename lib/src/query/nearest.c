@@ -167,7 +167,7 @@ static void search_octants(search *s, branch *b, unsigned near, unsigned left)
 
 /* Search those octants of a node that are not on the path to the target's leaf. Usually all these octants are out of
  * reach. */
-static void search_siblings(search *s, const node *n, uint64_t code, const uint32_t keys[3], unsigned depth)
+static inline void search_siblings(search *s, const node *n, uint64_t code, const uint32_t keys[3], unsigned depth)
 {
     const double reach = s->found.node_reach;
     const uint32_t half = cell_size(depth + 1);
@@ -258,7 +258,7 @@ static unsigned count_nodes_out_of_reach(const search *s, const uint32_t keys[3]
 }
 
 /* Search the nodes of the path to the target's leaf, from the depth `depth` up, as far as they are within reach. */
-static void search_path(search *s, const path *p, uint64_t code, const uint32_t keys[3], unsigned depth)
+static inline void search_path(search *s, const path *p, uint64_t code, const uint32_t keys[3], unsigned depth)
 {
     const unsigned first_near = count_nodes_out_of_reach(s, keys);
     while (depth > first_near) {
@@ -280,19 +280,19 @@ static inline void search_from_leaf(search *s, const uint32_t keys[3])
     extend_path(&p, code);
     const node *end = path_end(&p);
     s->meter.count.nodes += p.depth + 1;
-    for (unsigned depth = 0; s->meter.how->trace && depth <= p.depth; depth++)
-        meter_trace(&s->meter, morton_address(code, depth), OCTREE_TRACE_VISITED);
+    for (unsigned i = 0; s->meter.how->trace && i <= p.depth; i++)
+        meter_trace(&s->meter, morton_address(code, i), OCTREE_TRACE_VISITED);
+    unsigned depth = p.depth;
     if (end->octants) {
-        /* no node exists for the target's octant, so all children of this node are searched like siblings */
-        search_path(s, &p, code, keys, p.depth + 1);
-        return;
+        depth++; /* no node exists for the target's octant, so all children of this node are searched like siblings */
+    } else {
+        if (tree->root.count > CACHED) {
+            leaf_prefetch(end);
+            prefetch_adjacent_leaves(&p, code, keys, s->found.k);
+        }
+        scan_leaf(s, end);
     }
-    if (tree->root.count > CACHED) {
-        leaf_prefetch(end);
-        prefetch_adjacent_leaves(&p, code, keys, s->found.k);
-    }
-    scan_leaf(s, end);
-    search_path(s, &p, code, keys, p.depth);
+    search_path(s, &p, code, keys, depth);
 }
 
 /* Find the keys of the target's position after clamping it to the world. Returns false if the world is out of reach. */

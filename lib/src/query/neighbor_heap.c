@@ -121,15 +121,6 @@ static int compare_keys(const neighbor_heap *h, double a, double b)
     return is_nearer(h, h->few.points[place], h->few.squares[place], find_slot_of_key(b)) ? -1 : 1;
 }
 
-static void begin_few_neighbors(neighbor_heap *h)
-{
-    for (int i = 0; i < FEW_FIRST; i++)
-        h->few.keys[i] = -1;
-    for (unsigned i = 0; i < h->k; i++)
-        /* this initial key is greater than the key of any point */
-        h->few.keys[FEW_FIRST + i] = make_slot_key(2 * METRIC_FINITE, i);
-}
-
 /* Insert a key in ascending order and drop the key at index `last`. Each key becomes the median of itself, its
  * predecessor and the new key. This needs no branches, which would be unpredictable. */
 static inline void insert_key(double *keys, size_t last, double key)
@@ -173,34 +164,61 @@ static inline bool is_among_few(const neighbor_heap *h, const octree_point *poin
     return square < find_certainly_nearer_limit(farthest) || is_nearer(h, point, square, find_slot_of_key(farthest));
 }
 
+static inline bool is_rejected(const neighbor_heap *h, const octree_point *point, double square)
+{
+    return square > h->point_reach || (h->is_filtered && !is_accepted(h, point, square));
+}
+
+/* Insert the key of a point at the index `last` or before it. The point takes the slot of the key at this index. */
+static inline void insert_neighbor(few_neighbors *f, const octree_point *point, double square, size_t last)
+{
+    const unsigned place = find_slot_of_key(f->keys[last]);
+    f->points[place] = point;
+    f->squares[place] = square;
+    /* A square that is too large or NaN becomes METRIC_FINITE. */
+    insert_key(f->keys, last, make_slot_key(square < METRIC_FINITE ? square : METRIC_FINITE, place));
+}
+
+/* Once k neighbours are found, move the farthest to the end, and limit the search by it. */
+static inline void limit_by_farthest(neighbor_heap *h, size_t last)
+{
+    double *keys = h->few.keys;
+    if (keys[last - 1] >= find_certainly_nearer_limit(keys[last]))
+        move_farthest_to_end(h, keys, last);
+    h->worst = h->few.squares[find_slot_of_key(keys[last])];
+    h->point_reach = find_point_reach(h, h->worst);
+}
+
 static void add_to_few_neighbors(neighbor_heap *h, const octree_point *points, const double squares[], uint64_t within)
 {
     few_neighbors *f = &h->few;
     const size_t last = FEW_FIRST - 1 + h->k;
-    double reach = h->point_reach;
+    for (; within && h->count < h->k; within &= within - 1) {
+        const unsigned i = bits_lowest(within);
+        if (!is_rejected(h, &points[i], squares[i]))
+            insert_neighbor(f, &points[i], squares[i], FEW_FIRST + h->count++);
+        if (h->count == h->k)
+            limit_by_farthest(h, last);
+    }
     for (; within; within &= within - 1) {
         const unsigned i = bits_lowest(within);
-        const double square = squares[i], farthest = f->keys[last];
-        if (square > reach || (h->is_filtered && !is_accepted(h, &points[i], square)) ||
-            (h->count == h->k && !is_among_few(h, &points[i], square, farthest)))
+        if (is_rejected(h, &points[i], squares[i]) || !is_among_few(h, &points[i], squares[i], f->keys[last]))
             continue;
-        const unsigned place = find_slot_of_key(farthest);
-        f->points[place] = &points[i];
-        f->squares[place] = square;
-        /* A square that is too large or NaN becomes METRIC_FINITE. */
-        insert_key(f->keys, last, make_slot_key(square < METRIC_FINITE ? square : METRIC_FINITE, place));
-        h->count += h->count < h->k;
-        if (h->count < h->k)
-            continue;
-        if (f->keys[last - 1] >= find_certainly_nearer_limit(f->keys[last]))
-            move_farthest_to_end(h, f->keys, last);
-        h->worst = f->squares[find_slot_of_key(f->keys[last])];
-        reach = h->point_reach = find_point_reach(h, h->worst);
+        insert_neighbor(f, &points[i], squares[i], last);
+        limit_by_farthest(h, last);
     }
 }
 
-/* Sort the neighbours exactly and store them in the caller's array. */
-static void sort_few_neighbors(const neighbor_heap *h, double *keys)
+/* Returns whether keys are in the exact order of their neighbours already. */
+static bool are_certainly_ascending(const double *keys, size_t count)
+{
+    bool ascend = true;
+    for (size_t i = 1; i < count; i++)
+        ascend &= keys[i - 1] < find_certainly_nearer_limit(keys[i]);
+    return ascend;
+}
+
+static void sort_keys(const neighbor_heap *h, double *keys)
 {
     for (size_t i = 0; i < h->count; i++) {
         const double key = keys[i];
@@ -209,8 +227,18 @@ static void sort_few_neighbors(const neighbor_heap *h, double *keys)
             keys[at] = keys[at - 1];
         keys[at] = key;
     }
-    for (size_t i = 0; i < h->count; i++)
-        h->items[i].point = *h->few.points[find_slot_of_key(keys[i])];
+}
+
+/* Sort the neighbours exactly and store them in the caller's array, with their squares. */
+static void sort_few_neighbors(neighbor_heap *h)
+{
+    double *keys = h->few.keys + FEW_FIRST;
+    if (!are_certainly_ascending(keys, h->count))
+        sort_keys(h, keys);
+    for (size_t i = 0; i < h->count; i++) {
+        const unsigned place = find_slot_of_key(keys[i]);
+        h->items[i] = (octree_neighbor){*h->few.points[place], h->few.squares[place]};
+    }
 }
 
 /* ---- One neighbour: the first slot, without a key ------------------------------------------------------------- */
@@ -218,7 +246,7 @@ static void sort_few_neighbors(const neighbor_heap *h, double *keys)
 static inline void add_to_one_neighbor(neighbor_heap *h, const octree_point *point, double square)
 {
     few_neighbors *f = &h->few;
-    if (square > h->point_reach || (h->is_filtered && !is_accepted(h, point, square)) ||
+    if (is_rejected(h, point, square) ||
         (h->count > 0 && !is_among_few(h, point, square, make_slot_key(f->squares[0], 0))))
         return;
     f->points[0] = point;
@@ -263,7 +291,7 @@ static RARE void add_to_heap(neighbor_heap *h, const octree_point *points, const
     for (; within; within &= within - 1) {
         const unsigned i = bits_lowest(within);
         const octree_neighbor found = {points[i], squares[i]};
-        if (squares[i] > h->point_reach || (h->is_filtered && !is_accepted(h, &points[i], squares[i])))
+        if (is_rejected(h, &points[i], squares[i]))
             continue;
         if (h->count < h->k)
             rise_in_heap(h, &found, h->count++);
@@ -286,21 +314,23 @@ static void sort_heap(const neighbor_heap *h)
 
 /* ---- Any number of neighbours --------------------------------------------------------------------------------- */
 
-void neighbor_heap_begin(neighbor_heap *h, const octree_search *how, double radius, octree_neighbor *room, size_t k)
+void neighbor_heap_limit(neighbor_heap *h, double radius)
 {
     const double scaled = radius * h->metric.scale;
-    h->how = how;
-    h->is_filtered = how->skip != OCTREE_SKIP_NONE || radius >= 0;
     h->radius = radius;
     h->radius_square = scaled * scaled;
-    h->shrink = how->epsilon > 0 ? (1 + 0x1p-50) / ((1 + how->epsilon) * (1 + how->epsilon)) : 1;
-    h->point_reach = radius >= 0 ? metric_above(h->radius_square) : INFINITY;
-    h->node_reach = radius >= 0 ? find_node_reach(h, h->radius_square) : INFINITY;
-    h->items = room;
-    h->count = 0;
-    h->k = k;
-    if (k > 1 && keeps_few_neighbors(h))
-        begin_few_neighbors(h);
+    h->is_filtered = true;
+    h->point_reach = metric_above(h->radius_square);
+    h->node_reach = find_node_reach(h, h->radius_square);
+}
+
+void neighbor_heap_begin_few(neighbor_heap *h)
+{
+    for (int i = 0; i < FEW_FIRST; i++)
+        h->few.keys[i] = -1;
+    for (unsigned i = 0; i < h->k; i++)
+        /* this initial key is greater than the key of any point */
+        h->few.keys[FEW_FIRST + i] = make_slot_key(2 * METRIC_FINITE, i);
 }
 
 void neighbor_heap_add(neighbor_heap *h, const octree_point *points, const double squares[], uint64_t within)
@@ -339,19 +369,17 @@ static RARE void sort_by_distance(neighbor_heap *h)
     sort_heap(h);
 }
 
-void neighbor_heap_finish(neighbor_heap *h)
+void neighbor_heap_sort(neighbor_heap *h)
 {
     const bool is_fast = h->how->mode == OCTREE_FAST;
     bool ascend = true;
     double before = 0;
-    if (h->k == 1 && h->count > 0)
-        h->items[0].point = *h->few.points[0];
-    else if (keeps_few_neighbors(h))
-        sort_few_neighbors(h, h->few.keys + FEW_FIRST);
+    if (keeps_few_neighbors(h))
+        sort_few_neighbors(h);
     else
         sort_heap(h);
     for (size_t i = 0; i < h->count; i++) {
-        const double distance = metric_distance(h->metric.target, h->items[i].point.position);
+        const double distance = neighbor_distance(h, &h->items[i].point, h->items[i].distance);
         ascend &= distance >= before;
         /* In EXACT mode the order is exact. If rounding made a distance smaller than its predecessor, the distance is
          * raised to the predecessor. */

@@ -42,9 +42,30 @@ typedef struct neighbor_heap {
     few_neighbors few; /* if k <= FEW_NEIGHBORS, holds the neighbours in place of `items` until the end of the search */
 } neighbor_heap;
 
+/* Limit the distance of neighbours to a radius. neighbor_heap_begin() calls this function. */
+void neighbor_heap_limit(neighbor_heap *h, double radius);
+
+/* Prepare the slots of 2 to FEW_NEIGHBORS neighbours. neighbor_heap_begin() calls this function. */
+void neighbor_heap_begin_few(neighbor_heap *h);
+
 /* Start a search for the k nearest neighbours. The caller has set h->metric and h->node_error. If `radius` is negative,
  * the distance is not limited. `room` is the caller's array of k neighbours. */
-void neighbor_heap_begin(neighbor_heap *h, const octree_search *how, double radius, octree_neighbor *room, size_t k);
+static inline void neighbor_heap_begin(neighbor_heap *h, const octree_search *how, double radius, octree_neighbor *room,
+                                       size_t k)
+{
+    h->how = how;
+    h->is_filtered = how->skip != OCTREE_SKIP_NONE;
+    h->radius = -1;
+    h->shrink = how->epsilon > 0 ? (1 + 0x1p-50) / ((1 + how->epsilon) * (1 + how->epsilon)) : 1;
+    h->point_reach = h->node_reach = INFINITY;
+    h->items = room;
+    h->count = 0;
+    h->k = k;
+    if (radius >= 0)
+        neighbor_heap_limit(h, radius);
+    if (k > 1 && k <= FEW_NEIGHBORS)
+        neighbor_heap_begin_few(h);
+}
 
 /* Return a number that at least NEIGHBOR_GROUPS of the squares do not exceed: the greatest of the least squares of as
  * many groups. No square is NaN, because points of the world are finite. */
@@ -68,7 +89,26 @@ static inline double neighbor_heap_reach(const neighbor_heap *h, const double sq
  * skipped. */
 void neighbor_heap_add(neighbor_heap *h, const octree_point *points, const double squares[], uint64_t within);
 
+/* Returns the distance of a neighbour from its square. If nothing was scaled, it is the root of the square. */
+static inline double neighbor_distance(const neighbor_heap *h, const octree_point *point, double square)
+{
+    return h->metric.scale == 1 && 0x1p-900 < square && square < 0x1p900
+               ? sqrt(square)
+               : metric_distance(h->metric.target, point->position);
+}
+
 /* Sort the neighbours by distance, id and position. Replace their squares by distances. */
-void neighbor_heap_finish(neighbor_heap *h);
+void neighbor_heap_sort(neighbor_heap *h);
+
+/* Complete the caller's array: one neighbour needs no sorting. */
+static inline void neighbor_heap_finish(neighbor_heap *h)
+{
+    if (h->k > 1) {
+        neighbor_heap_sort(h);
+    } else if (h->count > 0) {
+        h->items[0].point = *h->few.points[0];
+        h->items[0].distance = neighbor_distance(h, h->few.points[0], h->few.squares[0]);
+    }
+}
 
 #endif

@@ -7,23 +7,6 @@ octree_search search_or_default(const octree_search *how)
     return how ? *how : (octree_search){0};
 }
 
-octree_status check_search_options(const octree_search *how)
-{
-    if ((unsigned)how->skip > OCTREE_SKIP_COINCIDENT || (unsigned)how->mode > OCTREE_FAST)
-        return OCTREE_BAD_OPTION;
-    return check_length(how->epsilon);
-}
-
-octree_status check_finite_position(const double position[3])
-{
-    return is_finite_position(position) ? OCTREE_OK : OCTREE_NOT_FINITE;
-}
-
-octree_status check_length(double length)
-{
-    return !isfinite(length) ? OCTREE_NOT_FINITE : length < 0 ? OCTREE_BAD_SIZE : OCTREE_OK;
-}
-
 octree_status check_box(const octree_box *box)
 {
     if (!box)

@@ -14,14 +14,25 @@
 /* Return a copy of *how, or the default options if `how` is null. */
 octree_search search_or_default(const octree_search *how);
 
-/* Check the options of a search. Returns OK, BAD_OPTION, NOT_FINITE or BAD_SIZE. */
-octree_status check_search_options(const octree_search *how);
-
 /* Check that a position is finite. Returns OK or NOT_FINITE. */
-octree_status check_finite_position(const double position[3]);
+static inline octree_status check_finite_position(const double position[3])
+{
+    return is_finite_position(position) ? OCTREE_OK : OCTREE_NOT_FINITE;
+}
 
 /* Check that a length is finite and not negative. Returns OK, NOT_FINITE, or BAD_SIZE for a negative length. */
-octree_status check_length(double length);
+static inline octree_status check_length(double length)
+{
+    return !isfinite(length) ? OCTREE_NOT_FINITE : length < 0 ? OCTREE_BAD_SIZE : OCTREE_OK;
+}
+
+/* Check the options of a search. Returns OK, BAD_OPTION, NOT_FINITE or BAD_SIZE. */
+static inline octree_status check_search_options(const octree_search *how)
+{
+    if ((unsigned)how->skip > OCTREE_SKIP_COINCIDENT || (unsigned)how->mode > OCTREE_FAST)
+        return OCTREE_BAD_OPTION;
+    return check_length(how->epsilon);
+}
 
 /* Check a box. Returns OK, NULL_ARGUMENT, NOT_FINITE (a NaN) or BAD_RANGE (min > max). */
 octree_status check_box(const octree_box *box);
