@@ -117,6 +117,14 @@ static unsigned worth_of(const struct legend_row *row)
     return row->layer == LAYER_POINTS || row->layer == LAYER_PLAYER ? 0 : answers >> row->layer & 1 ? 1 : 2;
 }
 
+static bool has_range_query(const octree_tick *tick)
+{
+    for (size_t i = 0; i < tick->answer_count; i++)
+        if (tick->answers[i].kind == OCTREE_QUERY_RANGE)
+            return true;
+    return false;
+}
+
 /* A row is dropped only after all rows with an earlier drop order. The rows dropped last go from the end. The last line
  * counts the dropped rows. */
 static void legend_drops_lines_in_drop_order(void **state)
@@ -124,7 +132,7 @@ static void legend_drops_lines_in_drop_order(void **state)
     (void)state;
     const octree_session session = session_with_all_layers();
     octree_game *game = start_game(&session);
-    while (!(octree_game_tick(game)->asked >> OCTREE_QUERY_RANGE & 1))
+    while (!has_range_query(octree_game_tick(game)))
         play_tick(game);
     scene s = {0};
     size_t whole = 0, partial = 0, cut = 0, none = 0;
