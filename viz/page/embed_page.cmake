@@ -48,8 +48,13 @@ macro(pack text)
 endmacro()
 
 # inline(ELEMENT REGEX [ATTRIBUTES]): replaces the tags that the expression finds by one <ELEMENT> with the texts of the
-# files they name. With attributes the element is packed.
+# files they name. With attributes the text is packed, in a script element: browsers would check a packed style against
+# the content security policy.
 macro(inline element regex)
+  set(holder ${element})
+  if(NOT "${ARGN}" STREQUAL "")
+    set(holder script)
+  endif()
   string(REGEX MATCHALL "${regex}" tags "${page}")
   set(texts "")
   foreach(tag ${tags})
@@ -74,7 +79,7 @@ macro(inline element regex)
       if(NOT "${ARGN}" STREQUAL "")
         pack(texts)
       endif()
-      string(REPLACE "${tag}" "<${element}${ARGN}>${texts}</${element}>" page "${page}")
+      string(REPLACE "${tag}" "<${holder}${ARGN}>${texts}</${holder}>" page "${page}")
     else()
       string(REPLACE "${tag}\n" "" page "${page}")
     endif()
