@@ -75,7 +75,7 @@ static void node_colour_shows_depth_or_occupancy_or_nothing(void **state)
             used |= UINT32_C(1) << box->style.role;
         }
         assert_int_equal(used & ~legend_roles(&s), 0);
-        assert_int_equal(has_text(&s, "depth 0-9+"), coloring == COLORING_DEPTH);
+        assert_int_equal(has_text(&s, "nodes, depth 0-"), coloring == COLORING_DEPTH);
         assert_int_equal(has_text(&s, "leaves, 0-7+ points"), coloring == COLORING_OCCUPANCY);
         scene_release(&s);
     }
