@@ -93,12 +93,28 @@ static image_color mean_color(const image *of, const uint8_t *own, size_t corner
     return (image_color){(uint8_t)(sums[0] / count), (uint8_t)(sums[1] / count), (uint8_t)(sums[2] / count)};
 }
 
+/* Shrink by the factor 1: only find the colours. */
+static void find_pixel_colors(const image *from, const uint8_t *own, uint8_t *out)
+{
+    const size_t count = (size_t)from->width * (size_t)from->height;
+    const uint8_t *indices = from->pixels;
+    for (size_t i = 0; i < count; i++, out += 3) {
+        const uint8_t index = indices[i];
+        const void *color = index < from->palette.count ? (const void *)&from->palette.colors[index] : own + 3 * i;
+        memcpy(out, color, sizeof(image_color));
+    }
+}
+
 bool image_shrink(const image *from, const uint8_t *own, int factor, image *small)
 {
     if (factor < 1 || factor > 16 || from->channels != 1 || small->channels != 3 ||
         from->width != small->width * factor || from->height != small->height * factor)
         return false;
     uint8_t *out = small->pixels;
+    if (factor == 1) {
+        find_pixel_colors(from, own, out);
+        return true;
+    }
     for (int y = 0; y < small->height; y++) {
         size_t at = (size_t)y * (size_t)factor * (size_t)from->width;
         for (int x = 0; x < small->width; x++, at += (size_t)factor, out += 3) {
