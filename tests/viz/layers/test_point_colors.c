@@ -188,7 +188,7 @@ static void every_colouring_works_without_values_and_reports_the_lack(void **sta
                                                       [POINTS_BY_Z] = "points, by z",
                                                       [POINTS_BY_FILE] = "points, without colours",
                                                       [POINTS_BY_LEAF] = "points, by height",
-                                                      [POINTS_BY_DEPTH] = "points, leaf depth 0",
+                                                      [POINTS_BY_DEPTH] = "points, leaf depth 0-3",
                                                       [POINTS_BY_DENSITY] = "64+",
                                                       [POINTS_BY_CLASS] = "points, without classes",
                                                       [POINTS_BY_INTENSITY] = "points, no intensities",
