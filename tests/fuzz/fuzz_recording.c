@@ -156,7 +156,7 @@ static void verify(void)
 {
     verify_report report;
     octreel_error error = {""};
-    if (!told(verify_recording(edited, &(verify_options){.watch.progress = NULL}, &report, &error), &error))
+    if (!told(verify_recording(edited, &(verify_options){.jobs = 1}, &report, &error), &error))
         return;
     verify_print(nowhere, edited, &report, false);
     verify_print(nowhere, edited, &report, true);

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* verify.c - replays the session of a recording, compares ticks and frames, and prints the findings. */
+/* verify.c - replays the session of a recording, and compares ticks and frames. */
 #include "verify.h"
+#include "context.h"
+#include "film.h"
 #include "frame_file.h"
-#include "json_write.h"
 #include "folder_files.h"
 #include "replay.h"
 #include "text.h"
@@ -13,10 +14,13 @@
 
 #include <errno.h>
 #include <inttypes.h>
+#include <poll.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 /* The state of a verification. */
@@ -24,6 +28,7 @@ typedef struct verifying {
     const char *folder;
     const verify_options *options;
     replay replay;
+    film_share share;        /* the ticks to verify, all of them or the share of one process */
     uint64_t filmed_session; /* the digest of the session that the recording's first frame contains */
     line_reader lines;
     bool stopped; /* true: verification has stopped at the first tick that differs */
@@ -210,7 +215,9 @@ static bool check_tick(void *context, const film_step *step, octreel_error *erro
     v->report->frames += step->filmed;
     if (step->gap && v->report->gaps++ == 0)
         v->report->first_gap = *octree_session_gap(&v->replay.session.session, step->tick);
-    watcher_report(&v->options->watch, step->tick + 1, v->replay.ticks);
+    /* Only the first share reports progress. All shares take about the same time, so its part stands for the whole. */
+    if (v->share.first == 0)
+        watcher_report(&v->options->watch, (step->tick + 1) * v->replay.ticks / v->share.last, v->replay.ticks);
     return true;
 }
 
@@ -280,19 +287,128 @@ static bool open_renderer(verifying *v, octreel_error *error)
     return playback_open_picture(p, &target, error);
 }
 
-static bool replay_ticks(verifying *v, octreel_error *error)
+/* Replay the session, and verify the ticks of v->share. `watch` may be null. */
+static bool verify_share(verifying *v, const watcher *watch, octreel_error *error)
 {
-    const film_share all = {.last = v->replay.ticks};
+    if (!line_reader_open(&v->lines, v->folder, error))
+        return false;
+    line_reader_skip(&v->lines, v->share.first);
     if (!playback_open(&v->replay.playback, &v->replay.session.session, &v->replay.session.values, &v->replay.film.view,
                        error) ||
         !open_renderer(v, error))
         return false;
     if (v->replay.playback.picture.renderer)
         report_renderer(v);
-    if (!playback_run(&v->replay.playback, &all, check_tick, v, NULL, error))
+    if (!playback_run(&v->replay.playback, &v->share, check_tick, v, watch, error))
         return v->stopped;
-    check_end_of_lines(v);
+    if (v->share.last == v->replay.ticks)
+        check_end_of_lines(v);
     return true;
+}
+
+/* ---- Several processes --------------------------------------------------------------------------------------- */
+
+/* The result of the verification of a share. */
+typedef struct outcome {
+    bool ok, stopped;
+    verify_report report;
+    octreel_error error;
+} outcome;
+
+/* A process that verifies a share. It inherits the session from this process, so pointers into the session and to
+ * string constants are the same in both processes. */
+typedef struct verifier {
+    pid_t pid;
+    FILE *outcome; /* the process writes its outcome into this pipe */
+} verifier;
+
+/* Returns false if nobody reads the outcome any more, because the process that started this one has ended. */
+static bool is_awaited(void *context)
+{
+    struct pollfd outcome = {.fd = *(const int *)context};
+    return poll(&outcome, 1, 0) == 0;
+}
+
+static bool start_verifier(verifying *v, verifier *started, octreel_error *error)
+{
+    int ends[2];
+    *started = (verifier){0};
+    if (pipe(ends) != 0)
+        return error_set(error, "cannot create a pipe: %s", strerror(errno));
+    started->pid = fork();
+    if (started->pid == 0) {
+        outcome made = {.report = *v->report};
+        close(ends[0]);
+        v->report = &made.report;
+        draw_context_set_report(NULL);
+        made.ok = verify_share(v, &(watcher){.keep_going = is_awaited, .context = &ends[1]}, &made.error);
+        made.stopped = v->stopped;
+        _exit(write(ends[1], &made, sizeof made) == sizeof made ? EXIT_SUCCESS : EXIT_FAILURE);
+    }
+    const int reason = errno;
+    close(ends[1]);
+    started->outcome = started->pid > 0 ? fdopen(ends[0], "rb") : NULL;
+    if (started->outcome)
+        return true;
+    close(ends[0]);
+    return error_set(error, "cannot start a process: %s", strerror(reason));
+}
+
+/* Add the outcome of a share to the outcome of all shares before it. */
+static bool add_outcome(verifying *v, const verifier *from, octreel_error *error)
+{
+    outcome made;
+    const verify_report before = *v->report;
+    if (fread(&made, sizeof made, 1, from->outcome) != 1)
+        return error_set(error, "%s: a process that verifies ticks ended early", v->folder);
+    *v->report = made.report;
+    v->report->ticks += before.ticks;
+    v->report->frames += before.frames;
+    v->report->gaps += before.gaps;
+    if (before.gaps > 0)
+        v->report->first_gap = before.first_gap;
+    v->stopped = made.stopped;
+    *error = made.error;
+    return made.ok;
+}
+
+/* End a process whose outcome is known or not needed. A verifier writes no files. */
+static void end_verifier(const verifier *ended)
+{
+    if (ended->outcome)
+        fclose(ended->outcome);
+    if (ended->pid > 0) {
+        kill(ended->pid, SIGKILL);
+        while (waitpid(ended->pid, NULL, 0) < 0 && errno == EINTR)
+            continue;
+    }
+}
+
+/* Divide the ticks into one share for each process. This process verifies the first share, and then adds the outcomes
+ * of the others in order, up to the first tick that differs. */
+static bool verify_by_jobs(verifying *v, unsigned jobs, octreel_error *error)
+{
+    verifier *others = calloc(jobs, sizeof *others);
+    bool ok = others || error_no_memory(error);
+    if (jobs > 1)
+        setenv("LP_NUM_THREADS", "0", 0); /* as in record, whose jobs use one core each */
+    for (unsigned i = jobs; ok && i-- > 0;) {
+        v->share = (film_share){.first = v->replay.ticks * i / jobs, .last = v->replay.ticks * (i + 1) / jobs};
+        ok = i > 0 ? start_verifier(v, &others[i], error) : verify_share(v, NULL, error);
+    }
+    for (unsigned i = 1; others && i < jobs; i++) {
+        ok = ok && (v->stopped || add_outcome(v, &others[i], error));
+        end_verifier(&others[i]);
+    }
+    free(others);
+    return ok;
+}
+
+static unsigned choose_jobs(const verifying *v)
+{
+    const unsigned jobs =
+        v->options->jobs ? v->options->jobs : film_default_jobs(&v->replay.session.session, &v->replay.film);
+    return jobs < v->replay.ticks ? jobs : (unsigned)v->replay.ticks;
 }
 
 static bool verify_all(verifying *v, octreel_error *error)
@@ -300,13 +416,14 @@ static bool verify_all(verifying *v, octreel_error *error)
     if (!replay_read(&v->replay, v->folder, v->options->max_ticks, error) ||
         !line_reader_open(&v->lines, v->folder, error))
         return false;
+    line_reader_close(&v->lines);
     v->filmed_session = v->replay.session_digest;
     v->report->has_frames = v->replay.film.every > 0;
     errno = 0;
     if (v->report->has_frames)
         describe_recorded_renderer(v->folder, v->report->drawn_by, sizeof v->report->drawn_by);
     return check_system_resources(error) && (!v->report->has_frames || check_first_frame(v, error)) &&
-           (v->stopped || replay_ticks(v, error)) && check_extra_frames(v, error);
+           (v->stopped || verify_by_jobs(v, choose_jobs(v), error)) && check_extra_frames(v, error);
 }
 
 bool verify_recording(const char *folder, const verify_options *options, verify_report *report, octreel_error *error)
@@ -317,96 +434,4 @@ bool verify_recording(const char *folder, const verify_options *options, verify_
     replay_close(&v.replay);
     line_reader_close(&v.lines);
     return ok;
-}
-
-/* ---- Printing ----------------------------------------------------------------------------------------------- */
-
-static const struct {
-    const char *name; /* the name of the kind in JSON */
-    const char *words;
-} kinds[VERIFY_KINDS] = {
-#define VERIFY_ROW(name, word, words) [VERIFY_##name] = {word, words},
-    VERIFY_KIND_MAP(VERIFY_ROW)
-#undef VERIFY_ROW
-};
-
-static void print_identical(FILE *out, const char *folder, const verify_report *report)
-{
-    write_escaped(out, folder, escape_nothing);
-    fprintf(out, ": identical: %" PRIu64 " tick%s, ", report->ticks, plural_ending(report->ticks));
-    if (report->has_frames)
-        fprintf(out, "%" PRIu64 " frame%s\n", report->frames, plural_ending(report->frames));
-    else
-        fputs("compared by ticks.jsonl alone, since there are no frames\n", out);
-}
-
-static void print_text(FILE *out, const char *folder, const verify_report *report)
-{
-    const octree_gap *gap = &report->first_gap;
-    if (report->count == 0)
-        print_identical(out, folder, report);
-    if (report->gaps > 0) {
-        write_escaped(out, folder, escape_nothing);
-        fprintf(out, ": %" PRIu64 " of these ticks %s without data; the first is tick %" PRIu64 ": ", report->gaps,
-                report->gaps == 1 ? "is a gap" : "are gaps", gap->tick);
-        write_escaped(out, gap->why, escape_nothing);
-        fputc('\n', out);
-    }
-    for (size_t i = 0; i < report->count; i++) {
-        const verify_finding *finding = &report->findings[i];
-        write_escaped(out, folder, escape_nothing);
-        fputs(": ", out);
-        if (finding->has_tick)
-            fprintf(out, "tick %" PRIu64 " differs%s: ", finding->tick, kinds[finding->kind].words);
-        write_escaped(out, finding->text, escape_nothing);
-        fputc('\n', out);
-    }
-}
-
-static void write_string(json_writer *w, const char *key, const char *text)
-{
-    json_write_key(w, key);
-    if (*text)
-        json_write_string(w, text);
-    else
-        json_write_null(w);
-}
-
-static void write_finding(json_writer *w, const verify_report *report, const verify_finding *finding)
-{
-    json_write_begin_object(w);
-    write_string(w, "in", kinds[finding->kind].name);
-    if (finding->has_tick)
-        json_write_integer_member(w, "tick", finding->tick);
-    if (*finding->fact)
-        write_string(w, "fact", finding->fact);
-    if (finding->kind == VERIFY_PIXELS)
-        json_write_integer_member(w, "pixels", report->pixels);
-    write_string(w, "text", finding->text);
-    json_write_end_object(w);
-}
-
-static void print_json(FILE *out, const char *folder, const verify_report *report)
-{
-    json_writer writer = {.out = out}, *w = &writer;
-    json_write_begin_object(w);
-    write_string(w, "folder", folder);
-    json_write_bool_member(w, "identical", report->count == 0);
-    json_write_integer_member(w, "ticks", report->ticks);
-    json_write_integer_member(w, "frames", report->frames);
-    json_write_integer_member(w, "gaps", report->gaps);
-    json_begin_array_member(w, "findings");
-    for (size_t i = 0; i < report->count; i++)
-        write_finding(w, report, &report->findings[i]);
-    json_write_end_array(w);
-    write_string(w, "drawn_by", report->drawn_by);
-    write_string(w, "drawn_now", report->drawn_now);
-    write_string(w, "fill", report->fill);
-    json_write_end_object(w);
-    json_write_end_line(w);
-}
-
-void verify_print(FILE *out, const char *folder, const verify_report *report, bool json)
-{
-    (json ? print_json : print_text)(out, folder, report);
 }

@@ -63,7 +63,10 @@ typedef struct verify_report {
 typedef struct verify_options {
     renderer_choice renderer; /* the renderer to open; the member `fill` is ignored */
     uint64_t max_ticks;       /* maximum number of ticks: a longer session is refused; 0: SESSION_MOST_PLAYED */
-    watcher watch;            /* receives the progress in ticks; keep_going() of the watcher is not called */
+    /* The number of processes; 0: one per core, fewer for few frames. The report is the same for any number. Unless it
+     * is 1, the caller must not have opened a renderer or started threads. */
+    unsigned jobs;
+    watcher watch; /* receives the progress in ticks; keep_going() of the watcher is not called */
 } verify_options;
 
 /* Verify the recording in a folder. Returns false with an error if the recording cannot be read, played or drawn. */

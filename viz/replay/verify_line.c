@@ -38,6 +38,12 @@ void line_reader_close(line_reader *reader)
     *reader = (line_reader){0};
 }
 
+void line_reader_skip(line_reader *reader, uint64_t count)
+{
+    for (int c; count > 0 && (c = getc(reader->stream)) != EOF;)
+        count -= c == '\n';
+}
+
 line_state line_reader_next(line_reader *reader, size_t limit)
 {
     reader->size = 0;

@@ -25,6 +25,9 @@ typedef enum line_state {
 bool line_reader_open(line_reader *reader, const char *folder, octreel_error *error);
 void line_reader_close(line_reader *reader);
 
+/* Skip lines. */
+void line_reader_skip(line_reader *reader, uint64_t count);
+
 /* Read the next line of ticks.jsonl. `limit` is the maximum number of bytes to read. */
 line_state line_reader_next(line_reader *reader, size_t limit);
 

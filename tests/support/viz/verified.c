@@ -26,14 +26,29 @@ void empty_test_folder(void **state)
     assert_int_equal(temp_folder_make(state), 0);
 }
 
-verify_report verify(const place *folder)
+static verify_report verify_by(const place *folder, unsigned jobs)
 {
-    const verify_options options = {.watch.progress = NULL};
     verify_report report;
     octreel_error error = {""};
-    if (!verify_recording(folder->path, &options, &report, &error))
+    if (!verify_recording(folder->path, &(verify_options){.jobs = jobs}, &report, &error))
         fail_msg("%s", error.text);
     return report;
+}
+
+/* Several processes report what one process reports. */
+verify_report verify(const place *folder)
+{
+    const verify_report several = verify_by(folder, 3), one = verify_by(folder, 1);
+    assert_int_equal(several.count, one.count);
+    for (size_t i = 0; i < one.count; i++)
+        assert_memory_equal(&several.findings[i], &one.findings[i], sizeof one.findings[i]);
+    assert_int_equal(several.ticks, one.ticks);
+    assert_int_equal(several.frames, one.frames);
+    assert_int_equal(several.gaps, one.gaps);
+    assert_int_equal(several.pixels, one.pixels);
+    assert_string_equal(several.drawn_now, one.drawn_now);
+    assert_string_equal(several.fill, one.fill);
+    return one;
 }
 
 void assert_identical(const place *folder, uint64_t ticks, uint64_t frames)
@@ -60,7 +75,7 @@ verify_report assert_found(const place *folder, verify_kind kind, uint64_t tick,
 
 void assert_not_verified(const place *folder, const char *part)
 {
-    const verify_options options = {.watch.progress = NULL};
+    const verify_options options = {.jobs = 1};
     verify_report report;
     octreel_error error = {""};
     assert_false(verify_recording(folder->path, &options, &report, &error));

@@ -25,7 +25,7 @@ static place film_tiny(const temp_folder *own)
 /* Whether verify reports a difference or an error. */
 static bool is_noticed(const place *folder)
 {
-    const verify_options options = {.watch.progress = NULL};
+    const verify_options options = {.jobs = 1};
     verify_report report;
     octreel_error error = {""};
     const bool verified = verify_recording(folder->path, &options, &report, &error);

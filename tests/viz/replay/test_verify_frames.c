@@ -98,7 +98,7 @@ static void frame_without_read_permission_is_an_error(void **state)
     const bool root = geteuid() == 0;
     if (root && seteuid(65534) != 0)
         skip(); /* root can read everything, and this container has no other user */
-    const verify_options options = {0};
+    const verify_options options = {.jobs = 1};
     verify_report report;
     octreel_error error = {""};
     const bool verified = verify_recording(folder.path, &options, &report, &error);
