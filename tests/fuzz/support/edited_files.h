@@ -10,7 +10,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { EDITED_MOST = 16, EDITED_NAME = 48, EDITED_LARGEST = 1 << 18 };
+enum { EDITED_MOST = 16, EDITED_NAME = 48, EDITED_LARGEST = 1 << 19 };
 
 typedef enum edited_kind { EDITED_FILE, EDITED_NONE, EDITED_FOLDER, EDITED_LINK, EDITED_PIPE } edited_kind;
 
