@@ -150,7 +150,7 @@ static void search_octants(search *s, branch *b, unsigned near, unsigned left)
             continue;
         if (squared_distance_to_octant(b, flip) > s->found.node_reach)
             break;
-        const node *child = &children_of(b->node)[child_index(b->node, octant)];
+        const node *child = look_up_child(b->node, octant);
         left &= ~(1u << octant);
         if (RARELY(s->is_metered))
             meter_visit(&s->meter, b->address << 3 | octant);
@@ -270,15 +270,28 @@ static inline void search_path(search *s, const path *p, uint64_t code, const ui
                     p->nodes[depth]->octants & ~(1u << morton_octant(code, depth)));
 }
 
+/* Find the path to a code, as find_path() does, but inline. Returns the path's last node. */
+static inline const node *descend_along_path(const octree *tree, uint64_t code, path *p)
+{
+    const node *n = &tree->root;
+    begin_path(p, (octree *)(uintptr_t)tree);
+    while (n->octants) {
+        const unsigned octant = morton_octant(code, p->depth);
+        if (!(n->octants >> octant & 1))
+            break;
+        p->nodes[++p->depth] = look_up_child(n, octant);
+        n = path_end(p);
+    }
+    return n;
+}
+
 /* Search the leaf at some keys, then the nodes above it. */
 static inline void search_from_leaf(search *s, const uint32_t keys[3])
 {
     const octree *tree = s->tree;
     const uint64_t code = morton_interleave(keys);
     path p;
-    begin_path(&p, (octree *)(uintptr_t)tree);
-    extend_path(&p, code);
-    const node *end = path_end(&p);
+    const node *end = descend_along_path(tree, code, &p);
     s->meter.count.nodes += p.depth + 1;
     for (unsigned i = 0; s->meter.how->trace && i <= p.depth; i++)
         meter_trace(&s->meter, morton_address(code, i), OCTREE_TRACE_VISITED);

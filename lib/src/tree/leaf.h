@@ -56,6 +56,12 @@ static inline unsigned child_index(const node *n, unsigned octant)
     return bits_count8(n->octants & ((1u << octant) - 1));
 }
 
+/* Returns the child in an octant that has a child. For queries: see bits_look_up_count8(). */
+static inline node *look_up_child(const node *n, unsigned octant)
+{
+    return children_of(n) + bits_look_up_count8(n->octants & ((1u << octant) - 1));
+}
+
 /* Returns the child in an octant. Returns null if there is no child in this octant. */
 static inline node *child_at(const node *n, unsigned octant)
 {

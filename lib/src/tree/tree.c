@@ -246,6 +246,25 @@ octree_status check_position(const octree *tree, const double position[3])
     return is_finite_position(position) ? OCTREE_OUTSIDE : OCTREE_NOT_FINITE;
 }
 
+void extend_path(path *p, uint64_t code)
+{
+    for (; path_end(p)->octants; p->depth++) {
+        node *child = child_at(path_end(p), morton_octant(code, p->depth));
+        if (!child)
+            break;
+        p->nodes[p->depth + 1] = child;
+    }
+}
+
+path find_path(const octree *tree, uint64_t code)
+{
+    /* The cast removes const, only here. A caller that changes nodes through the path has a tree that is not const. */
+    path p;
+    begin_path(&p, (octree *)(uintptr_t)tree);
+    extend_path(&p, code);
+    return p;
+}
+
 bool find_point(const octree *tree, const double position[3], uint64_t id, found_point *found)
 {
     found->path = find_path(tree, morton_code(tree->axes, position));
@@ -264,7 +283,7 @@ static inline const node *find_end(const octree *tree, const uint64_t keys[3])
         const unsigned octant = (unsigned)(x >> 63 << 2 | y >> 63 << 1 | z >> 63);
         if (!(n->octants >> octant & 1))
             break;
-        n = children_of(n) + child_index(n, octant);
+        n = look_up_child(n, octant);
     }
     return n;
 }

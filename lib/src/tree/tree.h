@@ -107,28 +107,8 @@ static inline node *path_end(const path *p)
     return p->nodes[p->depth];
 }
 
-static inline void extend_path(path *p, uint64_t code)
-{
-    const node *n = path_end(p);
-    unsigned depth = p->depth;
-    while (n->octants) {
-        const unsigned octant = morton_octant(code, depth);
-        if (!(n->octants >> octant & 1))
-            break;
-        p->nodes[++depth] = children_of(n) + child_index(n, octant);
-        n = p->nodes[depth];
-    }
-    p->depth = depth;
-}
-
-static inline path find_path(const octree *tree, uint64_t code)
-{
-    /* The cast removes const, only here. A caller that changes nodes through the path has a tree that is not const. */
-    path p;
-    begin_path(&p, (octree *)(uintptr_t)tree);
-    extend_path(&p, code);
-    return p;
-}
+void extend_path(path *p, uint64_t code);
+path find_path(const octree *tree, uint64_t code);
 
 /* Where a pair (position, id) is stored: the path to its leaf, and its index in the leaf. */
 typedef struct found_point {
