@@ -129,7 +129,7 @@ const char *escape_nothing(const char *text, const char *at, char room[ESCAPE_RO
 }
 
 /* XML readers turn line ends and tabs in attributes into spaces, unless they are written as character references. */
-const char *escape_xml(const char *text, const char *at, char room[ESCAPE_ROOM])
+const char *escape_xml_character(const char *text, const char *at, char room[ESCAPE_ROOM])
 {
     (void)text;
     return strchr("<>&\"'\n\t", *at) ? write_character_reference(*at, room) : NULL;
@@ -137,7 +137,7 @@ const char *escape_xml(const char *text, const char *at, char room[ESCAPE_ROOM])
 
 const char *escape_xml_text(const char *text, const char *at, char room[ESCAPE_ROOM])
 {
-    return *at == '\n' ? "\n" : escape_xml(text, at, room);
+    return *at == '\n' ? "\n" : escape_xml_character(text, at, room);
 }
 
 static bool is_word_character(char c)
@@ -176,7 +176,7 @@ bool utf8_is_unprintable(const unsigned char *at)
 }
 
 /* Writes the non-ASCII character at `at`, or a replacement. Returns the number of bytes of `at` that were used. */
-static size_t write_non_ascii(FILE *out, const unsigned char *at)
+static size_t write_utf8_character(FILE *out, const unsigned char *at)
 {
     const size_t length = utf8_sequence_length(at);
     if (length == 0 || utf8_is_unprintable(at))
@@ -192,7 +192,7 @@ void write_escaped(FILE *out, const char *text, escape *how)
     for (const char *at = text; *at;) {
         const unsigned char c = (unsigned char)*at;
         if (c >= 0x80) {
-            at += write_non_ascii(out, (const unsigned char *)at);
+            at += write_utf8_character(out, (const unsigned char *)at);
             continue;
         }
         const char *written = how(text, at++, room);

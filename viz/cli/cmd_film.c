@@ -162,6 +162,6 @@ const command command_film = {
                 "octreel film flight -o film.mp4\n",
     .min_arguments = 1,
     .max_arguments = 1,
-    .takes = "the folder of one recording, or one with PNG files",
+    .takes = "the folder of one recording, or a folder of PNG files",
     .inputs = {FILE_KIND(RECORDING) | FILE_KIND(FOLDER)},
 };

@@ -26,7 +26,8 @@ typedef struct command {
     const char *files;       /* the section FILES; printed only in the manual */
     const char *environment; /* the section ENVIRONMENT; printed only in the manual */
 
-    /* The error for an argument such as -10; null: the error is "unknown option -1". */
+    /* The error for an argument such as -10. Null: -10 is read as the options -1 and -0, so the error is "unknown
+     * option -1". */
     const char *negative_error;
     int min_arguments, max_arguments; /* how many arguments the command takes, not counting options */
     const char *takes;                /* the arguments in words, for errors: "one session" */

@@ -27,7 +27,7 @@ typedef struct diagram_node {
     uint8_t depth, octants;
     bool leaf;
     uint64_t child_shares; /* sum of the shares of the node's octants, before rounding up */
-    double left, right;    /* the ends of the node's slot, from 0 to 1 */
+    double left, right;    /* the ends of the node's slot, as fractions of the diagram's width */
 } diagram_node;
 
 typedef struct diagram_slots {

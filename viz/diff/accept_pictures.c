@@ -54,7 +54,7 @@ static void release_set(file_set *set)
 
 /* ---- The files ----------------------------------------------------------------------------------------------- */
 
-static char *copy_final_path(const accepting *a, const diff_pair *pair)
+static char *make_final_path(const accepting *a, const diff_pair *pair)
 {
     if (pair->a)
         return strdup(pair->a->path);
@@ -87,7 +87,7 @@ static bool prepare_copies(const accepting *a, file_set *set, octreel_error *err
         if (a->actions[i] == CHANGED || a->actions[i] == ADDED)
             ok = (a->reference.kind == DIFF_PICTURE ||
                   folder_create_inside(a->reference.path, diff_pair_name(pair), error)) &&
-                 prepare_copy(set, pair->b->path, copy_final_path(a, pair), error);
+                 prepare_copy(set, pair->b->path, make_final_path(a, pair), error);
         else if (whole && pair->finding == FOUND_SAME_PIXELS)
             ok = prepare_recording_file(a, diff_pair_name(pair), set, error);
     }

@@ -15,7 +15,7 @@ const char *diff_verdict_name(diff_verdict verdict)
     return names[verdict];
 }
 
-double diff_shown_delta(double delta)
+double diff_round_delta(double delta)
 {
     return ceil(delta * 1e4) / 1e4;
 }
@@ -40,7 +40,7 @@ static void print_worst(FILE *out, const image_difference *d)
     if (tally->pixels == 0)
         return;
     fprintf(out, "; worst %.4f " IMAGE_DELTA_UNIT " at (%d,%d), channels by up to %d of %d; within (%d,%d)-(%d,%d)",
-            diff_shown_delta(tally->worst_delta), tally->worst_x, tally->worst_y, tally->largest_channel,
+            diff_round_delta(tally->worst_delta), tally->worst_x, tally->worst_y, tally->largest_channel,
             d->channel_range, tally->min_x, tally->min_y, tally->max_x, tally->max_y);
 }
 

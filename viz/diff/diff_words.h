@@ -26,7 +26,7 @@ void diff_print_difference(FILE *out, const diff_pair *pair);
 
 /* Round a color difference up to four decimals. The rounded number is not smaller than the difference, so a user can
  * give it to --max-delta. */
-double diff_shown_delta(double delta);
+double diff_round_delta(double delta);
 
 /* Return whether reports list pairs with this finding. Reports list all pairs except pairs whose frames are equal
  * without a tolerance. */

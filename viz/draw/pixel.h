@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* pixel.h - finds the elements that are drawn at each sample, at one pixel, and by some layers. */
+/* pixel.h - finds which elements are drawn: at every sample of a picture, at a given pixel, or by given layers. */
 #ifndef DRAW_PIXEL_H
 #define DRAW_PIXEL_H
 

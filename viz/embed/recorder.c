@@ -279,8 +279,8 @@ static octreel_status require_growing_leaves(octreel_recorder *r)
     if (r->put > 0)
         return status_refuse(
             &r->error, OCTREEL_OTHER_TREE,
-            "earlier ticks had no list of points: to pass one later, open the recorder with OCTREE_GROW as "
-            "full_leaf of the definition's tree");
+            "a list of points cannot be passed now, because earlier ticks had none; to allow it, set tree.full_leaf "
+            "to OCTREE_GROW when you open the recorder");
     r->settings.tree.full_leaf = OCTREE_GROW;
     return OCTREEL_OK;
 }

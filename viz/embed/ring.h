@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* ring.h - a ring buffer of a program's last ticks, which is recorded only on request. Private to viz/embed. */
+/* ring.h - a ring buffer that keeps a program's last ticks in memory. They are recorded only on request.
+ * Private to viz/embed. */
 #ifndef EMBED_RING_H
 #define EMBED_RING_H
 

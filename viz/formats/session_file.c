@@ -90,7 +90,7 @@ static bool duplicate_ids(const uint64_t **ids, size_t *count)
     return whole;
 }
 
-bool query_duplicate_ids(octree_query *query)
+bool query_copy_ids(octree_query *query)
 {
     bool whole = duplicate_ids(&query->answer, &query->answer_count);
     for (int met = 0; met < OCTREE_NODE_VISITS; met++)
@@ -120,7 +120,7 @@ static bool duplicate_owned_memory(const octree_session *session)
 {
     bool whole = true;
     for (size_t i = 0; i < session->query_count; i++)
-        whole = query_duplicate_ids((octree_query *)&session->queries[i]) && whole;
+        whole = query_copy_ids((octree_query *)&session->queries[i]) && whole;
     for (size_t i = 0; i < session->foreign_count; i++)
         whole = foreign_tree_duplicate(&session->foreign[i], (octree_foreign_tree *)&session->foreign[i]) && whole;
     return whole;

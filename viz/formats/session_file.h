@@ -71,7 +71,7 @@ bool session_write(const octree_session *session, const point_values *values, FI
 
 /* The duplicate functions replace the lists of ids of a query, or the nodes of a foreign tree, by copies. They
  * return false if memory runs out. The caller releases the copies in any case. */
-bool query_duplicate_ids(octree_query *query);
+bool query_copy_ids(octree_query *query);
 void query_release_ids(octree_query *query);
 bool foreign_tree_duplicate(const octree_foreign_tree *from, octree_foreign_tree *to);
 void foreign_tree_release(octree_foreign_tree *tree);

@@ -59,7 +59,7 @@ static bool read_chunk(page *p, size_t offset, chunk *c)
 
 /* Read the first page of a file, and return the file. If the file is not a PNG, closes the file and returns null.
  * `file` may be null. */
-static FILE *read_first_page(FILE *file, page *p)
+static FILE *open_at_first_page(FILE *file, page *p)
 {
     p->size = file ? fread(p->bytes, 1, sizeof p->bytes, file) : 0;
     if (p->size >= sizeof signature && memcmp(p->bytes, signature, sizeof signature) == 0)
@@ -72,14 +72,14 @@ static FILE *read_first_page(FILE *file, page *p)
 static FILE *open_png(const char *path, page *p)
 {
     char ignored[FILE_REASON];
-    return read_first_page(file_open(path, NULL, ignored), p);
+    return open_at_first_page(file_open(path, NULL, ignored), p);
 }
 
 /* Only regular files are opened: opening a pipe would block. */
 static FILE *open_png_for_writing(const char *path, page *p)
 {
     struct stat status;
-    return read_first_page(stat(path, &status) == 0 && S_ISREG(status.st_mode) ? fopen(path, "r+b") : NULL, p);
+    return open_at_first_page(stat(path, &status) == 0 && S_ISREG(status.st_mode) ? fopen(path, "r+b") : NULL, p);
 }
 
 /* ---- Size ---------------------------------------------------------------------------------------------------- */

@@ -253,9 +253,9 @@ static void add_scale(scene *s)
                   w.width / 6, "");
 }
 
-/* Add three axes along edges of the box that the camera frames, or of its part in a zoomed picture. Each axis has its
- * name. If the view shows text, it also has tick marks with round numbers. The step between numbers depends on the box
- * and the kind of camera, so it stays the same while the camera orbits. */
+/* Add three axes along edges of the box that the camera frames; in a zoomed picture, along edges of the visible part of
+ * this box. Each axis has its name. If the view shows text, it also has tick marks with round numbers. The step between
+ * numbers depends only on the box and the kind of camera, so that it stays the same while the camera orbits. */
 static void add_axes(scene *s, const octree_box *world)
 {
     const bool fitted = s->view.fit == FIT_BOX, zoomed = s->view.zoom > 1 || s->view.center.given,

@@ -19,8 +19,8 @@
 #define FEW_MARKS 50
 #define FEW_RINGS 3
 
-/* Return the element id of an answer's ring. No point of a session file can have this id. (A marker has the id of its
- * point.) */
+/* Return the element id of the ring around the wrong answer with the index `place`. A marker has the id of its point,
+ * and no point of a session file can have the id of a ring. */
 static uint64_t ring_id(size_t place)
 {
     return UINT64_MAX - place;

@@ -86,7 +86,7 @@ static void assign_cells(portions *p, size_t count)
 
 /* Sort the points by portion, and keep the file order within each portion. `cells` is scratch memory with room for one
  * number per point. */
-static void divide_points(const cloud *c, const octree_def *def, portions *p, uint16_t *cells, octree_point *points)
+static void distribute_points(const cloud *c, const octree_def *def, portions *p, uint16_t *cells, octree_point *points)
 {
     size_t next[MOST_PORTIONS] = {0};
     begin_portions(p, &def->world);
@@ -138,7 +138,7 @@ static octree_status insert_all(cloud *c, const octree_def *def, const watcher *
     octree_point *points = malloc(c->count * sizeof *points);
     const bool divided = p && cells && points;
     if (divided)
-        divide_points(c, def, p, cells, points);
+        distribute_points(c, def, p, cells, points);
     free(cells);
     free(c->positions); /* free the positions first, because the tree needs the same amount of memory */
     c->positions = NULL;

@@ -80,8 +80,8 @@ typedef struct chart {
     const audit_kind *kind;
     bool ratio; /* true: the value is the ratio of distances; false: the recall */
     double from, to;
-    double finite; /* the end of the axis for finite values; infinite values are drawn beyond this end, at the value
-                      `to` */
+    double finite; /* the largest value on the finite part of the axis; infinite values are drawn beyond it, at `to`
+                    */
     const double *limit; /* null: no limit is drawn */
 } chart;
 
@@ -278,7 +278,7 @@ static void write_head(const page *p)
     fprintf(p->out, "<h1%s>", audit_passes(v->report) ? "" : " class=\"fails\"");
     audit_print_all(p->out, v);
     fputs("</h1>\n<p>octreel audit of ", p->out);
-    write_escaped(p->out, v->path, escape_xml);
+    write_escaped(p->out, v->path, escape_xml_character);
     fputs("</p>\n", p->out);
     audit_print_limits(p->out, "<p>Allowed: ", &v->report->limits, "</p>\n");
     fputs(p->base

@@ -6,7 +6,7 @@
 static void write_attribute(FILE *out, const char *name, const char *value)
 {
     fprintf(out, " %s=\"", name);
-    write_escaped(out, value, escape_xml);
+    write_escaped(out, value, escape_xml_character);
     putc('"', out);
 }
 

@@ -10,7 +10,7 @@
 static void write_xml(FILE *out, const char *before, const char *text)
 {
     fputs(before, out);
-    write_escaped(out, text, escape_xml);
+    write_escaped(out, text, escape_xml_character);
 }
 
 /* Write why a pair fails. For the first pair of a group, write all details. For the other pairs, write only the name

@@ -34,7 +34,7 @@ static void write_pixels(FILE *out, const diff_pair *pair)
     fprintf(out, "%" PRIu64 " of %" PRIu64 " pixel%s", d->counted.pixels, all, plural_ending(all));
     if (d->unlike.pixels > d->counted.pixels)
         fprintf(out, ", %" PRIu64 " more forgiven", d->unlike.pixels - d->counted.pixels);
-    fprintf(out, " | %.4f " IMAGE_DELTA_UNIT " at (%d,%d)", diff_shown_delta(d->counted.worst_delta),
+    fprintf(out, " | %.4f " IMAGE_DELTA_UNIT " at (%d,%d)", diff_round_delta(d->counted.worst_delta),
             d->counted.worst_x, d->counted.worst_y);
 }
 

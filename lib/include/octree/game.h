@@ -136,7 +136,7 @@ typedef struct octree_session {
     size_t shape_count;
     const octree_gap *gaps; /* the gaps, in ascending order of their ticks, at most one for each tick */
     size_t gap_count;
-    /* the foreign nodes, in ascending order of their ticks, at most one element for each tick */
+    /* the foreign trees, in ascending order of their ticks, at most one for each tick */
     const octree_foreign_tree *foreign;
     size_t foreign_count;
     octree_sampled sampled; /* the seeds of the bodies, which session files store; the game does not read this member */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* queries.h - asks the queries of a tick, and lists the nodes that its searches visited. Private. */
+/* queries.h - answers the queries of a tick, and lists the nodes that they visited. Private. */
 #ifndef OCTREE_QUERIES_H
 #define OCTREE_QUERIES_H
 

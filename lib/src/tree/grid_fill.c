@@ -57,7 +57,7 @@ static bool fits_direct_leaf(const octree *tree, size_t count)
 /* ---- The grid -------------------------------------------------------------------------------------------------- */
 
 /* Returns the number of sampled points that lie in crowded cells. A cell is crowded if it has more than `limit` sampled
- * points. The limit corresponds to twice the points of a leaf. */
+ * points. The limit is twice the capacity of a leaf, scaled down to the sample. */
 static size_t count_crowded_samples(const batch *b, unsigned depth, uint32_t *counts, size_t limit)
 {
     const size_t stride = b->to ? 3 : sizeof *b->points / sizeof(double), samples = b->count / SAMPLE_STEP;

@@ -12,7 +12,7 @@
 #include "plane.h"
 #include "visits.h"
 
-/* How the capacity is chosen under OCTREE_AUTO. Insertion calls this function pointer and not octree_tune(), so that a
+/* How the capacity is chosen under OCTREE_AUTO. Insertion calls octree_tune() through the pointer `choose`, so that a
  * program without OCTREE_AUTO does not link tune.c. */
 typedef struct tuning {
     /* the function that chooses the capacity; null: the capacity is fixed */
