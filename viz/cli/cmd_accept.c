@@ -22,8 +22,9 @@ static bool read_date(const command_option *option, const char *text, void *into
 
 static bool read_reason(const command_option *option, const char *text, void *into)
 {
-    return baseline_is_reason(text) ? read_text(option, text, into)
-                                    : refuse_value(option, "one line of text without blanks at its ends", text);
+    return baseline_is_reason(text)
+               ? read_text(option, text, into)
+               : refuse_value(option, "one line of text that neither begins nor ends with a space", text);
 }
 
 static const command_option options[] = {

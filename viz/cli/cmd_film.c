@@ -81,7 +81,7 @@ static void report_film(const arguments *a, const animation_summary *s)
     fprintf(out, ": %zu frame%s, %d x %d pixels, %.1f s", s->frames, plural_ending(s->frames), s->width, s->height,
             (double)s->frames / a->film.rate);
     if (s->stored < s->frames)
-        fprintf(out, "; %zu repeat%s the frame before", s->frames - s->stored, verb_ending(s->frames - s->stored));
+        fprintf(out, "; %zu equal%s the previous frame", s->frames - s->stored, verb_ending(s->frames - s->stored));
     if (s->colors == 0 && !animation_is_video(a->output.path))
         fputs("; more than 256 colours, so it has no palette", out);
     putc('\n', out);
@@ -149,8 +149,9 @@ const command command_film = {
              "An animated PNG plays in browsers, also on a page of GitHub; other programs show its first frame. It has "
              "the pixels of the frames, repeats for ever, and has the same bytes on every machine. Transparent pixels "
              "become white. Videos need the program ffmpeg, and their pixels are not exact.\n",
-    .more = "The frames must have one size. Ticks without a frame are left out. A frame that repeats the frame before "
-            "prolongs it. Other frames store only the rectangle that changed. If all frames together have more than "
+    .more = "The frames must have one size. Ticks without a frame are left out. A frame equal to the previous one "
+            "takes no space: the previous one is shown longer. Other frames store only the rectangle that changed. If "
+            "all frames together have more than "
             "256 colours, an animated PNG has no palette and is larger. Ctrl-C stops without writing a file.\n",
     .statuses = {"the film is written", NULL, "error or stopped; no film is written"},
     .examples = "# make an animated PNG of the example\n"

@@ -63,8 +63,9 @@ static const char *full_leaf_name_at(int n)
 
 static const char *full_leaf_words_at(int n)
 {
-    static const char *const words[] = {
-        [OCTREE_REFUSE] = "refuses the point", [OCTREE_GROW] = "keeps the point beyond its capacity (default)"};
+    static const char *const words[] = {[OCTREE_REFUSE] = "refuses the point",
+                                        [OCTREE_GROW] =
+                                            "keeps the point, although this exceeds the capacity (default)"};
     return n <= OCTREE_GROW ? words[n] : NULL;
 }
 
@@ -323,7 +324,7 @@ static bool check_picture(const arguments *a)
                           : a->renderer.context != DRAW_AUTO    ? "context"
                                                                 : NULL;
     if (is_page(a) && drawing)
-        return print_refusal("--%s changes how a PNG is drawn, but %s is a page, which draws by itself", drawing,
+        return print_refusal("--%s changes how a PNG is drawn, but %s is a page, which the browser draws", drawing,
                              a->outputs[PICTURE].path);
     first = first ? first : drawing;
     if (a->outputs[PICTURE].path || !first)

@@ -107,7 +107,7 @@ static const char *explain_stream_conflict(const arguments *a)
     if (a->film.last != 0)
         return "--ticks needs a whole session and cannot film standard input: save the session to a file first";
     if (a->film.jobs > 1)
-        return "--jobs needs a whole session and cannot film standard input with more than one process: leave out "
+        return "--jobs needs a whole session, and cannot film standard input with more than one process: leave out "
                "--jobs, or save the session to a file first";
     return NULL;
 }

@@ -334,7 +334,7 @@ bool read_view(const view_options *given, view *v)
 
 static const char *context_words_at(int n)
 {
-    static const char *const words[DRAW_CONTEXTS] = {[DRAW_AUTO] = "the first of the others that works",
+    static const char *const words[DRAW_CONTEXTS] = {[DRAW_AUTO] = "the first of these that works",
                                                      [DRAW_OSMESA] = "Mesa's OSMesa, in memory",
                                                      [DRAW_EGL] = "EGL without a display"};
     return words[n];

@@ -107,7 +107,7 @@ bool cloud_turn_error_into_note(const cloud_file *file)
 {
     char *note = file->out->note;
     if (!*note)
-        snprintf(note, sizeof file->out->note, "%.400s; the points before it were read", file->error->text);
+        snprintf(note, sizeof file->out->note, "%.400s; the points before this place were read", file->error->text);
     file->error->text[0] = 0;
     return true;
 }
@@ -245,7 +245,7 @@ void cloud_note_trailing_lines(cloud_file *file)
 {
     cloud_span line;
     if (cloud_read_nonblank_line(file, &line)) {
-        cloud_fail_line(file, "more lines follow than the header announces");
+        cloud_fail_line(file, "the file has more lines than its header says");
         cloud_turn_error_into_note(file);
     }
 }
@@ -301,7 +301,7 @@ void cloud_note_trailing_bytes(const cloud_file *file, size_t offset)
     while (offset < file->size && file->bytes[offset] == 0)
         offset++;
     if (offset < file->size) {
-        cloud_fail_byte(file, offset, "more data follows than the header announces");
+        cloud_fail_byte(file, offset, "the file has more data than its header says");
         cloud_turn_error_into_note(file);
     }
 }

@@ -80,7 +80,7 @@ static bool read_version(las_reader *reader)
     reader->header_size = (unsigned)read_unsigned(reader, AT_HEADER_SIZE, 2);
     if (reader->header_size < header_sizes[reader->minor])
         return cloud_fail_byte(file, AT_HEADER_SIZE,
-                               "a header of %u bytes is announced, but that of LAS 1.%u has at least %u",
+                               "the header says that it has %u bytes, but a header of LAS 1.%u has at least %u",
                                reader->header_size, reader->minor, header_sizes[reader->minor]);
     return file->size >= header_sizes[reader->minor] ||
            cloud_fail_byte(file, file->size, "the file ends in its header");
@@ -103,7 +103,8 @@ static bool read_format(las_reader *reader)
                                FORMATS - 1);
     if (reader->length < record_sizes[reader->format])
         return cloud_fail_byte(file, AT_LENGTH,
-                               "points of %" PRIu64 " bytes are announced, but those of format %u have at least %u",
+                               "the header says that a point has %" PRIu64
+                               " bytes, but points of format %u have at least %u",
                                reader->length, reader->format, record_sizes[reader->format]);
     if (reader->minor > 0) /* in LAS 1.0 the class is the whole byte; since LAS 1.1 some bits of this byte are flags */
         reader->withheld = reader->format < 6 ? 0x80 : 0x04;
@@ -156,17 +157,18 @@ static bool find_points(las_reader *reader)
     reader->first = read_unsigned(reader, AT_POINTS, 4);
     if (reader->first < reader->header_size)
         return cloud_fail_byte(file, AT_HEADER_SIZE,
-                               "a header of %u bytes is announced, but points begin at byte %" PRIu64,
+                               "the header says that it has %u bytes, but also that the points begin at byte %" PRIu64,
                                reader->header_size, reader->first);
     if (reader->first > file->size)
         return cloud_fail_byte(file, AT_POINTS,
-                               "points are announced from byte %" PRIu64 " on, but the file has only %zu bytes",
+                               "the header says that the points begin at byte %" PRIu64
+                               ", but the file has only %zu bytes",
                                reader->first, file->size);
     skip_signature(reader, file->size - reader->first);
     const uint64_t left = file->size - reader->first;
     return reader->count <= left / reader->length ||
            cloud_fail_byte(file, (size_t)reader->first,
-                           "%" PRIu64 " points of %" PRIu64 " bytes are announced, but only %" PRIu64 " bytes follow",
+                           "%" PRIu64 " points of %" PRIu64 " bytes should follow, but only %" PRIu64 " do",
                            reader->count, reader->length, left);
 }
 
@@ -252,7 +254,7 @@ static bool read_compressed(las_reader *reader)
     reader->first = read_unsigned(reader, AT_POINTS, 4);
     if (reader->count / MOST_A_BYTE > file->size)
         return cloud_fail_byte(file, reader->minor >= 4 ? AT_WIDE_COUNT : AT_COUNT,
-                               "%" PRIu64 " compressed points are announced, but %zu bytes hold at most %d each",
+                               "%" PRIu64 " compressed points should follow, but %zu bytes hold at most %d each",
                                reader->count, file->size, MOST_A_BYTE);
     return laz_read_records(reader->file, reader->format, reader->count, add_decompressed_record, reader);
 }

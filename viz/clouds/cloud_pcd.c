@@ -62,7 +62,7 @@ static bool read_fields(pcd_reader *reader, cloud_span rest)
             return cloud_fail_line(reader->file, "more than %d fields", MAX_FIELDS);
         const unsigned axis_bit = channel >= CLOUD_X && channel <= CLOUD_Z ? 1U << channel : 0;
         if (axes & axis_bit)
-            return cloud_fail_at_word(reader->file, word, "is a second field with this name");
+            return cloud_fail_at_word(reader->file, word, "another field has this name already");
         axes |= axis_bit;
         reader->fields[reader->field_count++] = (pcd_field){.name = word, .channel = channel, .count = 1};
     }
@@ -343,8 +343,8 @@ static bool read_binary_points(pcd_reader *reader, size_t offset)
     size_t left = reader->file->size - offset;
     if (reader->points > left / reader->stride)
         return cloud_fail_byte(reader->file, offset,
-                               "%" PRIu64 " points of %" PRIu64 " bytes are announced, but only %zu bytes follow",
-                               reader->points, reader->stride, left);
+                               "%" PRIu64 " points of %" PRIu64 " bytes should follow, but only %zu do", reader->points,
+                               reader->stride, left);
     cloud_note_trailing_bytes(reader->file, offset + (size_t)(reader->points * reader->stride));
     return add_points(reader, reader->file->bytes + offset);
 }
@@ -371,12 +371,12 @@ static bool read_compressed_points(pcd_reader *reader, size_t offset)
     uint32_t size = (uint32_t)cloud_read_bits(4, false, file->bytes + offset + 4);
     if (reader->points > UINT32_MAX / reader->stride || reader->points * reader->stride != size)
         return cloud_fail_byte(file, offset,
-                               "%" PRIu64 " points of %" PRIu64 " bytes are announced, but %" PRIu32
+                               "%" PRIu64 " points of %" PRIu64 " bytes should follow, but %" PRIu32
                                " bytes of compressed data",
                                reader->points, reader->stride, size);
     offset += SIZES;
     if (packed > file->size - offset)
-        return cloud_fail_byte(file, offset, "%" PRIu32 " compressed bytes are announced, but only %zu follow", packed,
+        return cloud_fail_byte(file, offset, "%" PRIu32 " compressed bytes should follow, but only %zu do", packed,
                                file->size - offset);
     if (size > (uint64_t)packed * LZF_RATIO)
         return cloud_fail_byte(file, offset, "%" PRIu32 " compressed bytes cannot hold %" PRIu32 " bytes", packed,

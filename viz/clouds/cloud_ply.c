@@ -65,7 +65,7 @@ static bool read_format(ply_reader *reader, cloud_span rest)
     cloud_read_word(&rest, &name);
     cloud_read_word(&rest, &version);
     if (reader->encoding != PLY_NO_ENCODING)
-        return cloud_fail_at_word(reader->file, name, "is a second format; a PLY header has one");
+        return cloud_fail_at_word(reader->file, name, "is the second format in this header; a PLY header has one");
     reader->encoding =
         (ply_encoding)(1 + cloud_find_word_in_list(name, "ascii binary_little_endian binary_big_endian"));
     if (reader->encoding == PLY_NO_ENCODING)
@@ -89,7 +89,7 @@ static bool read_element(ply_reader *reader, cloud_span rest)
     if (!cloud_word_equals(name, "vertex"))
         return true;
     if (reader->vertex)
-        return cloud_fail_at_word(reader->file, name, "is a second element with this name");
+        return cloud_fail_at_word(reader->file, name, "another element has this name already");
     reader->vertex = element;
     return true;
 }
@@ -119,7 +119,7 @@ static bool set_channel(ply_reader *reader, ply_property *property, cloud_span n
     else if (channel >= CLOUD_X && channel <= CLOUD_Z)
         return cloud_fail_at_word(reader->file, name,
                                   list ? "is a list; a coordinate must be a single number"
-                                       : "is a second property with this name");
+                                       : "another property has this name already");
     if (property->channel == CLOUD_RED && property->type.kind == CLOUD_FLOAT)
         reader->full_color = 1;
     return true;

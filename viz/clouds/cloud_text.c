@@ -420,8 +420,8 @@ static bool parse_lines(cloud_file *file, text_columns *columns)
     }
     file->lines.number = count_line;
     return points >= count ||
-           cloud_fail_line(file, "announces %" PRIu64 " points, but %" PRIu64 " follow: the file is truncated", count,
-                           points);
+           cloud_fail_line(file, "says that %" PRIu64 " points follow, but %" PRIu64 " do: the file is truncated",
+                           count, points);
 }
 
 static bool parse_text(cloud_file *file)

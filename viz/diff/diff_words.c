@@ -136,11 +136,9 @@ void diff_print_verdict(FILE *out, const diff_result *result, diff_verdict verdi
     if (found[FOUND_UNREADABLE])
         fprintf(out, ", %zu cannot be read", found[FOUND_UNREADABLE]);
     if (found[FOUND_SAME_BYTES])
-        fprintf(out, ", %zu the same by %s bytes", found[FOUND_SAME_BYTES],
-                found[FOUND_SAME_BYTES] == 1 ? "its" : "their");
+        fprintf(out, ", %zu with the same bytes", found[FOUND_SAME_BYTES]);
     if (found[FOUND_SAME_PIXELS])
-        fprintf(out, ", %zu the same by %s pixels", found[FOUND_SAME_PIXELS],
-                found[FOUND_SAME_PIXELS] == 1 ? "its" : "their");
+        fprintf(out, ", %zu with the same pixels", found[FOUND_SAME_PIXELS]);
     if (found[FOUND_WITHIN])
         fprintf(out, ", %zu forgiven", found[FOUND_WITHIN]);
 }

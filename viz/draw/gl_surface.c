@@ -158,7 +158,7 @@ static bool fill_with_gl(surface *face, const quad *quads, size_t count, rendere
 {
     gl_surface *s = (gl_surface *)face;
     if (!s->context->make_current(s->context))
-        return error_set(error, "the renderer's context cannot be made current");
+        return error_set(error, "the OpenGL context cannot be made current");
     const gl *gl = &s->gl;
     gl->ClearColor(0, 0, 0, 0);
     gl->Clear(GL_COLOR_BUFFER_BIT);

@@ -217,7 +217,7 @@ static octreel_status check_folder(octreel_recorder *r, const char *folder)
 static octreel_status start_filming(octreel_recorder *r, const octreel_recorder_def *def)
 {
     if (!def->folder)
-        return status_refuse(&r->error, OCTREEL_NULL_ARGUMENT, "folder: must not be null without a ring");
+        return status_refuse(&r->error, OCTREEL_NULL_ARGUMENT, "folder: may be null only if `ring` is not 0");
     r->folder = strdup(def->folder);
     if (!r->folder)
         return status_fail(&r->error, OCTREEL_NO_MEMORY);

@@ -65,7 +65,7 @@ static const cause_row rows[] = {
     {"key", "key", MINOR},
     {"from", "start of the player's step", MINOR},
     {"attempt", "position that the player attempted", MINOR},
-    {"hit_from", "path of a hit point", .plural = "paths of hit points", MINOR},
+    {"hit_from", "path of a point that the player hit", .plural = "paths of points that the player hit", MINOR},
     {"events", "event", MINOR},
     {"hits", "hit of the player", .plural = "hits of the player", BY_KEY},
     {"answers", "query", .plural = "queries", .rule = CAUSE_ANSWERS},
@@ -97,7 +97,7 @@ static const cause_row rows[] = {
     {"hit_cost", "cost of the collision test", MINOR, WHOLE},
     {"visits", "number of visited nodes", MINOR, WHOLE},
     {"visited", "list of visited nodes", MINOR},
-    {"heat", "heat of the ticks before", MINOR},
+    {"heat", "visit counts of earlier ticks", MINOR},
 };
 
 static const cause_row *find_row(const char *where)

@@ -67,8 +67,11 @@ uint64_t recorded_scene_digest(const recorded *r, uint64_t tick)
 static bool read_line(recorded *r, uint64_t tick, octreel_error *error)
 {
     static const char *const words[] = {
-        [LINE_WHOLE] = "",           [LINE_TORN] = "is torn within",       [LINE_LONG] = "has too long a line at",
-        [LINE_NONE] = "ends before", [LINE_TROUBLE] = "cannot be read at",
+        [LINE_WHOLE] = "",
+        [LINE_TORN] = "is torn within",
+        [LINE_LONG] = "has a line that is too long at",
+        [LINE_NONE] = "ends before",
+        [LINE_TROUBLE] = "cannot be read at",
     };
     if (!r->reading)
         return true;
@@ -115,7 +118,7 @@ static bool check_line(recorded *r, const octree_game *game, octreel_error *erro
     r->reading = line_matches(&r->lines, &expected, &finding);
     free(text);
     if (!r->reading)
-        add_warning(r, "%s/ticks.jsonl at tick %" PRIu64 " is not what its session gives: %s", r->side->path,
+        add_warning(r, "%s/ticks.jsonl at tick %" PRIu64 " differs from what its session gives: %s", r->side->path,
                     tick->number, finding.text);
     return true;
 }

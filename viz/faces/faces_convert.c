@@ -83,7 +83,7 @@ static void check_letters(const font *f, const char *path)
     for (size_t i = 0; i < sizeof faces / sizeof *faces; i++)
         if (faces[i].width == f->width && faces[i].height == f->height && faces[i].digest != digest)
             stop_with_error(path,
-                            "has other letters than Octreel's frames; download Spleen 2.1.0 from "
+                            "has glyphs that differ from those in Octreel's frames; download Spleen 2.1.0 from "
                             "https://github.com/fcambus/spleen/releases and configure with -DOCTREEL_FONTS=FOLDER");
 }
 

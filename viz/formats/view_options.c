@@ -287,7 +287,7 @@ static bool check_point_scale(json_reader *r, const json_place *at, void *struct
 _Static_assert(offsetof(view, height) == offsetof(view, width) + sizeof(int) &&
                    offsetof(view_filter, max_depth) == offsetof(view_filter, min_depth) + sizeof(unsigned) &&
                    offsetof(view, look.elevation) == offsetof(view, look.azimuth) + sizeof(double),
-               "one row reads two members as an array");
+               "a row reads the two members as an array, so the second must follow the first");
 
 const json_member view_derived_members[] = {
     {"focus", &json_box, offsetof(view, focus), .is_set = has_focus, .check = check_focus},
@@ -310,7 +310,7 @@ const json_member view_derived_members[] = {
 #define UNSET_UNTIL(flag) .member.nullable = true, .member.given = offsetof(view, flag)
 
 static const view_option rows[] = {
-    {"camera-from", "DIR", NULL, "the whole view of a recording; other options here change it",
+    {"camera-from", "DIR", NULL, "use the view options of the recording in DIR; options given here replace single ones",
      .parse = parse_camera_from},
     {"size", "WxH", "pixels as in 1280x720", "picture in pixels (default 1280x720; a side is 1 to " MOST_PIXELS ")",
      parse_size, MEMBER("size", &json_ints, width), .member.size = 2, .standard = "1280x720", .member.min = 1,
@@ -357,8 +357,8 @@ static const view_option rows[] = {
      parse_choice, MEMBER("diagram", &json_choice, diagram), .standard = "none", .member.names = view_diagram_name,
      .words = view_diagram_words},
     {"no-closeup", NULL, NULL,
-     "no close-up: do not enlarge, in a part of the picture, what appears small in it (the surroundings of the player, "
-     "else the queries, else the changes of the tick)",
+     "draw no close-up. A close-up enlarges, in a part of the picture, what appears small in it: the surroundings of "
+     "the player, else the queries, else the changes of the tick",
      parse_switch, MEMBER("closeup", &json_bool, closeup), .standard = "on", .noun = "close-up"},
     {"slice", "AXIS=AT", "an axis and a place as in z=100",
      "only nodes that cut a plane such as z=100, and the points of the leaves among them", parse_slice,
@@ -370,11 +370,11 @@ static const view_option rows[] = {
      .member.max = OCTREE_MAX_DEPTH, .member.check = check_depths, .member.about = "two depths as in [2, 5]",
      .noun = "range of depths"},
     {"leaves", NULL, NULL, "show only leaves as boxes; with --depths, show only the points in leaves of these depths",
-     parse_switch, MEMBER("leaves", &json_bool, filter.leaves), .standard = "off", .noun = "rule for leaves alone"},
+     parse_switch, MEMBER("leaves", &json_bool, filter.leaves), .standard = "off", .noun = "rule for leaves only"},
     {"region", "BOX", "six numbers as in -10,-10,-10,10,10,10",
      "only nodes that meet the box x0,y0,z0,x1,y1,z1, and the points in it", parse_region,
      MEMBER("region", &json_box, filter.region), UNSET_UNTIL(filter.by_region)},
-    {"labels", NULL, NULL, "write paths such as 0/3/7 on nodes that have room for them", parse_switch,
+    {"labels", NULL, NULL, "write its address, such as 0/3/7, on each node with room for it", parse_switch,
      MEMBER("labels", &json_bool, labels), .standard = "off", .noun = "rule for labels"},
     /* Up to --lod 4, frames of 100,000 points look the same as without --lod, because the boxes that are left out
      * are only specks. */

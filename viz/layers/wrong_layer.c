@@ -198,8 +198,8 @@ static void describe_mark(description *d, const described_element *element)
         append_text(d, "the line to an extra point of ");
         append_wrong_answer(d, element->id >> 32);
     } else if (element->id == LEFT_OUT_ID) {
-        append_text(d, element->kind == SCENE_PANEL ? "the background of the count of texts without room"
-                                                    : ", the count of texts without room");
+        append_text(d, element->kind == SCENE_PANEL ? "the background of the number of hidden texts"
+                                                    : ", the number of hidden texts");
     } else {
         append_text(d, element->kind == SCENE_PANEL ? "the background of the text about " : ", about ");
         append_wrong_answer(d, element->id);

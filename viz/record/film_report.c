@@ -18,7 +18,7 @@
 static void print_uses(FILE *out, const film_summary *summary, const char *folder)
 {
     if (summary->frames == 0) {
-        fputs(page_plays() ? "its index.html draws it in a browser, and plays on\n" : "", out);
+        fputs(page_plays() ? "its index.html draws it in a browser, and you can play on there\n" : "", out);
         return;
     }
     fprintf(out, "its index.html shows it in a browser; as a film: %s film ", hint_program_name());
@@ -140,7 +140,7 @@ void film_report(FILE *out, const film_summary *summary, const film_options *opt
     putc('\n', out);
     if (summary->refusals)
         fprintf(out,
-                "refused points, edits and steps, without steps out of the world: %" PRIu64
+                "refused points, edits and steps (steps out of the world are not counted): %" PRIu64
                 "; ticks.jsonl lists them\n",
                 summary->refusals);
     if (options->last != 0)

@@ -86,7 +86,7 @@ bool picture_finish(picture *p, const scene *s, octreel_error *error)
 {
     return !p->samples.pixels ||
            image_shrink(&p->samples, renderer_sample_colors(p->renderer), s->view.aa, &p->frame) ||
-           error_set(error, "the scene's anti-aliasing is not the picture's");
+           error_set(error, "the scene and the picture have different anti-aliasing");
 }
 
 bool picture_draw(picture *p, const scene *s, octreel_error *error)

@@ -277,7 +277,7 @@ static void print_element(FILE *out, const pick *p, const pick_element *e)
 {
     if (e->touch.painted == 0) {
         fprintf(out, "      %s %s%s\n",
-                e->kind == SCENE_BOX ? "its edge is also that of" : "on the same pixel:", element_text(e),
+                e->kind == SCENE_BOX ? "it shares this edge with" : "on the same pixel:", element_text(e),
                 closeup_words(e));
         return;
     }

@@ -123,7 +123,7 @@ static bool check_line(verifying *v, const film_step *step, octreel_error *error
                     v->replay.ticks - step->tick, v->replay.ticks, plural_ending(v->replay.ticks), COMPLETED);
     else
         add_finding(v, VERIFY_LINES, step->tick, "its line in ticks.jsonl %s%s",
-                    state == LINE_TORN ? "is torn: the file ends within it" : "does not end where it should",
+                    state == LINE_TORN ? "is torn: the file ends within it" : "is longer than it should be",
                     state == LINE_TORN ? COMPLETED : "");
     v->stopped = true;
     return true;
@@ -143,7 +143,7 @@ static void report_pixels(verifying *v, const char *path, uint64_t tick)
     const bool same = strcmp(r->drawn_by, r->drawn_now) == 0;
     add_finding(v, VERIFY_PIXELS, tick, "%" PRIu64 " pixel%s from (%d, %d) to (%d, %d); filmed by %s; now drawn by %s",
                 unlike.pixels, plural_ending(unlike.pixels), unlike.min_x, unlike.min_y, unlike.max_x, unlike.max_y,
-                r->drawn_by, same ? "the same: was recording.json changed, or octreel?" : r->drawn_now);
+                r->drawn_by, same ? "the same renderer, so recording.json or octreel has changed" : r->drawn_now);
 }
 
 /* Report a wrong frame. `drawn` is true if the pixels of the frame are correct and something else is wrong. */
@@ -255,7 +255,7 @@ static bool check_extra_frames(verifying *v, octreel_error *error)
         const bool has_tick = frame_parse_name(first, &tick);
         verify_finding *finding =
             add_finding(v, VERIFY_FRAME, has_tick ? tick : 0, "%s is not a frame of this recording%s",
-                        make_printable(first), count > 1 ? ", and neither are others" : "");
+                        make_printable(first), count > 1 ? ", nor are other files" : "");
         finding->has_tick = has_tick;
     }
     free(names);

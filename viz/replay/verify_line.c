@@ -24,8 +24,7 @@ bool line_reader_open(line_reader *reader, const char *folder, octreel_error *er
     reader->stream = file_open(path, NULL, reason);
     if (!reader->stream)
         error_set(error, "%s: %s%s", path, reason,
-                  folder_contains(folder, "ticks.jsonl") ? ""
-                                                         : "; where the folder holds chunks, octreel join makes it");
+                  folder_contains(folder, "ticks.jsonl") ? "" : "; if the folder holds chunks, octreel join writes it");
     free(path);
     return reader->stream;
 }
@@ -85,7 +84,7 @@ static void report_values(const json_place *at, const json_t *found, const json_
     const bool scene = strcmp(place, "scene") == 0;
     snprintf(finding->text, sizeof finding->text, "%s is %s in ticks.jsonl, and %s when it is played again%s",
              scene ? "the digest of its scene" : place, format_value(found, texts[0]), format_value(expected, texts[1]),
-             scene ? " (or it is by another version of octreel)" : "");
+             scene ? " (or another version of octreel wrote the line)" : "");
 }
 
 static bool find_difference(const json_place *at, const json_t *found, const json_t *expected, verify_finding *finding);

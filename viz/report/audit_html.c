@@ -282,9 +282,12 @@ static void write_head(const page *p)
     fputs("</p>\n", p->out);
     audit_print_limits(p->out, "<p>Allowed: ", &v->report->limits, "</p>\n");
     fputs(p->base
-              ? "<p>A point is the worst of its ticks and leads to its frame; larger ones are wrong. The page lets you "
-                "play from a tick on.</p>\n"
-              : "<p>A session has no frames: record it, and audit the recording, for points that lead to them.</p>\n",
+              ? "<p>Each point of a chart stands for one or several ticks and shows the worst answer of them; a click "
+                "opens its "
+                "frame. Large points are wrong answers. The page of the frame can play the game on from there.</p>\n"
+              : "<p>This is a session without frames. To open the frame of a point with a click, record the session, "
+                "and audit "
+                "the recording.</p>\n",
           p->out);
 }
 

@@ -162,7 +162,7 @@ void audit_print_kind(FILE *out, const audit_verdict *v, int of)
             fprintf(out, "; %" PRIu64 " time%s: %s", kind->wrong_by_kind[i], plural_ending(kind->wrong_by_kind[i]),
                     reason_words((octree_wrong_kind)i));
     if (kind->on_boundary)
-        fprintf(out, "; %" PRIu64 " time%s: only the boundary of the %s is wrong", kind->on_boundary,
+        fprintf(out, "; %" PRIu64 " time%s: wrong only on the boundary of the %s", kind->on_boundary,
                 plural_ending(kind->on_boundary), about->region);
 }
 

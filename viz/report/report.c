@@ -19,7 +19,8 @@ static void print_group(FILE *out, const frame_group *group)
     if (group->cause)
         print_line(out, "    ", group->cause);
     if (group->count > 1)
-        fprintf(out, "    and %zu more alike: %s\n", group->count - 1, group->others);
+        fprintf(out, "    and %zu more frame%s with this finding: %s\n", group->count - 1,
+                plural_ending(group->count - 1), group->others);
 }
 
 static void print_groups(FILE *out, const diff_report *report)
@@ -41,7 +42,7 @@ static void print_unexplained(FILE *out, const diff_report *report)
     if (more)
         fprintf(out, "  %zu of these %s left unexplained; --causes all explains all\n", more, more == 1 ? "is" : "are");
     if (*why->tracer.untraced)
-        print_line(out, "  not traced to the elements that are drawn there: ", why->tracer.untraced);
+        print_line(out, "  the elements at the different pixels are unknown: ", why->tracer.untraced);
 }
 
 void diff_report_text(FILE *out, const diff_report *report)

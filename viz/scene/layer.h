@@ -38,7 +38,7 @@
     X(SPLITS, "splits", "splits", "leaves that split in the tick", ROLE_CHANGE, false, true)                           \
     X(POINTS, "points", "points", "the points in the tree", ROLE_POINT, true, true)                                    \
     X(VELOCITIES, "velocities", "velocities", "arrows that show where moving points will go", ROLE_FAINT, true, true)  \
-    X(ASKED, "asked", "the node asked for", "the node of inspect --node", ROLE_PLAYER, false, true)                    \
+    X(ASKED, "asked", "the node given by --node", "the node of inspect --node", ROLE_PLAYER, false, true)              \
     QUERY_LOOKS(QUERY_LAYER, X)                                                                                        \
     X(PLAYER, "player", "the player", "the player, and a line down to the floor", ROLE_PLAYER, false, true)            \
     X(BOX, "box", "the collision box", "the player's collision box, and the points in it", ROLE_COLLISION, false,      \

@@ -37,7 +37,7 @@ static const struct {
     [OCTREE_NODE_REPEATED_POINT] = {"repeated_point", "it lists a point more than once"},
     [OCTREE_NODE_LOST_POINT] = {"lost_point", "a point is in no node"},
     [OCTREE_NODE_UNKNOWN_NODE] = {"unknown_node", "a query names it, but no node has this id"},
-    [OCTREE_NODE_PRUNED_POINT] = {"pruned_point", "a query pruned it, and its answer lacks a point in it"},
+    [OCTREE_NODE_PRUNED_POINT] = {"pruned_point", "a query pruned it, so the answer lacks a point in it"},
 };
 
 const char *octree_wrong_node_name(octree_wrong_node_kind kind)

@@ -128,7 +128,7 @@ static const char *check_inner_node(const octree *tree, const node *n, cell c)
     if (below != n->count)
         return "a node's count is not the sum of its children's";
     if (fits_leaf(tree, n->count))
-        return "an inner node would fit one leaf";
+        return "an inner node has so few points that it should be a leaf";
     if (!can_split(tree, c))
         return "an inner node is deeper than the tree allows";
     return NULL;

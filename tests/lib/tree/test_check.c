@@ -39,7 +39,7 @@ static void check_reports_broken_inner_nodes(void **state)
     assert_broken(tree, "a node other than the root is empty", OCTREE_ROOT);
     children_of(&tree->root)[1].count = 1;
     tree->def.leaf_capacity = 2;
-    assert_broken(tree, "an inner node would fit one leaf", OCTREE_ROOT);
+    assert_broken(tree, "an inner node has so few points that it should be a leaf", OCTREE_ROOT);
     tree->def.leaf_capacity = 1;
     tree->def.max_depth = 0;
     assert_broken(tree, "an inner node is deeper than the tree allows", OCTREE_ROOT);

@@ -133,7 +133,7 @@ static void wrong_answers_that_differ_at_the_boundary_name_their_bounds(void **s
         assert_contains(reports[i], open_ball);
         assert_contains(reports[i], mixed_ball);
         assert_contains(reports[i], open_box);
-        assert_contains(reports[i], "; 3 times: only the boundary of the ball is wrong");
+        assert_contains(reports[i], "; 3 times: wrong only on the boundary of the ball");
     }
     assert_xml_count(junit, "failure", 2);
     free(junit);
@@ -346,7 +346,7 @@ static void page_of_a_session_has_no_links_and_says_so(void **state)
     assert_int_equal(result.status, 1);
     assert_null(strstr(result.out, "<a "));
     assert_null(strstr(result.out, "<b>"));
-    assert_non_null(strstr(result.out, "A session has no frames"));
+    assert_non_null(strstr(result.out, "This is a session without frames"));
     command_release(&result);
 }
 

@@ -26,7 +26,7 @@ static void errors_that_no_limit_allows_come_first(void **state)
     assert_true(unknown && twice && missing && unknown < twice && twice < missing);
     assert_non_null(strstr(result.out, "; first wrong at tick 1, beyond what is allowed; 1 time: names an id that no "
                                        "point has; 1 time: names a point twice; 4 times: points are missing; 4 times: "
-                                       "only the boundary of the ball is wrong\n"));
+                                       "wrong only on the boundary of the ball\n"));
     command_release(&result);
 #undef BALL
 }

@@ -240,8 +240,7 @@ static void stored_pictures_allow_a_tolerance(void **state)
     snprintf(more, sizeof more, "--store %s" BY("the first", "2026-11-22"), s.store.path);
     accept_into(&s, &s.before, more);
     snprintf(more, sizeof more, "--store %s --max-delta 0.0027 -o %s", s.store.path, out.path);
-    assert_diff(&s, &s.after, more, 0,
-                "2 the same by their pixels, 1 forgiven\n  2.png: forgiven: 0 pixels count; 5 of");
+    assert_diff(&s, &s.after, more, 0, "2 with the same pixels, 1 forgiven\n  2.png: forgiven: 0 pixels count; 5 of");
     assert_false(file_exists(place_below(out.path, "2.expected.png").path));
     static const char *const tolerances[] = {"--max-pixels 5", "--ignore 0,3,5,1"};
     for (size_t i = 0; i < 2; i++) {

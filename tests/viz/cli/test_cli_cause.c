@@ -201,12 +201,12 @@ static void equal_frames_of_different_sessions_are_equal(void **state)
     const recorded_pair p = film_pair(*state, 2);
     command_result result = run_octreel(NULL, "diff %s %s", p.a.path, p.b.path);
     assert_done(&result);
-    assert_string_equal(result.out, "same: 5 frames, 5 the same by their bytes\ncompared exactly\n");
+    assert_string_equal(result.out, "same: 5 frames, 5 with the same bytes\ncompared exactly\n");
     command_release(&result);
     edit_line(p.b.path, 3, "\"merges\": []", "\"merges\": [\"0/1\"]");
     result = run_octreel(NULL, "diff %s %s", p.a.path, p.b.path);
     assert_done(&result);
-    assert_contains(result.out, "ticks.jsonl at tick 3 is not what its session gives");
+    assert_contains(result.out, "ticks.jsonl at tick 3 differs from what its session gives");
     command_release(&result);
 }
 

@@ -179,7 +179,8 @@ static void refused_points_are_counted(void **state)
     command_result result = run_octreel(NULL, FILM, session.path, film.path);
     assert_done(&result);
     assert_non_null(strstr(
-        result.out, "\nrefused points, edits and steps, without steps out of the world: 2; ticks.jsonl lists them\n"));
+        result.out,
+        "\nrefused points, edits and steps (steps out of the world are not counted): 2; ticks.jsonl lists them\n"));
     command_release(&result);
 }
 
@@ -189,7 +190,7 @@ static void refused_points_are_counted(void **state)
 static void ids_are_row_numbers_of_the_cloud(void **state)
 {
     const temp_folder *folder = *state;
-    static const char note[] = "more lines follow than the header announces; the points before it were read\n";
+    static const char note[] = "the file has more lines than its header says; the points before this place were read\n";
     const place points = place_in(folder, "scan.pcd"), film = place_in(folder, "film");
     const place session = write_session(folder, "\"points\": {\"file\": \"scan.pcd\"}, \"player\": {\"id\": 3}");
     file_write_text(points.path, PCD);

@@ -36,7 +36,7 @@ static void status_and_text_agree_on_the_verdict(void **state)
 {
     const twins p = make_pair(state);
     command_result result = run_octreel(NULL, "diff %s %s", p.a.path, p.a.path);
-    assert_ends(&result, 0, "same: 1 frame, 1 the same by its bytes\ncompared exactly\n");
+    assert_ends(&result, 0, "same: 1 frame, 1 with the same bytes\ncompared exactly\n");
     result = run_octreel(NULL, "diff %s %s", p.a.path, p.b.path);
     assert_ends(&result, 1,
                 "different: 1 of 1 frame\n  b.png: 5 of 384 pixels differ; worst 0.0027 YIQ at (0,3), channels by up "
@@ -116,7 +116,7 @@ static void other_frames_are_compared_beside_an_unreadable_one(void **state)
     assert_int_equal(result.status, 2);
     assert_non_null(strstr(result.err, "octreel: "));
     assert_non_null(strstr(result.err, "2.png: the file is truncated\n"));
-    assert_non_null(strstr(result.out, "trouble: 1 of 3 frames, 1 cannot be read, 1 the same by its bytes\n"));
+    assert_non_null(strstr(result.out, "trouble: 1 of 3 frames, 1 cannot be read, 1 with the same bytes\n"));
     assert_non_null(strstr(result.out, "  3.png: 1 of 384 pixels differ"));
     command_release(&result);
 }
@@ -147,12 +147,12 @@ static void frames_in_subfolders_decide_the_verdict(void **state)
     }
     command_result result =
         run_octreel(NULL, "diff %s %s --each --junit %s", a.path, b.path, place_in(*state, "out.xml").path);
-    assert_ends(&result, 1, "different: 3 of 5 frames, 2 the same by their bytes\n  a/b/1.png: 5 of 384 pixels differ");
+    assert_ends(&result, 1, "different: 3 of 5 frames, 2 with the same bytes\n  a/b/1.png: 5 of 384 pixels differ");
     char *xml = file_read(place_in(*state, "out.xml").path, NULL);
     assert_contains(xml, "name=\"a/b/3.png\"");
     free(xml);
     result = run_octreel(NULL, "diff --no-recursive %s %s", a.path, b.path);
-    assert_ends(&result, 0, "same: 1 frame, 1 the same by its bytes\n");
+    assert_ends(&result, 0, "same: 1 frame, 1 with the same bytes\n");
     result = run_octreel(NULL, "diff %s %s --json", a.path, b.path);
     assert_int_equal(result.status, 1);
     assert_contains(result.out, "\"frames\": [\"a/b/1.png\", \"a/b/2.png\", \"a/b/3.png\"]");
@@ -276,11 +276,11 @@ static void baseline_of_one_picture_is_compared_with_a_picture(void **state)
     assert_done(&result);
     command_release(&result);
     result = run_octreel(NULL, "diff %s %s", one.path, p.a.path);
-    assert_ends(&result, 0, "same: 1 frame, 1 the same by its pixels\n");
+    assert_ends(&result, 0, "same: 1 frame, 1 with the same pixels\n");
     result = run_octreel(NULL, "diff %s %s", one.path, p.b.path);
     assert_ends(&result, 1, "different: 1 of 1 frame\n  b.png: pixels differ: digest ");
     result = run_octreel(NULL, "diff %s %s", p.a.path, one.path);
-    assert_ends(&result, 0, "same: 1 frame, 1 the same by its pixels\n");
+    assert_ends(&result, 0, "same: 1 frame, 1 with the same pixels\n");
     result = run_octreel(NULL, "accept %s %s --reason x", two.path, folder.path);
     assert_done(&result);
     command_release(&result);

@@ -67,7 +67,7 @@ static void film_shows_each_frame_as_long_as_it_lasts(void **state)
     const place folder = place_in(*state, "film");
     command_result result = run_in(*state, "\"$1\" film film -o film.png");
     assert_done(&result);
-    assert_string_equal(result.out, "film.png: 10 frames, 160 x 90 pixels, 0.7 s; 4 repeat the frame before\n");
+    assert_string_equal(result.out, "film.png: 10 frames, 160 x 90 pixels, 0.7 s; 4 equal the previous frame\n");
     command_release(&result);
     apng_film film = apng_read(place_in(*state, "film.png").path);
     uint64_t tick = 0;

@@ -77,7 +77,7 @@ static void annotations_name_the_different_ticks(void **state)
 static void edited_tick_is_a_difference(void **state)
 {
     edit_file(place_in(*state, "same").path, "ticks.jsonl", "\"key\": \"d\"", "\"key\": \"a\"");
-    assert_says(*state, "diff a same", 1, "same/ticks.jsonl at tick 3 is not what its session gives");
+    assert_says(*state, "diff a same", 1, "same/ticks.jsonl at tick 3 differs from what its session gives");
 }
 
 static void junit_has_a_case_for_the_ticks(void **state)

@@ -355,7 +355,7 @@ static void pick_works_inside_the_recording_folder(void **state)
         command_result result = run_script("cd %s && exec %s pick frame_000004.png %d 90 --radius 0", what.folder.path,
                                            octreel_program(), x);
         assert_done(&result);
-        shared = shared || strstr(result.out, "\n      its edge is also that of node ");
+        shared = shared || strstr(result.out, "\n      it shares this edge with node ");
         samples = samples || strstr(result.out, " of 4 samples: node ");
         command_release(&result);
     }

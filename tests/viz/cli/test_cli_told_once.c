@@ -44,7 +44,7 @@ static void frames_with_one_cause_are_one_finding_with_one_picture(void **state)
     assert_contains(result.out,
                     "different: 10 of 10 frames\nanother leaf capacity (4, was 2): every tick from 0 differs\n"
                     "  frame_000000.png: ");
-    assert_contains(result.out, "\n    and 9 more alike: ticks 1 to 9\ncompared exactly\n");
+    assert_contains(result.out, "\n    and 9 more frames with this finding: ticks 1 to 9\ncompared exactly\n");
     command_release(&result);
     listing names = folder_list(t.out.path);
     assert_int_equal(names.count, 6); /* three pictures, the page, the contact sheet and the marker */
@@ -60,7 +60,7 @@ static void each_option_reports_every_frame(void **state)
     const twins t = film_twice(state);
     command_result result = run_octreel(NULL, "diff %s %s --each -o %s", t.a.path, t.b.path, t.out.path);
     assert_contains(result.out, "\n  frame_000009.png: ");
-    assert_null(strstr(result.out, " more alike"));
+    assert_null(strstr(result.out, "with this finding"));
     command_release(&result);
     assert_true(file_exists(place_below(t.out.path, "frame_000009.difference.png").path));
 }
@@ -74,7 +74,7 @@ static void frame_with_another_cause_is_a_finding_of_its_own(void **state)
     assert_done(&result);
     command_release(&result);
     result = run_octreel(NULL, "diff %s %s --causes 1", t.a.path, t.b.path);
-    assert_contains(result.out, "\n    and 8 more alike: ticks 1 to 6, 8, 9\n  frame_000007.png: ");
+    assert_contains(result.out, "\n    and 8 more frames with this finding: ticks 1 to 6, 8, 9\n  frame_000007.png: ");
     command_release(&result);
 }
 

@@ -102,7 +102,7 @@ static void bytes_after_the_last_pcd_point_are_noted_unless_zero(void **state)
         put_bytes(&file, zeros, sizeof zeros);
         assert_reads("a.pcd", file.data, file.size, two_points, 2, 1);
         snprintf(sentence, sizeof sentence,
-                 "a.pcd:byte %zu: more data follows than the header announces; the points before it were read",
+                 "a.pcd:byte %zu: the file has more data than its header says; the points before this place were read",
                  file.size);
         put_text(&file, "\n");
         assert_reads_and_notes("a.pcd", file.data, file.size, two_points, 2, 1, sentence);
@@ -170,7 +170,7 @@ static void invalid_pcd_headers_are_refused(void **state)
          "a.pcd:6: WIDTH 4294967296 times HEIGHT 4294967296 is not POINTS 0"},
         {TYPES "WIDTH 3\nHEIGHT 0\nPOINTS 3\nDATA ascii\n", "a.pcd:7: WIDTH 3 times HEIGHT 0 is not POINTS 3"},
         {"FIELDS x y\n", "a.pcd:1: FIELDS has no field \"z\""},
-        {"FIELDS x y z x\n", "a.pcd:1: 'x' is a second field with this name"},
+        {"FIELDS x y z x\n", "a.pcd:1: 'x' another field has this name already"},
         {"SIZE 4 4 4\n", "a.pcd:1: 'SIZE' stands before FIELDS; FIELDS must come first"},
         {FIELDS FIELDS, "a.pcd:2: 'FIELDS' occurs twice"},
         {"SIZE\nTYPE\n" FIELDS "POINTS 1\nDATA binary\n1",
@@ -207,11 +207,11 @@ static void pcd_data_that_does_not_fit_its_header_is_refused(void **state)
         {TYPES "POINTS 1\nDATA ascii\n1 2 3 4\n", "a.pcd:6: has 4 values instead of 3"},
         {TYPES "POINTS 1\nDATA ascii\n1 2 z\n", "a.pcd:6: 'z' is not a number"},
         {TYPES "POINTS 2\nDATA binary\n12345678901234567890123",
-         "a.pcd:byte 56: 2 points of 12 bytes are announced, but only 23 bytes follow"},
+         "a.pcd:byte 56: 2 points of 12 bytes should follow, but only 23 do"},
         {TYPES "POINTS 18446744073709551615\nDATA binary\n123456789012",
-         "a.pcd:byte 75: 18446744073709551615 points of 12 bytes are announced, but only 12 bytes follow"},
+         "a.pcd:byte 75: 18446744073709551615 points of 12 bytes should follow, but only 12 do"},
         {"FIELDS x y z n\nSIZE 1 1 1 8\nTYPE U U U F\nCOUNT 1 1 1 4294967295\nPOINTS 4294967295\nDATA binary\n123",
-         "a.pcd:byte 94: 4294967295 points of 34359738363 bytes are announced, but only 3 bytes follow"},
+         "a.pcd:byte 94: 4294967295 points of 34359738363 bytes should follow, but only 3 do"},
         {TYPES "POINTS 2\nDATA binary_compressed\n1234567", "a.pcd:byte 74: the file ends before its compressed data"},
     };
     (void)state;
@@ -222,8 +222,9 @@ static void lines_after_the_last_pcd_point_are_noted(void **state)
 {
     static const char text[] = TYPES "POINTS 2\nDATA ascii\n1 2 3\n-4.5 5e10 0.1\n\n4 5 6\n";
     (void)state;
-    assert_reads_and_notes("a.pcd", text, strlen(text), two_points, 2, 0,
-                           "a.pcd:9: more lines follow than the header announces; the points before it were read");
+    assert_reads_and_notes(
+        "a.pcd", text, strlen(text), two_points, 2, 0,
+        "a.pcd:9: the file has more lines than its header says; the points before this place were read");
 }
 
 /* A compressed file of single-byte coordinates: the two sizes it announces, then its data. */
@@ -261,9 +262,9 @@ static void impossible_pcd_compression_is_refused(void **state)
         size_t offset;
         const char *reason;
     } rows[] = {
-        {2, 7, 7, 0, "2 points of 3 bytes are announced, but 7 bytes of compressed data"},
-        {UINT64_MAX, 7, 6, 0, "18446744073709551615 points of 3 bytes are announced, but 6 bytes of compressed data"},
-        {2, 8, 6, 8, "8 compressed bytes are announced, but only 7 follow"},
+        {2, 7, 7, 0, "2 points of 3 bytes should follow, but 7 bytes of compressed data"},
+        {UINT64_MAX, 7, 6, 0, "18446744073709551615 points of 3 bytes should follow, but 6 bytes of compressed data"},
+        {2, 8, 6, 8, "8 compressed bytes should follow, but only 7 do"},
         {1000000000, 7, 3000000000, 8, "7 compressed bytes cannot hold 3000000000 bytes"},
         {2, 0, 6, 8, "0 compressed bytes cannot hold 6 bytes"},
         {3, 7, 9, 8, "the compressed data is damaged"},

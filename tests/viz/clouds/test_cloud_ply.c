@@ -168,17 +168,17 @@ static void invalid_ply_headers_are_refused(void **state)
         {"ply\nformat ascii 1.1\n", "a.ply:2: '1.1' is not the PLY version 1.0"},
         {"ply\nformat text 1.0\n",
          "a.ply:2: 'text' is not a PLY format: ascii, binary_little_endian or binary_big_endian"},
-        {ASCII "format ascii 1.0\n", "a.ply:3: 'ascii' is a second format; a PLY header has one"},
+        {ASCII "format ascii 1.0\n", "a.ply:3: 'ascii' is the second format in this header; a PLY header has one"},
         {ASCII "faces 3\n", "a.ply:3: 'faces' does not belong in a PLY header"},
         {ASCII "property float x\n", "a.ply:3: a property stands before any element"},
         {ASCII "element vertex -1\n", "a.ply:3: '-1' is not a count of elements"},
         {ASCII "element vertex 18446744073709551616\n", "a.ply:3: '18446744073709551616' is not a count of elements"},
         {ASCII "element vertex\n", "a.ply:3: '' is not a count of elements"},
-        {ASCII "element vertex 1\nelement vertex 1\n", "a.ply:4: 'vertex' is a second element with this name"},
+        {ASCII "element vertex 1\nelement vertex 1\n", "a.ply:4: 'vertex' another element has this name already"},
         {ASCII "element vertex 1\nproperty half x\n", "a.ply:4: 'half' is not a PLY type"},
         {ASCII "element vertex 1\nproperty float\n", "a.ply:4: a property has no name"},
         {ASCII "element vertex 1\nproperty float x\nproperty int x\n",
-         "a.ply:5: 'x' is a second property with this name"},
+         "a.ply:5: 'x' another property has this name already"},
         {ASCII "element vertex 1\nproperty list uchar float x\n",
          "a.ply:4: 'x' is a list; a coordinate must be a single number"},
         {ASCII "element vertex 1\nproperty list float float n\n",
@@ -236,7 +236,7 @@ static void invalid_ply_rows_after_the_last_vertex_are_noted(void **state)
         {"3 0 1 2 255 0 0\n3 0 1 2\n", "12: '255' follows the last property of the line"},
         {"3 0 1\n3 0 1 2 4\n", "12: the line has too few values"},
         {"3 0 1 2\n-3 0 1 2\n", "13: '-3' is not a valid length of a list"},
-        {"3 0 1 2\n3 0 1 2\nso long\n", "14: more lines follow than the header announces"},
+        {"3 0 1 2\n3 0 1 2\nso long\n", "14: the file has more lines than its header says"},
     };
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
@@ -244,7 +244,7 @@ static void invalid_ply_rows_after_the_last_vertex_are_noted(void **state)
         snprintf(text, sizeof text, "%s%s%s",
                  ASCII "element vertex 2\n" XYZ "element face 2\nproperty list uchar int corners\nend_header\n", head,
                  rows[i].faces);
-        snprintf(note, sizeof note, "a.ply:%s; the points before it were read", rows[i].sentence);
+        snprintf(note, sizeof note, "a.ply:%s; the points before this place were read", rows[i].sentence);
         assert_reads_and_notes("a.ply", text, strlen(text), two_points, 2, 0, note);
     }
 }
@@ -255,7 +255,7 @@ static void invalid_ply_bytes_after_the_last_vertex_are_noted(void **state)
                                  "property double y\nproperty double z\nelement face 2\nproperty list char int n\n"
                                  "end_header\n";
     static const char *const faces[] = {"\x00\x00 ", "\xff\x01"};
-    static const char *const reasons[] = {"more data follows than the header announces",
+    static const char *const reasons[] = {"the file has more data than its header says",
                                           "a list has a negative length"};
     (void)state;
     for (int i = 0; i < 2; i++) {
@@ -263,8 +263,8 @@ static void invalid_ply_bytes_after_the_last_vertex_are_noted(void **state)
         char note[256];
         put_text(&file, header);
         put_bytes(&file, two_points, sizeof two_points);
-        snprintf(note, sizeof note, "a.ply:byte %zu: %s; the points before it were read", file.size + (i ? 0 : 2),
-                 reasons[i]);
+        snprintf(note, sizeof note, "a.ply:byte %zu: %s; the points before this place were read",
+                 file.size + (i ? 0 : 2), reasons[i]);
         put_bytes(&file, faces[i], i ? 2 : 3);
         assert_reads_and_notes("a.ply", file.data, file.size, two_points, 2, 0, note);
     }

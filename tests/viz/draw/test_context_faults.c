@@ -148,7 +148,7 @@ static void context_that_fails_while_drawing_is_an_error(void **state)
     assert_true(renderer_draw_scene(r, &s, indices, &error));
     fault.not_current = true;
     assert_false(renderer_draw_scene(r, &s, indices, &error));
-    assert_string_equal(error.text, "the renderer's context cannot be made current");
+    assert_string_equal(error.text, "the OpenGL context cannot be made current");
     fault.not_current = false;
     assert_true(renderer_draw_scene(r, &s, indices, &error));
     renderer_close(r);

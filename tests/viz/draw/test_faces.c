@@ -133,7 +133,8 @@ static void letters_that_frames_do_not_have_are_refused(void **state)
 {
     font f = make_spleen();
     move_left(&f, '>');
-    assert_refused(*state, &f, "font.psf has other letters than Octreel's frames; download Spleen 2.1.0 from");
+    assert_refused(*state, &f,
+                   "font.psf has glyphs that differ from those in Octreel's frames; download Spleen 2.1.0 from");
 }
 
 static void files_that_are_not_fonts_are_refused(void **state)

@@ -28,7 +28,7 @@ static const struct {
     {"no-closeup", "", "close-up (off, was on)"},
     {"slice", "z=100", "slice (z 100, was none)"},
     {"depths", "1:3", "range of depths ((1, 3), was none)"},
-    {"leaves", "", "rule for leaves alone (on, was off)"},
+    {"leaves", "", "rule for leaves only (on, was off)"},
     {"region", "-9,-9,-9,5,5,5", "region ((-9, -9, -9) to (5, 5, 5), was none)"},
     {"labels", "", "rule for labels (on, was off)"},
     {"lod", "9", "level of detail (9, was 2)"},

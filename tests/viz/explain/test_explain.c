@@ -205,7 +205,7 @@ static void heat_of_earlier_ticks_is_a_cause(void **state)
     const place b = film_into(*state, "b", &session, &options);
     comparison_of made = assert_explained(&a, &b, 10);
     assert_contains(made.why.headline, "one more query at tick 2 (range (-900, -900, -900) to (900, 900, 900))");
-    assert_contains(find_cause_text(&made, "frame_000004.png"), "tick 4: another heat of the ticks before; ");
+    assert_contains(find_cause_text(&made, "frame_000004.png"), "tick 4: another visit counts of earlier ticks; ");
     assert_contains(find_cause_text(&made, "frame_000004.png"), " of heat");
     comparison_release(&made);
 }
@@ -240,7 +240,7 @@ static void edited_line_is_detected(void **state)
     const place a = film_twice(*state, KEYS, &b);
     edit_line(b.path, 2, "\"hits\": []", "\"hits\": [7]");
     comparison_of made = assert_explained(&a, &b, 10);
-    assert_contains(made.why.headline, "b/ticks.jsonl at tick 2 is not what its session gives: hits[0] is 7 in "
+    assert_contains(made.why.headline, "b/ticks.jsonl at tick 2 differs from what its session gives: hits[0] is 7 in "
                                        "ticks.jsonl, and missing when it is played again");
     assert_int_equal(made.result.verdict, DIFF_SAME);
     comparison_release(&made);
@@ -255,7 +255,7 @@ static void edited_scene_digest_is_detected(void **state)
     const place a = film_twice(*state, KEYS, &b);
     edit_line(b.path, 3, "\"scene\": \"", "\"scene\": \"0");
     comparison_of made = assert_explained(&a, &b, 10);
-    assert_contains(made.why.headline, "b/ticks.jsonl at tick 3 is not what its session gives");
+    assert_contains(made.why.headline, "b/ticks.jsonl at tick 3 differs from what its session gives");
     comparison_release(&made);
 }
 

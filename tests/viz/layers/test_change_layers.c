@@ -179,7 +179,7 @@ static void every_sentence_of_the_validator_is_shown_whole(void **state)
     static const char *const sentences[] = {
         "a node other than the root is empty",
         "a node's count is not the sum of its children's",
-        "an inner node would fit one leaf",
+        "an inner node has so few points that it should be a leaf",
         "an inner node is deeper than the tree allows",
         "a leaf that could split is over its capacity",
         "a leaf is over its capacity under OCTREE_REFUSE",

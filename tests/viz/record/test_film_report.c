@@ -68,8 +68,9 @@ static void edit_of_a_missing_point_is_reported_as_refused(void **state)
     film_report(out, &summary, &options, 1, false);
     assert_int_equal(fclose(out), 0);
     assert_non_null(strstr(text, " refused 1,"));
-    assert_non_null(
-        strstr(text, "\nrefused points, edits and steps, without steps out of the world: 2; ticks.jsonl lists them\n"));
+    assert_non_null(strstr(
+        text,
+        "\nrefused points, edits and steps (steps out of the world are not counted): 2; ticks.jsonl lists them\n"));
     free(text);
 }
 

@@ -95,7 +95,7 @@ static void overlong_line_is_found_without_reading_all_of_it(void **state)
     endless[2000000] = '\0';
     replace_line(folder.path, 5, endless);
     free(endless);
-    assert_found(&folder, VERIFY_LINES, 5, "does not end where it should");
+    assert_found(&folder, VERIFY_LINES, 5, "is longer than it should be");
 }
 
 static void missing_torn_and_surplus_lines_are_found(void **state)

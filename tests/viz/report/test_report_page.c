@@ -128,7 +128,7 @@ static void page_shows_the_verdict_and_raises_no_error(void **state)
     assert_said(state, "errors", "none");
     assert_said(state, "verdict", "Trouble");
     assert_said_part(state, "about",
-                     "55 of 57 frames, 1 cannot be read, 1 the same by its bytes \xc2\xb7 compared exactly");
+                     "55 of 57 frames, 1 cannot be read, 1 with the same bytes \xc2\xb7 compared exactly");
     assert_said_part(state, "about", "new & <b> against ");
     assert_said(state, "headline", "Tick 0 is the first frame that differs: " HEADLINE);
     assert_said_part(state, "title", "trouble: ");
@@ -298,7 +298,7 @@ static void page_of_no_difference_says_so(void **state)
     const place a = gallery_make(d->folder, "same", "1.png 2.png"), folder = place_in(d->folder, "calm");
     write_page(a.path, a.path, folder.path, NULL, NULL);
     assert_opens_with(state, folder,
-                      "<h2>No frame differs</h2>\n<p id=\"calm-words\">2 frames, 2 the same by their "
+                      "<h2>No frame differs</h2>\n<p id=\"calm-words\">2 frames, 2 with the same "
                       "bytes</p>\n<p id=\"calm-tolerance\">Compared exactly</p>");
 }
 

@@ -69,7 +69,7 @@ static void junit_has_a_case_for_each_frame(void **state)
         "(0,3)-(3,3). Cause: node 0/3 split");
     assert_xml_attribute(xml, "error", 0, "type", "unreadable");
     assert_contains(xml,
-                    "<system-out>trouble: 1 of 3 frames, 1 cannot be read, 1 the same by its bytes\ncompared exactly\n"
+                    "<system-out>trouble: 1 of 3 frames, 1 cannot be read, 1 with the same bytes\ncompared exactly\n"
                     "    </system-out>\n");
     free(xml);
     comparison_release(&made);
@@ -148,7 +148,7 @@ static void markdown_has_the_verdict_and_a_row_for_each_difference(void **state)
     comparison_of made = compare_three(state, "node 0/3 split | twice");
     made.why.headline = strdup("From tick 2 on: *another* capacity");
     char *text = report_text(&made, NULL, diff_report_markdown);
-    assert_true(strncmp(text, "### octreel diff: trouble: 1 of 3 frames, 1 cannot be read, 1 the same by its bytes\n\n",
+    assert_true(strncmp(text, "### octreel diff: trouble: 1 of 3 frames, 1 cannot be read, 1 with the same bytes\n\n",
                         82) == 0);
     assert_contains(text, "\n**From tick 2 on: &#42;another&#42; capacity**\n\n");
     assert_contains(text, ", compared exactly.\n\n| frame | difference | worst | cause |\n|---|---|---|---|\n");
@@ -176,7 +176,7 @@ static void markdown_of_no_difference_has_no_table(void **state)
     const place a = gallery_make(*state, "a", "1.png");
     comparison_of made = compare(a.path, a.path, NULL);
     char *text = report_text(&made, NULL, diff_report_markdown);
-    assert_contains(text, "### octreel diff: same: 1 frame, 1 the same by its bytes\n");
+    assert_contains(text, "### octreel diff: same: 1 frame, 1 with the same bytes\n");
     assert_null(strstr(text, "|"));
     free(text);
     comparison_release(&made);

@@ -70,7 +70,8 @@ static bool has_way(const scene *s, uint64_t id, const double from[3], const dou
     return false;
 }
 
-/* The lines of a swept collision: between the corners of the player's box, and the paths of hit points that moved. */
+/* The lines of a swept collision: between the corners of the player's box, and the paths of moving points that the
+ * player hit. */
 static size_t ways_shown(const scene *s, const octree_tick *tick, double size)
 {
     size_t ways = 0;

@@ -72,7 +72,7 @@ extern "C" {
     X(NO_POINT, "a change moves or removes a point that does not exist")                                               \
     X(BAD_ID, "an id is 2^53 or larger, which session files cannot store")                                             \
     X(BAD_QUERY,                                                                                                       \
-      "a query has a NaN, an infinity, a negative size, a box whose min is above its max, or an unknown skip")         \
+      "a query has a NaN, an infinity, a negative size, a box whose min is above its max, or an invalid skip")         \
     X(BAD_SHAPE, "a shape has a NaN, an infinity, a box whose min is above its max, or an invalid text")               \
     X(BAD_NODE, "a foreign node has an invalid box, id, parent, kind or list of points")                               \
     X(BUSY, "the queue is full, and never_wait is set")                                                                \

@@ -26,7 +26,7 @@ const WRONG_NODES = {
     repeated_point: "it lists a point more than once",
     lost_point: "a point is in no node",
     unknown_node: "a query names it, but it does not exist",
-    pruned_point: "a query pruned it, and its answer lacks a point in it",
+    pruned_point: "a query pruned it, so the answer lacks a point in it",
 };
 
 /* What is known of the session from the beginning of its text: octreel writes the objects about the tree and the player
