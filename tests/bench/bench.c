@@ -2,6 +2,7 @@
 /* bench.c - octree-bench: its command line, and the workloads one after the other. */
 #include "program.h"
 #include "report.h"
+#include "threads.h"
 
 #include <getopt.h>
 #include <stdio.h>
@@ -17,6 +18,8 @@ typedef struct options {
     int count;
     bool sets[OCTREE_SAMPLE_KINDS];
     bool ops[OPS];
+    unsigned threads[BENCH_THREAD_COUNTS];
+    int thread_counts; /* 0: the operations are measured instead */
     int rounds;
     bool json;
 } options;
@@ -34,6 +37,8 @@ static void print_help(void)
     for (int i = 0; i < OPS; i++)
         printf("%s%s", i % 6 == 5 ? "\n                    " : " ", all_ops[i].name);
     printf(" (default all)\n"
+           "      --threads L   measure the bulk operations with these numbers of threads instead, such as 1,2,4: by\n"
+           "                    the clock, and the serial part and the critical path by processor time\n"
            "      --rounds N    measure each N times and take the median (default 5; at most %d)\n"
            "      --json        print one JSON object per operation and tree\n"
            "  -h, --help\n\n"
@@ -74,6 +79,14 @@ static void take_op(void *to, const char *entry)
     o->ops[i] = true;
 }
 
+static void take_threads(void *to, const char *entry)
+{
+    options *o = to;
+    if (o->thread_counts == BENCH_THREAD_COUNTS)
+        stop_with_error("--threads takes at most %d numbers", BENCH_THREAD_COUNTS);
+    o->threads[o->thread_counts++] = (unsigned)parse_whole_number("--threads", entry, 1, BENCH_THREADS_AT_MOST);
+}
+
 /* Without options, everything is measured. */
 static void fill_defaults(options *o)
 {
@@ -92,13 +105,10 @@ static void fill_defaults(options *o)
 static options read_options(int argc, char **argv)
 {
     static const struct option names[] = {
-        {"n", required_argument, NULL, 'n'},
-        {"set", required_argument, NULL, 's'},
-        {"op", required_argument, NULL, 'o'},
-        {"rounds", required_argument, NULL, 'r'},
-        {"json", no_argument, NULL, 'j'},
-        {"help", no_argument, NULL, 'h'},
-        {NULL, 0, NULL, 0},
+        {"n", required_argument, NULL, 'n'},      {"set", required_argument, NULL, 's'},
+        {"op", required_argument, NULL, 'o'},     {"threads", required_argument, NULL, 't'},
+        {"rounds", required_argument, NULL, 'r'}, {"json", no_argument, NULL, 'j'},
+        {"help", no_argument, NULL, 'h'},         {NULL, 0, NULL, 0},
     };
     options o = {.rounds = 5};
     for (int name; (name = getopt_long(argc, argv, "h", names, NULL)) != -1;) {
@@ -111,6 +121,9 @@ static options read_options(int argc, char **argv)
             break;
         case 'o':
             parse_list(&o, optarg, take_op);
+            break;
+        case 't':
+            parse_list(&o, optarg, take_threads);
             break;
         case 'r':
             o.rounds = (int)parse_whole_number("--rounds", optarg, 1, ROUNDS_AT_MOST);
@@ -135,7 +148,11 @@ static int run_workload(const options *o, octree_sample_kind set, size_t count)
 {
     workload w;
     outcome result = OUT_OF_MEMORY;
-    if (workload_make(&w, set, count)) {
+    if (workload_make(&w, set, count) && o->thread_counts > 0) {
+        if (measure_threads(&w, o->threads, o->thread_counts, o->rounds, o->json))
+            result = MEASURED;
+        workload_free(&w);
+    } else if (w.count > 0) {
         if (!o->json)
             report_heading(&w, o->rounds);
         result = run_ops(o->ops, &w, o->rounds, o->json ? report_json : report_row, NULL);

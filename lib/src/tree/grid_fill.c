@@ -140,16 +140,54 @@ static size_t append_grid_items(const batch *b, size_t first, size_t count, octr
     return made;
 }
 
+/* Items that tasks make. */
+typedef struct item_making {
+    const batch *whole;
+    octree_point *const *filter;
+    morton_item *items;
+    unsigned tasks;
+    size_t starts[TASKS_AT_MOST + 1]; /* the index of the first item of each task */
+} item_making;
+
+static size_t find_items_share(const item_making *m, size_t number)
+{
+    return find_share_start(m->whole->count + m->whole->stored_count, m->tasks, number);
+}
+
+/* Store the number of items of a task at the start of the next task. */
+static void count_items_of_share(size_t number, void *context)
+{
+    item_making *m = context;
+    const uint32_t *cells = m->whole->cells;
+    const size_t end = find_items_share(m, number + 1);
+    size_t count = 0;
+    for (size_t i = find_items_share(m, number); i < end; i++)
+        count += cells[i] != GRID_NONE && !(m->filter && m->filter[cells[i]]);
+    m->starts[number + 1] = count;
+}
+
+static void make_items_of_share(size_t number, void *context)
+{
+    const item_making *m = context;
+    const batch *b = m->whole;
+    morton_item *next = m->items + m->starts[number];
+    const size_t last = find_items_share(m, number + 1);
+    for (size_t i = find_items_share(m, number), end; i < last; i = end) {
+        const size_t most = i < b->count && b->count < last ? b->count : last;
+        end = most - i < GRID_TOGETHER ? most : i + GRID_TOGETHER;
+        next += append_grid_items(b, i, end - i, m->filter, next);
+    }
+}
+
 size_t make_grid_items(const batch *b, octree_point *const *filter, morton_item *items)
 {
-    const size_t total = b->count + b->stored_count;
-    size_t made = 0;
-    for (size_t i = 0, end; i < total; i = end) {
-        const size_t most = i < b->count ? b->count : total;
-        end = most - i < GRID_TOGETHER ? most : i + GRID_TOGETHER;
-        made += append_grid_items(b, i, end - i, filter, items + made);
-    }
-    return made;
+    item_making m = {.whole = b, .filter = filter, .items = items};
+    m.tasks = count_tasks(b->tree, b->count + b->stored_count);
+    run_tasks(b->tree, count_items_of_share, m.tasks, &m);
+    for (unsigned task = 0; task < m.tasks; task++)
+        m.starts[task + 1] += m.starts[task];
+    run_tasks(b->tree, make_items_of_share, m.tasks, &m);
+    return m.starts[m.tasks];
 }
 
 /* ---- Counting ----------------------------------------------------------------------------------------------- */
@@ -331,8 +369,9 @@ bool build_from_grid(batch *b, node *made)
     arena *memory = &b->store->memory;
     filling f = {.whole = b, .count = b->count + b->stored_count, .depth = b->grid};
     const size_t cells = cell_count_at(f.depth);
-    /* with more tasks, the tables of counts would need more memory than the points */
-    const size_t most = f.count / cells + 1;
+    /* Each task reads and writes a table of the cells. With more tasks than this, the tables would cost more time than
+     * the points. */
+    const size_t most = f.count / (8 * cells) + 1 < 2 ? 2 : f.count / (8 * cells) + 1;
     f.tasks = count_tasks(b->tree, f.count);
     f.tasks = f.tasks < most ? f.tasks : (unsigned)most;
     const size_t size = (cell_count_at(f.depth + 1) / 7 + f.tasks * cells) * sizeof *f.shares;

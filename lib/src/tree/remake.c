@@ -55,12 +55,33 @@ typedef struct remake {
 
 /* ---- The table of ids --------------------------------------------------------------------------------------- */
 
+typedef struct id_check {
+    const batch *whole;
+    unsigned tasks;
+    bool
+        ascend[TASKS_AT_MOST]; /* whether the ids of each task's share ascend, beginning with the id before the share */
+} id_check;
+
+static void check_ids_of_share(size_t number, void *context)
+{
+    id_check *check = context;
+    const octree_point *points = check->whole->points;
+    const size_t first = find_share_start(check->whole->count, check->tasks, number),
+                 end = find_share_start(check->whole->count, check->tasks, number + 1);
+    size_t i = first > 0 ? first : 1;
+    while (i < end && points[i].id > points[i - 1].id)
+        i++;
+    check->ascend[number] = i >= end;
+}
+
 bool are_ids_ascending(const batch *b)
 {
-    for (size_t i = 1; i < b->count; i++)
-        if (b->points[i].id <= b->points[i - 1].id)
-            return false;
-    return true;
+    id_check check = {.whole = b, .tasks = count_tasks(b->tree, b->count)};
+    bool all = true;
+    run_tasks(b->tree, check_ids_of_share, check.tasks, &check);
+    for (unsigned task = 0; task < check.tasks; task++)
+        all = all && check.ascend[task];
+    return all;
 }
 
 /* Returns the slot of an id in a hash table. If the id is not in the table, returns the empty slot for it. */
