@@ -180,7 +180,8 @@ static octreel_status read_whole_tree(contents *c, const octree *tree, const oct
                              clash);
     if (status != OCTREEL_OK)
         return status_fail(error, status);
-    if (!reserve_changes(c, list_changes_between(&c->now, &c->next, NULL)))
+    const size_t more = c->now.count > 0 ? list_changes_between(&c->now, &c->next, NULL) : c->next.count;
+    if (!reserve_changes(c, more))
         return status_fail(error, OCTREEL_NO_MEMORY);
     c->change_count += list_changes_between(&c->now, &c->next, c->changes + c->change_count);
     return OCTREEL_OK;

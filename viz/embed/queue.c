@@ -78,23 +78,6 @@ void queue_finish_batch(queue *q, batch *b)
     release_unless_borrowed(q, b);
 }
 
-void queue_begin(queue *q)
-{
-    pthread_mutex_lock(&q->lock);
-    q->begun = true;
-    wake_and_unlock(q);
-}
-
-bool queue_wait_until_begun(queue *q)
-{
-    pthread_mutex_lock(&q->lock);
-    while (!q->begun && !q->broken)
-        pthread_cond_wait(&q->changed, &q->lock);
-    const bool begun = q->begun;
-    pthread_mutex_unlock(&q->lock);
-    return begun;
-}
-
 void queue_end(queue *q)
 {
     pthread_mutex_lock(&q->lock);

@@ -16,7 +16,6 @@ typedef struct queue {
     bool borrowed; /* true: the ring owns the batches and releases them */
     bool ended;    /* true: no more batches will be added */
     bool broken;   /* true: recording has failed, and no more batches are accepted */
-    bool begun;    /* true: recording has begun, so the recording's folder exists */
 } queue;
 
 bool queue_init(queue *q, size_t most, size_t most_bytes);
@@ -33,12 +32,6 @@ batch *queue_wait_for_batch(queue *q);
 
 /* Release the batch that queue_wait_for_batch() returned last. Call this after the batch is recorded. */
 void queue_finish_batch(queue *q, batch *b);
-
-/* Tell waiting threads that the recording has begun. */
-void queue_begin(queue *q);
-
-/* Wait until the recording has begun. Returns false if it has failed. */
-bool queue_wait_until_begun(queue *q);
 
 void queue_end(queue *q);
 

@@ -311,16 +311,16 @@ static octreel_status read_tick(octreel_recorder *r, const octree *tree, const o
     return read == OCTREEL_OK ? require_growing_leaves(r) : read;
 }
 
-/* Add a batch to the queue. After adding the first batch, wait until the recording has begun. *taken becomes false if
- * the batch was not added and the caller still owns it. */
+/* Add a batch to the queue. *taken becomes false if the batch was not added and the caller still owns it. */
 static octreel_status queue_batch(octreel_recorder *r, batch *b, bool *taken)
 {
     const octreel_status status = queue_put(&r->queue, b, !r->never_wait);
     *taken = status == OCTREEL_OK;
     if (status == OCTREEL_BUSY)
         return status_fail(&r->error, status);
-    if (*taken && (r->put++ > 0 || queue_wait_until_begun(&r->queue)))
-        return OCTREEL_OK;
+    r->put += *taken;
+    if (*taken)
+        return status;
     r->broken = true;
     r->error = r->filmer.error;
     return r->filmer.status;

@@ -69,8 +69,6 @@ static octreel_status film_first_tick(session_filmer *f, const batch *first, con
         return OCTREEL_CANNOT_DRAW;
     if (!live_begin(f->live, &f->error))
         return OCTREEL_BAD_FOLDER;
-    /* The program need not wait any longer. Later errors, such as a full disk, are reported at a later tick. */
-    queue_begin(f->queue);
     return live_film_first(f->live, &f->error) ? OCTREEL_OK : OCTREEL_BROKEN;
 }
 

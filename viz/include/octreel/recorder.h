@@ -143,7 +143,7 @@ typedef struct octreel_recorder_def {
     size_t queue_ticks; /* maximum number of ticks that wait for the worker thread, at least 1 */
     size_t queue_bytes; /* maximum memory of all waiting ticks together, in bytes; a single tick may need more */
     /* True: if the queue is full, octreel_recorder_tick() does not wait but returns OCTREEL_BUSY, and the tick becomes
-     * a gap. Tick 0 always waits. */
+     * a gap. */
     bool never_wait;
     /* Keep the last `ring` ticks in memory, and film them only when octreel_recorder_write() is called. 0: film every
      * tick. The ring needs memory for the points of its oldest tick and the changes of its other ticks. */
@@ -196,8 +196,11 @@ octreel_status octreel_recorder_open(const octreel_recorder_def *def, octreel_re
 /* Record a tick: the current points, the queries and the shapes. The ids of the points must be unique. `about` may be
  * null. The first call is tick 0. The points are the tree's points, or `about` has them if `tree` is null. After a tick
  * with a tree, a null tree is the error NULL_ARGUMENT. A tree under OCTREE_AUTO that has changed its capacity is the
- * error OTHER_TREE. The arguments are not used after the call returns. The call waits for the worker thread if the
- * queue is full, and at tick 0 until the recording has begun.
+ * error OTHER_TREE. The arguments are not used after the call returns.
+ *
+ * The worker thread begins the recording and draws the frames. If it is slower than the program, ticks wait in the
+ * queue. If the queue is full, the call waits until the worker has finished a tick, or returns BUSY under never_wait.
+ * An error of the worker is returned by a later tick or by octreel_recorder_close().
  *
  * If a tick is refused, its list of points is ignored. Its changes and foreign nodes become part of the next accepted
  * tick. Invalid changes are dropped: BAD_POINT (a NaN, an infinity, an unknown kind), BAD_ID, DUPLICATE_ID (an
@@ -205,7 +208,8 @@ octreel_status octreel_recorder_open(const octreel_recorder_def *def, octreel_re
  * change. After NO_MEMORY no change is kept: pass the tick again.
  *
  * Errors: NULL_ARGUMENT, OTHER_TREE, TWO_SOURCES, DUPLICATE_ID, BAD_ID, BAD_POINT, NO_POINT, BAD_QUERY, BAD_SHAPE,
- * BAD_NODE, BUSY, CANNOT_DRAW and BAD_FOLDER (tick 0), BROKEN, CLOSED, NO_MEMORY.
+ * BAD_NODE, BUSY, CLOSED, NO_MEMORY; of the worker: CANNOT_DRAW, BAD_FOLDER (the folder is no longer as it was when the
+ * recorder was opened), BROKEN.
  *
  * Cost by source of the points (q is the number of queries and shapes):
  *    - a tree of which at most an eighth changes in a tick: O(changes + q), some hundred nanoseconds per change. The
@@ -225,7 +229,7 @@ octreel_status octreel_recorder_write(octreel_recorder *recorder, const char *fo
 
 /* Record the ticks that are still in the queue, and complete the recording with session.json and the page. A ring is
  * dropped. If a tick failed, the ticks before it are complete, and octreel record --resume continues after them.
- * Errors: BROKEN, the error of tick 0, NOTHING, CLOSED. GAPS means that the recording is complete but ticks were
+ * Errors: BROKEN, CANNOT_DRAW, BAD_FOLDER, NOTHING, CLOSED. GAPS means that the recording is complete but ticks were
  * refused. The error text then has the number of refused ticks, and the tick number and the reason of the first refused
  * tick. */
 octreel_status octreel_recorder_close(octreel_recorder *recorder);
