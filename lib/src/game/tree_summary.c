@@ -27,8 +27,8 @@ void tree_summary_record(tree_summary *s, arena *memory, const octree *tree, con
 {
     if (!s->known)
         return;
-    /* If many positions have changed, most subtrees must be walked anyway. */
-    const bool few = s->touched.count < 4096 + tree->root.count / 64;
+    /* If more positions have changed, sorting them costs more than walking the whole tree. */
+    const bool few = s->touched.count < 64 + tree->root.count / 16;
     const uint64_t code = morton_code(tree->axes, position);
     s->known = few && list_push(memory, &s->touched, &code, sizeof code);
 }
