@@ -31,20 +31,13 @@ static bool choose_ticks_of_chunk(const octree_session *session, const film_opti
                      total - 1);
 }
 
-/* Count the frames of a share, which decide how many jobs it can have. A frame whose tick is before share->first counts
- * too if ticks of the share follow it: one job films these ticks. */
-static uint64_t count_frames(const film_share *share, uint64_t every)
-{
-    return every == 0 ? 0 : (share->last - 1) / every - share->first / every + 1;
-}
-
 unsigned film_default_jobs(const octree_session *session, const film_options *options)
 {
     film_share share;
     octreel_error ignored;
     if (!choose_ticks_of_chunk(session, options, &share, &ignored))
         return 1;
-    const uint64_t worth = count_frames(&share, options->every) / FRAMES_WORTH_A_JOB, cores = count_cores();
+    const uint64_t worth = share_count_frames(&share, options->every) / FRAMES_WORTH_A_JOB, cores = count_cores();
     const uint64_t jobs = cores < worth ? cores : worth;
     return jobs < 1 ? 1 : jobs > FILM_MOST_JOBS ? FILM_MOST_JOBS : (unsigned)jobs;
 }
@@ -111,7 +104,7 @@ bool film_session(const octree_session *session, const film_options *options, fi
         !choose_ticks_of_chunk(session, options, &r.share, error))
         return false;
     summary->total = r.share.last - r.share.first;
-    const uint64_t frames = count_frames(&r.share, options->every);
+    const uint64_t frames = share_count_frames(&r.share, options->every);
     const unsigned jobs = options->jobs < frames ? options->jobs : (unsigned)frames;
     bool ok = open_picture_and_play_first_tick(&r, &p, error);
     if (ok)

@@ -4,16 +4,17 @@
  * The problem: drawing and compressing frames takes most of the time of a recording. Frames do not depend on each
  * other, but each tick depends on the tick before it.
  *
- * The idea: every job plays the whole session, which is cheap, and draws only its share of the frames. Job i draws the
- * frames whose number modulo the number of jobs is i (see share_find_job()). Jobs are processes because GL contexts in
- * threads of one process do not scale. Each job sends the lines of its ticks through a socket. The starter, the process
- * that started the jobs, writes the lines to ticks.jsonl in the order of the ticks. The files are therefore the same as
- * those of a single process. After a stop or a failure all ticks up to some tick are complete, and a few later frames
- * exist.
+ * The idea: every job plays the whole session, which is cheap. At each frame, a job claims the frame in shared memory,
+ * and draws it if no other job was faster. Jobs are processes because GL contexts in threads of one process do not
+ * scale. Each job sends the lines of its ticks through a socket. The starter, the process that started the jobs, writes
+ * the lines to ticks.jsonl in the order of the ticks: the next tick is always the first message of some socket. The
+ * files are therefore the same as those of a single process. After a stop or a failure all ticks up to some tick are
+ * complete, and a few later frames exist.
  *
  * Jobs begin to draw while the starter still writes session.json. Each frame contains the digest of session.json, so
  * the starter sends the digest to the jobs as soon as it is known. A job ends when its socket closes, so no job
  * outlives the starter. */
+#define _DEFAULT_SOURCE /* MAP_ANONYMOUS, which POSIX has since 2024 */
 #include "jobs.h"
 
 #include <errno.h>
@@ -22,6 +23,7 @@
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -95,6 +97,11 @@ typedef struct job {
     const film_options *options;
     uint64_t session; /* digest of session.json, valid if has_session is true */
     bool has_session;
+    /* used by the starter: */
+    bool has_message;    /* true: `message` is the job's next message */
+    message message;     /* a message of kind MESSAGE_NONE is the job's last one */
+    char *bytes;         /* the bytes of the message */
+    octreel_error error; /* with MESSAGE_NONE: the reason why the job failed, or "" */
 } job;
 
 /* Wait until the starter sends the digest of session.json. If the starter stops the job first, the job's process
@@ -182,7 +189,8 @@ typedef struct job_pool {
     job *jobs;
     unsigned wanted, count; /* number of jobs to start, and number of jobs that are already started */
     bool stopped;           /* true: no job begins another frame */
-    char *bytes;            /* bytes of the last message */
+    atomic_uchar *claims;   /* the claims of the share, in shared memory */
+    size_t claim_count;
 } job_pool;
 
 static bool start_job(job_pool *pool, playback *p, octreel_error *error)
@@ -199,7 +207,7 @@ static bool start_job(job_pool *pool, playback *p, octreel_error *error)
             /* Close the copies that fork() made: a socket closes only when all copies of its other end are closed. */
             close(pool->jobs[i].pipe);
         share.index = pool->count;
-        share.count = pool->wanted;
+        share.claims = pool->claims;
         run_job(&(job){.pipe = ends[1], .options = r->options}, r, p, &share);
     }
     const int reason = errno;
@@ -220,36 +228,6 @@ static void stop_jobs(job_pool *pool)
     pool->stopped = true;
 }
 
-/* Wait until a job sends a message or ends. If the caller's watcher stops the recording during the wait, stop all
- * jobs. */
-static void wait_for_job(job_pool *pool, const job *j)
-{
-    enum { PATIENCE = 50 }; /* milliseconds between two calls of the watcher */
-    while (!pool->stopped) {
-        if (!watcher_continues(&pool->recording->options->watch))
-            stop_jobs(pool);
-        else if (pipe_poll(j->pipe, PATIENCE))
-            break;
-    }
-}
-
-/* Read the next message of a job: MESSAGE_NONE if the job has ended. */
-static bool read_message(job_pool *pool, const job *j, message *m, octreel_error *error)
-{
-    wait_for_job(pool, j);
-    free(pool->bytes);
-    pool->bytes = NULL;
-    if (pipe_read(j->pipe, m, sizeof *m)) {
-        pool->bytes = malloc(m->size + 1);
-        if (!pool->bytes)
-            return error_no_memory(error);
-        if (pipe_read(j->pipe, pool->bytes, m->size))
-            return true;
-    }
-    m->kind = MESSAGE_NONE;
-    return errno == 0 || error_set(error, "cannot read the ticks of a job: %s", strerror(errno));
-}
-
 /* Wait for the end of a job. The job's socket is closed first; this ends a job that waits for the starter. Returns
  * false if the exit status of the job is unknown. */
 static bool wait_for_end(job *j, int *status)
@@ -263,61 +241,114 @@ static bool wait_for_end(job *j, int *status)
     return ended > 0;
 }
 
-/* Find out why a job ended before its last tick. Returns true if the job was stopped, false with an error if it
- * failed. */
-static bool find_reason_of_end(job_pool *pool, unsigned i, octreel_error *error)
+/* Set the error of a job that has ended. The error stays empty if the job was stopped or has filmed its last tick. */
+static void find_reason_of_end(const job_pool *pool, job *j)
 {
+    const unsigned number = (unsigned)(j - pool->jobs) + 1;
     int status = 0;
-    const bool known = wait_for_end(&pool->jobs[i], &status);
+    const bool known = wait_for_end(j, &status);
     if (known && WIFEXITED(status) && WEXITSTATUS(status) == EXIT_SUCCESS)
-        return true;
+        return;
     if (known && WIFSIGNALED(status))
-        return error_set(error, "job %u of %u was killed by signal %d (%s); --resume records the missing ticks", i + 1,
-                         pool->count, WTERMSIG(status), strsignal(WTERMSIG(status)));
-    return error_set(error, "job %u of %u ended early, with status %d; --resume records the missing ticks", i + 1,
-                     pool->count, WEXITSTATUS(status));
+        error_set(&j->error, "job %u of %u was killed by signal %d (%s); --resume records the missing ticks", number,
+                  pool->count, WTERMSIG(status), strsignal(WTERMSIG(status)));
+    else
+        error_set(&j->error, "job %u of %u ended early, with status %d; --resume records the missing ticks", number,
+                  pool->count, WEXITSTATUS(status));
 }
 
-/* Receive the next message of a job. If the kind is not MESSAGE_STEP, the job was stopped or has filmed its last tick.
- * Returns false with an error if the job failed. */
-static bool receive_message(job_pool *pool, unsigned i, message *m, octreel_error *error)
+/* Read the next message of a job. If the job has ended or failed, the message is MESSAGE_NONE. */
+static void read_message(const job_pool *pool, job *j)
 {
-    frame_checks *checks = &pool->recording->summary->checks;
-    if (!read_message(pool, &pool->jobs[i], m, error))
-        return false;
-    m->step.line = pool->bytes;
-    switch (m->kind) {
-    case MESSAGE_NONE:
-        return find_reason_of_end(pool, i, error);
-    case MESSAGE_FAILED:
-        memcpy(error, pool->bytes, sizeof *error);
-        return false;
-    case MESSAGE_ENDED:
-        memcpy(checks, pool->bytes, sizeof *checks);
-        return true;
-    case MESSAGE_STEP:
-        return true;
+    message *m = &j->message;
+    j->has_message = true;
+    free(j->bytes);
+    j->bytes = NULL;
+    if (pipe_read(j->pipe, m, sizeof *m)) {
+        j->bytes = malloc(m->size + 1);
+        m->step.line = j->bytes;
+        if (j->bytes && pipe_read(j->pipe, j->bytes, m->size)) {
+            if (m->kind == MESSAGE_FAILED)
+                memcpy(&j->error, j->bytes, sizeof j->error);
+            m->kind = m->kind == MESSAGE_FAILED ? MESSAGE_NONE : m->kind;
+            return;
+        }
+        if (!j->bytes)
+            error_no_memory(&j->error);
     }
-    return false;
+    m->kind = MESSAGE_NONE;
+    if (errno != 0 && !*j->error.text)
+        error_set(&j->error, "cannot read the ticks of a job: %s", strerror(errno));
+    if (!*j->error.text)
+        find_reason_of_end(pool, j);
 }
 
-/* Read each tick from the job that films it, until all ticks are read or the recording is stopped. */
+/* Wait until one of the jobs without a message sends one or ends, and read it. If the caller's watcher stops the
+ * recording during the wait, stop all jobs. Returns false if all jobs have a message. */
+static bool wait_for_message(job_pool *pool)
+{
+    enum { PATIENCE = 50 }; /* milliseconds between two calls of the watcher */
+    struct pollfd asked[FILM_MOST_JOBS];
+    bool waits = false;
+    for (unsigned i = 0; i < pool->count; i++) {
+        const job *j = &pool->jobs[i];
+        asked[i] = (struct pollfd){.fd = j->has_message ? -1 : j->pipe, .events = POLLIN};
+        waits |= !j->has_message;
+    }
+    if (!waits)
+        return false;
+    if (!pool->stopped && !watcher_continues(&pool->recording->options->watch))
+        stop_jobs(pool);
+    if (poll(asked, pool->count, PATIENCE) > 0)
+        for (unsigned i = 0; i < pool->count; i++)
+            if (asked[i].revents)
+                read_message(pool, &pool->jobs[i]);
+    return true;
+}
+
+/* Returns the job whose next message is the tick. Returns null if no job will send this tick: each job has sent a later
+ * tick, has failed, or has ended. */
+static job *wait_for_tick(job_pool *pool, uint64_t tick)
+{
+    do {
+        for (job *j = pool->jobs; j < pool->jobs + pool->count; j++)
+            if (j->has_message && j->message.kind == MESSAGE_STEP && j->message.step.tick == tick)
+                return j;
+    } while (wait_for_message(pool));
+    return NULL;
+}
+
+/* Returns false with an error if a job has failed. */
+static bool check_jobs(const job_pool *pool, octreel_error *error)
+{
+    for (const job *j = pool->jobs; j < pool->jobs + pool->count; j++)
+        if (*j->error.text) {
+            *error = j->error;
+            return false;
+        }
+    return true;
+}
+
+/* Read each tick from the job that has filmed it, until all ticks are read or the recording is stopped. */
 static bool collect_ticks(job_pool *pool, octreel_error *error)
 {
     recording *r = pool->recording;
-    film_share share = r->share;
-    message m;
-    share.count = pool->count;
+    job *first = pool->jobs;
     for (uint64_t tick = r->share.first; tick < r->share.last; tick++) {
-        const unsigned i = (unsigned)share_find_job(&share, tick / r->options->every, r->options->every);
-        if (!receive_message(pool, i, &m, error))
+        job *j = wait_for_tick(pool, tick);
+        if (!j)
+            return check_jobs(pool, error);
+        if (!recording_add_tick(r, &j->message.step, error))
             return false;
-        if (m.kind != MESSAGE_STEP) /* the job was stopped before this tick */
-            return true;
-        if (!recording_add_tick(r, &m.step, error))
-            return false;
+        j->has_message = false;
     }
-    return receive_message(pool, 0, &m, error);
+    while (!first->has_message)
+        wait_for_message(pool);
+    if (first->message.kind == MESSAGE_ENDED)
+        memcpy(&r->summary->checks, first->bytes, sizeof r->summary->checks);
+    else if (*first->error.text)
+        *error = first->error;
+    return !*first->error.text;
 }
 
 /* Stop the jobs and wait until they have ended. Messages of the jobs are read and dropped: a job must finish its frame,
@@ -328,13 +359,14 @@ static void end_jobs(job_pool *pool)
     int status;
     stop_jobs(pool);
     for (job *j = pool->jobs; j < pool->jobs + pool->count; j++) {
+        free(j->bytes);
         if (j->pid == 0)
             continue;
         while (pipe_read(j->pipe, ignored, sizeof ignored))
             continue;
         wait_for_end(j, &status);
     }
-    free(pool->bytes);
+    munmap((void *)pool->claims, pool->claim_count);
     free(pool->jobs);
 }
 
@@ -363,11 +395,23 @@ static bool send_session(const job_pool *pool, uint64_t session, octreel_error *
     return true;
 }
 
+/* Make the claims: zeros in memory that all jobs share. Returns false if memory runs out. */
+static bool make_claims(job_pool *pool)
+{
+    const recording *r = pool->recording;
+    pool->claim_count = (size_t)share_count_frames(&r->share, r->options->every);
+    void *claims = mmap(NULL, pool->claim_count, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    pool->claims = claims == MAP_FAILED ? NULL : claims;
+    return pool->claims != NULL;
+}
+
 bool film_by_jobs(recording *r, playback *p, unsigned jobs, octreel_error *error)
 {
     job_pool pool = {.recording = r, .wanted = jobs, .jobs = calloc(jobs, sizeof *pool.jobs)};
-    if (!pool.jobs)
+    if (!pool.jobs || !make_claims(&pool)) {
+        free(pool.jobs);
         return error_no_memory(error);
+    }
     const bool begun = start_all_jobs(&pool, p, error);
     const bool ok = begun && send_session(&pool, p->session_digest, error) && collect_ticks(&pool, error);
     end_jobs(&pool);

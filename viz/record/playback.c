@@ -110,9 +110,25 @@ static bool is_checked(const film_share *share, uint64_t frame, uint64_t every)
            (share->last && frame == (share->last - 1) / every);
 }
 
-uint64_t share_find_job(const film_share *share, uint64_t frame, uint64_t every)
+uint64_t share_count_frames(const film_share *share, uint64_t every)
 {
-    return is_checked(share, frame, every) ? 0 : frame % share->count;
+    return every == 0 ? 0 : (share->last - 1) / every - share->first / every + 1;
+}
+
+/* Returns whether this job films a frame. Job 0 films all frames that are checked, so that only one process loads GL.
+ * Every other frame is filmed by the first job that reaches it: a job that is faster, or has less to check, films more
+ * frames. */
+static bool claim_frame(playback *p, uint64_t frame)
+{
+    const film_share *share = &p->share;
+    const uint64_t every = p->target.every;
+    if (p->claimed == frame + 1)
+        return p->owns_claimed;
+    p->claimed = frame + 1;
+    p->owns_claimed = is_checked(share, frame, every)
+                          ? share->index == 0
+                          : atomic_exchange(&share->claims[frame - share->first / every], 1) == 0;
+    return p->owns_claimed;
 }
 
 bool playback_check_last(playback *p, octreel_error *error)
@@ -202,11 +218,6 @@ bool playback_film_tick(playback *p, film_step *step, octreel_error *error)
     return (!step->filmed || film_frame(p, step, error)) && make_tick_line(p, step, error);
 }
 
-static bool has_tick(const film_share *share, uint64_t tick, uint64_t every)
-{
-    return tick >= share->first && (share->count == 0 || share_find_job(share, tick / every, every) == share->index);
-}
-
 bool playback_run(playback *p, const film_share *share, film_sink *sink, void *context, const watcher *watch,
                   octreel_error *error)
 {
@@ -214,7 +225,7 @@ bool playback_run(playback *p, const film_share *share, film_sink *sink, void *c
     for (;;) {
         const uint64_t tick = octree_game_tick(p->game)->number;
         film_step step;
-        if (has_tick(share, tick, p->target.every) &&
+        if (tick >= share->first && (!share->claims || claim_frame(p, tick / p->target.every)) &&
             !(playback_film_tick(p, &step, error) && sink(context, &step, error)))
             return false;
         if (tick + 1 >= share->last || !watcher_continues(watch))

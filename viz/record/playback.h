@@ -20,23 +20,26 @@
 #include "ticks_write.h"
 #include "watcher.h"
 
+#include <stdatomic.h>
+
 typedef enum playback_frames {
     FRAMES_SHOW,  /* draw frames into playback.picture, but write no files */
     FRAMES_WRITE, /* draw frames and write them into the folder */
     FRAMES_KEEP,  /* keep existing frame files that are complete and correct; draw and write all other frames */
 } playback_frames;
 
-/* The ticks first to last - 1 of a session, all of them or the share of one job. If count is not 0, there are `count`
- * jobs, and this share has only the frames that share_find_job() assigns to job `index`. The ticks after such a frame,
- * up to the next frame, belong to the share too. */
+/* The ticks first to last - 1 of a session. If `claims` is not null, several jobs film these ticks, and this is job
+ * `index`: it films each frame that it is the first to claim, and the ticks up to the next frame. */
 typedef struct film_share {
     uint64_t first, last;
-    uint64_t index, count;
+    unsigned index;
+    /* One byte for each frame, in memory that all jobs share: 1 if a job has claimed the frame. The first byte belongs
+     * to the frame of the tick `first`, or to the last frame before this tick. */
+    atomic_uchar *claims;
 } film_share;
 
-/* Returns the index of the job that films a frame: a number below share->count. `frame` is the frame's tick divided by
- * `every`. Job 0 films all frames that are checked, so only one process loads GL. */
-uint64_t share_find_job(const film_share *share, uint64_t frame, uint64_t every);
+/* Returns the number of frames of a share, which is the number of its claims. */
+uint64_t share_count_frames(const film_share *share, uint64_t every);
 
 /* Which ticks have frames, and where frames go. */
 typedef struct playback_target {
@@ -57,6 +60,8 @@ typedef struct playback {
     scene scene;
     playback_target target;
     film_share share;           /* the share of the ticks that playback_run() films */
+    uint64_t claimed;           /* one more than the number of the last frame that the job tried to claim */
+    bool owns_claimed;          /* true: the job has claimed this frame */
     frame_checks checks;        /* the result of the frame checks; used with DRAW_FILL_CHECKED */
     char unchecked[FRAME_NAME]; /* if the frame in playback.picture is not yet checked: its name; otherwise "" */
     /* Digest of session.json, written into frames; set by the caller or by learn_session(). */
