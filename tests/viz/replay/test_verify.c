@@ -142,7 +142,7 @@ static void change_of_the_frame_interval_is_found(void **state)
     assert_int_equal(report.findings[0].tick, 3);
     assert_int_equal(report.findings[1].kind, VERIFY_FRAME);
     assert_non_null(strstr(report.findings[1].text, "frame_000003.png"));
-    assert_non_null(strstr(report.findings[1].text, "others"));
+    assert_non_null(strstr(report.findings[1].text, "nor are other files"));
 }
 
 /* ---- Trouble ------------------------------------------------------------------------------------------------ */
