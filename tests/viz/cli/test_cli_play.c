@@ -2,6 +2,7 @@
 /* test_cli_play.c - octreel play writes a page that plays a session without frames, and overwrites only such pages. */
 #include <ctype.h>
 #include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -185,13 +186,16 @@ static void every_and_no_frames_contradict_each_other(void **state)
     assert_int_equal(temp_folder_count(*state), 0);
 }
 
-/* The pipe is opened, but not read: the page fills it, and the program waits for room. The parent process has blocked
- * SIGALRM, which ends the program. */
+/* The pipe is open, but nobody reads it: the page fills it, and the program waits for room. The reader is open before
+ * the program starts, because the program refuses a pipe without a reader. The program blocks SIGALRM, as this process
+ * does when it starts the program. */
 static void signal_ends_a_page_that_nobody_reads(void **state)
 {
     const place pipe = place_in(*state, "pipe");
     need_pages_that_play();
     assert_int_equal(mkfifo(pipe.path, 0600), 0);
+    const int reader = open(pipe.path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    assert_true(reader >= 0);
     sigset_t alarms;
     sigemptyset(&alarms);
     sigaddset(&alarms, SIGALRM);
@@ -199,8 +203,7 @@ static void signal_ends_a_page_that_nobody_reads(void **state)
     background b = start_octreel("play -o %s", pipe.path);
     sigprocmask(SIG_UNBLOCK, &alarms, NULL);
     alarm(60);
-    const int reader = open(pipe.path, O_RDONLY);
-    assert_true(reader >= 0);
+    assert_int_equal(poll(&(struct pollfd){.fd = reader, .events = POLLIN}, 1, -1), 1);
     kill(b.pid, SIGTERM);
     command_result result = wait_for_end(&b);
     alarm(0);
