@@ -27,8 +27,8 @@ static inline uint64_t octree_digest_word(uint64_t digest, uint64_t word)
 /* Add a double by its value: -0.0 and +0.0 give the same digest. Returns the new digest. */
 static inline uint64_t octree_digest_double(uint64_t digest, double value)
 {
-    /* The bits of the double are tested, because the result of arithmetic would depend on the compiler flags of the
-     * including program. */
+    /* Recognize 0.0 and -0.0 by their bits, because the compiler flags of the including program may change comparisons
+     * of doubles. */
     uint64_t bits;
     memcpy(&bits, &value, sizeof bits);
     return octree_digest_word(digest, bits << 1 ? bits : 0);

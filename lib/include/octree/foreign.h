@@ -39,11 +39,11 @@ typedef struct octree_ids {
 
 #define OCTREE_NODE_KIND 16
 
-/* A node of a foreign index. If all members except the id and the box are zero, it is a root without points and
- * depth. */
+/* A node of a foreign index. If all members except the id and the box are zero, the node is a root that lists no
+ * points. */
 typedef struct octree_foreign_node {
     uint64_t id; /* unique among the nodes of the array, below OCTREE_NODE_ID_LIMIT */
-    /* false: the node is a root. An index may have any number of roots; a grid has one for each cell */
+    /* false: the node is a root. An index may have any number of roots; in a grid, each cell is a root */
     bool has_parent;
     uint64_t parent; /* the id of the parent node, which may be anywhere in the same array */
     /* a closed box with finite corners. It may be flat, overlap other boxes, and reach outside the world */
@@ -59,7 +59,7 @@ typedef struct octree_foreign_node {
     octree_precision precision;
 } octree_foreign_node;
 
-/* All nodes of a foreign index. They are valid from tick `tick` until a later tick for which the session gives other
+/* All nodes of a foreign index. The nodes are valid from tick `tick` until the next tick for which the session gives
  * nodes. */
 typedef struct octree_foreign_tree {
     uint64_t tick;
@@ -96,12 +96,12 @@ typedef enum octree_wrong_node_kind {
     OCTREE_NODE_UNKNOWN_POINT,  /* the node lists an id that no point has at this tick */
     OCTREE_NODE_OUTSIDE_POINT,  /* the node lists a point that is outside the node's box */
     OCTREE_NODE_REPEATED_POINT, /* the node lists a point more than once */
-    /* no node holds the point. The player's point may be missing if key presses move the player */
+    /* no node holds the point. The point of a player that key presses move may be missing */
     OCTREE_NODE_LOST_POINT,
     OCTREE_NODE_UNKNOWN_NODE, /* a query names the id of a foreign node that does not exist */
-    /* A query pruned the node and so lost a point: every right answer contains the point, and no node that the query
-     * did not prune holds it. A node counts as pruned if the query pruned and did not visit it; if the query does not
-     * name the node, its nearest ancestor that the query names decides. */
+    /* A query pruned all nodes that hold a point, although every right answer contains the point. A node counts as
+     * pruned if the query names it as pruned and not as visited. If the query does not name the node, the node counts
+     * as pruned if its nearest named ancestor does. */
     OCTREE_NODE_PRUNED_POINT,
     OCTREE_WRONG_NODE_KINDS
 } octree_wrong_node_kind;

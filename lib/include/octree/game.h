@@ -37,8 +37,8 @@ typedef struct octree_body {
 typedef enum octree_player_kind {
     OCTREE_PLAYER_KEYS, /* the player is a point of its own, which the game inserts first and key presses move */
     /* The player is the body that has the player's id, as long as this body exists. Edits and its velocity move the
-     * body; key presses do not. The game never takes back its moves. The members `position` and `step` of octree_player
-     * are not read. */
+     * body; key presses do not. The game never takes back moves of this body. The members `position` and `step` of
+     * octree_player are not read. */
     OCTREE_PLAYER_BODY,
     /* There is no player: no collision is tested, key presses do nothing, and the other members of octree_player are
      * not read. */
@@ -52,7 +52,7 @@ typedef struct octree_player {
     double step;     /* the distance that the player moves for one key press, >= 0 */
     double box_size; /* half the side of the collision box: the box is position +- box_size on each axis; >= 0 */
     /* true: the collision test covers the whole path of the tick. false: as in the paper, only the end of the player's
-     * step is tested. Such a test misses no collision only if player and point move along one axis, at most 2 *
+     * step is tested. Such a test finds every collision only if player and point move along one axis, at most 2 *
      * box_size per tick relative to each other */
     bool sweep;
 } octree_player;
@@ -123,7 +123,8 @@ typedef struct octree_session {
     const octree_body *bodies;
     size_t body_count;
     const char *keys; /* a string with one key per tick from tick 1 on, or null */
-    uint64_t ticks;   /* the minimum number of ticks after tick 0; a tick for which `keys` has no key waits */
+    /* the minimum number of ticks after tick 0. In a tick for which `keys` has no key, the player waits */
+    uint64_t ticks;
     /* the number of ticks at the end of the session that are not played, because the session ended early */
     uint64_t unplayed;
     const octree_edit *edits; /* the edits, in ascending order of their ticks */
@@ -157,7 +158,7 @@ typedef enum octree_event {
     OCTREE_EVENT_MOVED = 1, /* the player made its step */
     /* the player's step would have left the world, or the tree refused a body or an edit; see FULL */
     OCTREE_EVENT_REFUSED = 2,
-    /* points lie in the player's collision box. If the player's step led there, the step was taken back */
+    /* points lie in the player's collision box. If the player's step caused the collision, the step was taken back */
     OCTREE_EVENT_COLLIDED = 4,
     OCTREE_EVENT_FULL = 8,    /* a leaf was full, so that the player's step was taken back, or a body was refused */
     OCTREE_EVENT_SPLIT = 16,  /* at least one leaf became an inner node */
@@ -201,8 +202,10 @@ typedef struct octree_tick {
     double player[3]; /* the player's position after the tick */
     /* the player's position in the collision test: the end of the step, even if the step was taken back */
     double attempt[3];
-    bool swept;     /* true: the collision test covered the whole path from `from` to `attempt` */
-    double from[3]; /* the player's position before the tick; for an inserted body, the position of its insertion */
+    bool swept; /* true: the collision test covered the whole path from `from` to `attempt` */
+    /* the player's position before the tick; if the player is a body inserted in this tick, the position of its
+     * insertion */
+    double from[3];
     const octree_point *hits; /* the points that collide with the player, sorted by id */
     size_t hit_count;
     /* the position of each hit before the tick, in the order of `hits`; null if `swept` is false */
@@ -240,8 +243,8 @@ typedef struct octree_tick {
     const octree_body *movers;
     size_t mover_count;
     octree_foreign_state foreign; /* the nodes of the foreign index at this tick */
-    /* the reason why the tick is a gap, or null if it is not. A gap has no events; its other members are those of the
-     * previous tick */
+    /* the reason why the tick is a gap; null if the tick is not a gap. A gap has no events, and its other members keep
+     * their values of the previous tick */
     const char *gap;
 } octree_tick;
 

@@ -158,9 +158,9 @@ octree_status octree_replace_all(octree *tree, const octree_point *points, size_
  * as later calls, because its memory is new: with 1e4 points up to 1.8 of the time of the loop, with 1e6 points less
  * than the loop.
  *
- * If more points move than are moved singly, moves may depend on one another: if an id occurs twice in the batch or
- * among the stored points, if a pair (position, id) would occur twice, or if a leaf may be full under OCTREE_REFUSE.
- * Such moves are first simulated one by one in a hash table, with about 250 bytes a move. */
+ * In a batch too large for single moves, moves may depend on one another: an id occurs twice in the batch or among the
+ * stored points, a pair (position, id) would occur twice, or a leaf may be full under OCTREE_REFUSE. Such a batch is
+ * first simulated move by move in a hash table, with about 250 bytes a move. */
 octree_status octree_move_many(octree *tree, const octree_point *points, const double (*to)[3], size_t count,
                                octree_status *statuses, size_t *moved);
 

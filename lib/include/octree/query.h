@@ -29,8 +29,8 @@ typedef enum octree_member_type {
 /* Whether the points exactly on the boundary of a region belong to the answer. Real numbers decide, not rounded
  * distances.
  *
- * CLOSED: they do. OPEN: they do not, as in an index that tests `distance < radius`. EITHER: the answer of a foreign
- * index may contain any of them; the exact answer contains all. */
+ * CLOSED: they belong to it. OPEN: they do not belong to it, as in an index that tests `distance < radius`. EITHER: the
+ * answer of a foreign index may contain any of them; the exact answer contains all. */
 typedef enum octree_bounds {
     OCTREE_BOUNDS_CLOSED,
     OCTREE_BOUNDS_OPEN,
@@ -150,8 +150,8 @@ typedef struct octree_query {
     const uint64_t *answer; /* read if `answered` is true: the ids that the foreign index returned, in any order; null
                                if answer_count is 0 */
     size_t answer_count;
-    /* visits[v]: the ids of the foreign nodes that the query visited, pruned or hit. The exact answer, with precision
-     * and epsilon, shows whether pruning a node was wrong */
+    /* visits[v]: the ids of the foreign nodes that the query visited, pruned or hit. A game checks by the exact answer
+     * whether pruning a node was wrong, and allows for precision and epsilon */
     octree_ids visits[OCTREE_NODE_VISITS];
 } octree_query;
 
@@ -191,7 +191,8 @@ const char *octree_wrong_name(octree_wrong_kind wrong);
  * Regions (a box, a ball) are compared as sets of points. Neighbours are sorted by distance, whatever their order in
  * the answer, and compared rank by rank; if several points have the same distance, each of them is right. Real numbers
  * decide all comparisons. An epsilon above 0 allows extra points that are within epsilon of the region, and neighbours
- * up to 1 + epsilon times as far as the exact ones; a ratio within 2^-46 of that limit counts as right. */
+ * up to 1 + epsilon times as far as the exact ones; because of rounding, a ratio within 2^-46 of that limit counts as
+ * right. */
 typedef struct octree_judgement {
     bool judged; /* false: the query has no foreign answer, and the other members are 0 */
     octree_wrong_kind wrong;
@@ -208,10 +209,11 @@ typedef struct octree_judgement {
      * points are not in this list */
     const octree_point *extra;
     size_t extra_count;
-    /* only for regions: MISSING or EXTRA if there are such points and all of them lie exactly on the boundary of the
-     * region; else NONE */
+    /* only for regions: MISSING if points are missing and all of them lie exactly on the boundary of the region; EXTRA
+     * if the same is true of extra points; else NONE */
     octree_wrong_kind on_boundary;
-    octree_bounds accepting; /* read if on_boundary is not NONE: the bounds with which these points are right */
+    /* read if on_boundary is not NONE: the bounds with which the foreign answer would be right on the boundary */
+    octree_bounds accepting;
     /* only for neighbours: the first rank at which the neighbour is wrong. The nearest neighbour has rank 1; 0: no rank
      * is wrong */
     size_t rank;
