@@ -16,7 +16,8 @@ const char *octree_node_visit_name(octree_node_visit visit)
 }
 
 #define DEPTH_UNKNOWN UINT_MAX
-#define DEPTH_ON_PATH (UINT_MAX - 1) /* stands for an unknown depth while find_depths() walks the path */
+/* the temporary depth of a node on the path that find_depths() walks, until the real depth is known */
+#define DEPTH_ON_PATH (UINT_MAX - 1)
 
 /* ---- Checks ------------------------------------------------------------------------------------------------- */
 

@@ -53,7 +53,7 @@ static void begin_judging(judge_state *s, judge *j, const judged_query *about, o
     *s = (judge_state){.judge = j, .about = about, .made = made, .asked = *about->answer};
     s->rounds = s->asked.precision == OCTREE_FLOATS;
     if (s->rounds)
-        round_answer(&s->asked);
+        round_answer_to_floats(&s->asked);
     s->metric = metric_make(tree->scale, is_subnormal_world(tree), s->asked.target);
     j->foreign.count = j->exact.count = 0;
 }
@@ -116,8 +116,8 @@ static void record_wrong_kind(judge_state *s, octree_wrong_kind wrong, uint64_t 
     made->wrong_id = wrong <= OCTREE_WRONG_SKIPPED ? id : 0;
 }
 
-/* The foreign answer is sorted by id. Remove repeated points from it. If there were any, record that the answer has
- * duplicates. */
+/* Remove repeated points from the foreign answer, which is sorted by id. If a point was removed, record that the answer
+ * has duplicates. */
 static void remove_duplicates(judge_state *s, list *points)
 {
     judged_point *items = points->items;
@@ -189,8 +189,8 @@ static bool collect_judged_point(const octree_point *point, void *context)
     return !s->failed;
 }
 
-/* Collect the points in a ball around the target. The arguments of the search are valid, so only a lack of memory
- * can make it fail. This sets s->failed. */
+/* Collect the points in a ball around the target. The arguments of the search are valid, so only a lack of memory can
+ * make the search fail. A failure sets s->failed. */
 static void collect_ball(judge_state *s, double radius, double slack)
 {
     static const octree_box all = {{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}};
@@ -269,8 +269,8 @@ static void list_wrong_point(judge_state *s, const judged_point *p, size_t *coun
     ++*count;
 }
 
-/* Whether the answer is right with or without a point. If `slack` is above 0, this holds for each point that is not
- * in the exact answer but within the distance `slack` of the region. */
+/* Whether an answer is right both with and without a point. This is so on the boundary of a region with the bounds
+ * EITHER and, if `slack` is above 0, within the distance `slack` of the region. */
 static bool is_point_optional(const judge_state *s, const judged_point *p, double slack)
 {
     return (slack > 0 && query_rules_of(s->asked.kind)->compare(&s->asked, p->at, slack) <= 0) ||
@@ -286,8 +286,8 @@ static bool count_boundary_point(const octree_point *point, void *context)
     return true;
 }
 
-/* All wrong points lie on the boundary of the region. Find the bounds of the query with which these points are
- * right. If the boundary has other points, too, the answer contains only a part of the boundary. */
+/* If all wrong points lie on the boundary of the region, find the bounds of the query with which the answer is right.
+ * The bounds are EITHER if the answer contains only a part of the points on the boundary. */
 static void find_accepting_bounds(judge_state *s)
 {
     octree_judgement *made = s->made;
@@ -337,7 +337,7 @@ static bool is_too_far(const judge_state *s, const judged_point *a, const judged
 {
     if (!(s->asked.epsilon > 0) || same_position(b->at, s->asked.target))
         return true;
-    /* metric_above() leaves room for the rounding error of this factor */
+    /* metric_above() also covers the rounding error of this factor, and 2^-999 covers underflow of the square */
     const double factor = 1 + s->asked.epsilon;
     return a->square > metric_above(factor * factor * (b->square + 0x1p-999));
 }
@@ -400,8 +400,8 @@ static void judge_neighbors(judge_state *s, size_t given)
 
 /* ---- An answer ---------------------------------------------------------------------------------------------- */
 
-/* Compare the foreign answer with the exact answer. If one of the two lists is incomplete, do nothing. `given` is
- * the number of ids in the foreign answer. */
+/* Compare the foreign answer with the exact answer. If memory ran out, a list may be incomplete; do nothing then.
+ * `given` is the number of ids in the foreign answer. */
 static void compare_lists(judge_state *s, size_t given)
 {
     if (!s->failed && is_neighbor_query(s))

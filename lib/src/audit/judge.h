@@ -45,7 +45,8 @@ void judge_release(judge *j);
 typedef struct judged_query {
     const audited_points *points;
     const octree_query *query;
-    /* the members of the query, with epsilon and the number of results; the next two pointers hold the results */
+    /* the members of the query, with epsilon and the number of results. exact_points or exact_neighbors holds the
+     * results */
     const octree_answer *answer;
     /* the exact answer if it consists of points, else null; it has answer->count items */
     const octree_point *exact_points;

@@ -112,7 +112,8 @@ static bool check_boxes_in_parents(foreign *f)
     return ok;
 }
 
-/* Check the points that a node lists, and report the wrong ones. False when there is no memory. */
+/* Check the points that a node lists, and report the points that are unknown or outside the node's box. False when
+ * there is no memory. */
 static bool check_listed_points(foreign *f, const audited_points *points, size_t place)
 {
     const octree_foreign_node *node = foreign_places(f)[place].node;
@@ -345,7 +346,7 @@ static size_t find_pruned_ancestor(const foreign *f, size_t place)
 
 /* The index of the next node that holds a point; SIZE_MAX if no more nodes hold it. *at must be 0 before the first
  * call. */
-static size_t find_next_holding_leaf(const foreign *f, const octree_point *point, size_t *at)
+static size_t find_next_holding_node(const foreign *f, const octree_point *point, size_t *at)
 {
     const foreign_holding *items = f->holdings.items;
     const size_t first = foreign_find_first_holding(f, point->id);
@@ -366,7 +367,7 @@ static bool is_point_pruned(const octree_point *point, void *context)
     size_t at = 0, holders = 0;
     if (is_audited_point(q->points, point->id))
         return false;
-    for (size_t place; (place = find_next_holding_leaf(q->foreign, point, &at)) != SIZE_MAX; holders++)
+    for (size_t place; (place = find_next_holding_node(q->foreign, point, &at)) != SIZE_MAX; holders++)
         if (find_pruned_ancestor(q->foreign, place) == SIZE_MAX)
             return false;
     return holders > 0;
@@ -378,7 +379,7 @@ static bool report_pruned_point(const octree_point *point, void *context)
 {
     const node_query *q = context;
     size_t at = 0;
-    for (size_t place; (place = find_next_holding_leaf(q->foreign, point, &at)) != SIZE_MAX;) {
+    for (size_t place; (place = find_next_holding_node(q->foreign, point, &at)) != SIZE_MAX;) {
         const size_t pruned = find_pruned_ancestor(q->foreign, place);
         const octree_wrong_node wrong = {.kind = OCTREE_NODE_PRUNED_POINT, .point = point->id, .answer = q->answer};
         foreign_mark *mark = &foreign_marks(q->foreign)[pruned];

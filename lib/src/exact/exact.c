@@ -51,7 +51,7 @@ void exact_clear(exact_sum *sum)
 
 /* Returns a pointer to the three digits from index `place` on. If necessary, the range of digits in use grows to
  * include these three; new digits are 0. */
-static int64_t *find_digits_at(exact_sum *sum, int place)
+static int64_t *reserve_digits_at(exact_sum *sum, int place)
 {
     if (sum->first == sum->end)
         sum->first = sum->end = place;
@@ -69,7 +69,7 @@ static void add_shifted(exact_sum *sum, int sign, uint64_t value, int offset)
     const int shift = offset % 32;
     const uint64_t low = (value & UINT32_MAX) << shift;
     const uint64_t high = (value >> 32) << shift;
-    int64_t *digits = find_digits_at(sum, offset / 32);
+    int64_t *digits = reserve_digits_at(sum, offset / 32);
     digits[0] += sign * (int64_t)(low & UINT32_MAX);
     digits[1] += sign * (int64_t)((low >> 32) + (high & UINT32_MAX));
     digits[2] += sign * (int64_t)(high >> 32);

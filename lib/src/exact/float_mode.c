@@ -22,7 +22,7 @@ static void write_control(const float_control *control)
     _mm_setcsr(*control);
 }
 
-static void write_default(void)
+static void write_default_control(void)
 {
     _mm_setcsr(0x1f80u);
 }
@@ -41,7 +41,7 @@ static void write_control(const float_control *control)
     __asm__ volatile("msr fpcr, %0" : : "r"(*control) : "memory");
 }
 
-static void write_default(void)
+static void write_default_control(void)
 {
     write_control(&(float_control){0});
 }
@@ -62,7 +62,7 @@ static void write_control(const float_control *control)
     fesetenv(control);
 }
 
-static void write_default(void)
+static void write_default_control(void)
 {
     fesetenv(FE_DFL_ENV);
 }
@@ -86,7 +86,7 @@ static _Thread_local float_control caller_control;
 void float_mode_enter(void)
 {
     caller_control = read_control();
-    write_default();
+    write_default_control();
     changed = true;
 }
 
@@ -138,7 +138,7 @@ static void call_tracer(octree_address node, octree_trace_kind kind, void *conte
     float_mode_resume(paused);
 }
 
-const octree_search *trace_in_caller_mode(const octree_search *how, caller_search *copy)
+const octree_search *copy_with_caller_tracer(const octree_search *how, caller_search *copy)
 {
     if (!how || !how->trace)
         return how;

@@ -102,7 +102,7 @@ typedef struct caller_search {
 
 bool visit_in_caller_mode(const octree_point *point, void *context);
 octree_walk_order visit_node_in_caller_mode(const octree_node *node, void *context);
-const octree_search *trace_in_caller_mode(const octree_search *how, caller_search *copy);
+const octree_search *copy_with_caller_tracer(const octree_search *how, caller_search *copy);
 
 /* Two arguments for the inner call, which replace the caller's visitor and its context: a function that calls the
  * caller's visitor in the caller's mode, and the context of this function. A null visitor stays null. */
@@ -119,6 +119,6 @@ const octree_search *trace_in_caller_mode(const octree_search *how, caller_searc
 
 /* An argument for the inner call, which replaces the caller's search options: a copy whose tracer calls the caller's
  * tracer in the caller's mode. */
-#define CALLER_SEARCH(how) trace_in_caller_mode(how, &(caller_search){.context = NULL})
+#define CALLER_SEARCH(how) copy_with_caller_tracer(how, &(caller_search){.context = NULL})
 
 #endif

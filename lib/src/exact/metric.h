@@ -101,16 +101,16 @@ static inline double metric_gap(const metric *m, int i, double min, double max)
     return below > 0 ? below : above > 0 ? above : 0;
 }
 
-/* A computed square below this limit has not overflowed. If a computed square is larger, the real square may be any
- * larger number. */
+/* A computed square below this limit has not overflowed. A computed square above the limit may be too small by any
+ * amount, because of overflow. */
 #define METRIC_FINITE 0x1p1020
 
 /* Bounds for comparisons of two computed squares a and b that are certain in spite of rounding. If a > metric_above(b),
  * the real square of a is certainly greater than the real square of b. If a < metric_below(b), it is certainly less.
  *
- * The band is 64u wide: 12u for the errors of both squares, 3u for the roundings of the bound itself, and the rest
- * covers the 16u by which nearest.c may visit siblings out of order. No square is above an infinite b, and NaN is above
- * nothing. */
+ * The factor 2^-47 is 64u: 12u for the errors of both squares, 3u for the roundings of the bound itself, and the rest
+ * covers the 16u by which nearest.c may visit siblings out of order. 2^-998 covers the absolute errors of both squares
+ * (2^-1000 each). No square is above an infinite b, and NaN is above nothing. */
 static inline double metric_above(double b)
 {
     return b * (1 + 0x1p-47) + 0x1p-998;

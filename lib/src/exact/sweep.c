@@ -37,7 +37,7 @@ typedef struct moments {
 
 /* Test an axis on which the point does not move relative to the box. Returns 1 if the point is within `size` of the
  * box's centre, 0 if it is not, and -1 if doubles do not decide. The error bound covers three roundings. */
-static int is_within_size_at_rest(const ends *e, double size)
+static int test_axis_at_rest(const ends *e, double size)
 {
     const double offset = fabs(e->p - e->a), error = (offset + size) * 0x1p-50;
     return offset + error < size ? 1 : offset - error > size ? 0 : -1;
@@ -75,9 +75,7 @@ static int test_contact_in_doubles(const sweep *box, const double from[3], const
     for (int i = 0; i < 3; i++) {
         const ends e = make_ends_on_axis(box, from, to, i);
         const bool rests = e.a == e.b && e.p == e.q;
-        const int answer = rests                                   ? is_within_size_at_rest(&e, box->size)
-                           : intersect_axis(&known, &e, box->size) ? 1
-                                                                   : -1;
+        const int answer = rests ? test_axis_at_rest(&e, box->size) : intersect_axis(&known, &e, box->size) ? 1 : -1;
         if (answer == 0)
             return 0;
         result = answer < 0 ? -1 : result;
@@ -115,7 +113,7 @@ static void add_cross_product(exact_sum *sum, int factor, const ends *e, int way
 
 /* Returns whether the point enters on axis `i` not later than it leaves on axis `j`. The condition leave_j - enter_i >=
  * 0 is multiplied by the lengths of both motions, so that no division is needed. */
-static bool is_entered_before_left(const ends *i, int way_i, const ends *j, int way_j, double size)
+static bool is_entry_before_exit(const ends *i, int way_i, const ends *j, int way_j, double size)
 {
     exact_sum sum;
     exact_clear(&sum);
@@ -124,21 +122,22 @@ static bool is_entered_before_left(const ends *i, int way_i, const ends *j, int 
     return exact_sign(&sum) >= 0;
 }
 
-static bool touches_exactly(const sweep *box, const double from[3], const double to[3])
+static bool test_contact_exactly(const sweep *box, const double from[3], const double to[3])
 {
     ends e[3];
     int way[3];
     for (int i = 0; i < 3; i++) {
         e[i] = make_ends_on_axis(box, from, to, i);
         way[i] = sign_of_relative_motion(&e[i]);
-        /* on an axis at rest, the two tests check both sides of the same relative position */
+        /* On an axis without relative motion, both ends have the same relative position. One test checks its upper
+         * side, the other test its lower side. */
         const int side = way[i] ? way[i] : 1;
         if (!is_within_size(e[i].q, e[i].b, side, box->size) || !is_within_size(e[i].p, e[i].a, -side, box->size))
             return false;
     }
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
-            if (i != j && way[i] && way[j] && !is_entered_before_left(&e[i], way[i], &e[j], way[j], box->size))
+            if (i != j && way[i] && way[j] && !is_entry_before_exit(&e[i], way[i], &e[j], way[j], box->size))
                 return false;
     return true;
 }
@@ -146,5 +145,5 @@ static bool touches_exactly(const sweep *box, const double from[3], const double
 bool sweep_touches(const sweep *box, const double from[3], const double to[3])
 {
     const int result = test_contact_in_doubles(box, from, to);
-    return result < 0 ? touches_exactly(box, from, to) : result == 1;
+    return result < 0 ? test_contact_exactly(box, from, to) : result == 1;
 }

@@ -149,7 +149,7 @@ static bool make_player_step(octree_game *game, const int64_t steps[3], const do
 
 /* Store the player's positions before and after the tick. If the player is a body, edits and motion have already moved
  * the player. */
-static void update_player(octree_game *game)
+static void store_player_positions(octree_game *game)
 {
     octree_tick *tick = &game->tick;
     const octree_player *player = &game->session->player;
@@ -167,7 +167,7 @@ static void update_player(octree_game *game)
  * memory. */
 static bool step_player(octree_game *game)
 {
-    update_player(game);
+    store_player_positions(game);
     if (!game->tick.has_player)
         return true;
     const octree_player *player = &game->session->player;
@@ -305,7 +305,7 @@ static octree_status start_game(octree_game *game)
         status = game_load_bodies(game);
     if (status != OCTREE_OK)
         return status;
-    update_player(game);
+    store_player_positions(game);
     const octree_input input = session_input(session, 0);
     return run_queries_and_publish_tick(game, &input);
 }
@@ -405,7 +405,7 @@ static octree_status play_tick(octree_game *game, char key, const octree_input *
     begin_tick(game, input->gap ? '.' : key);
     /* in a gap the player makes no step */
     if (input->gap)
-        update_player(game);
+        store_player_positions(game);
     else if (!play_changes(game, input))
         return OCTREE_NO_MEMORY;
     return run_queries_and_publish_tick(game, input);

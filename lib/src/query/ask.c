@@ -167,7 +167,7 @@ octree_answer query_to_answer(const octree_query *query, const double player[3])
     return answer;
 }
 
-void round_answer(octree_answer *answer)
+void round_answer_to_floats(octree_answer *answer)
 {
     for (size_t i = 0; i < OCTREE_QUERY_MEMBERS; i++) {
         const octree_query_member_traits *member = octree_query_member_at(i);

@@ -37,9 +37,9 @@ typedef struct query_rules {
     octree_status (*ask)(query_run *run, octree_answer *answer);
 
     /* Compare a position with the region of a query, widened by a distance `slack` >= 0. Returns -1 if the position is
-     * inside, 0 on the boundary, 1 outside. The comparison is exact, whatever the sizes of the world and the region;
-     * only if slack > 0 may the boundary be rounded outwards. The function pointer is null for query kinds whose result
-     * is neighbours. */
+     * inside, 0 on the boundary, 1 outside. The comparison is exact, whatever the sizes of the world and the region; if
+     * slack > 0, the boundary may be rounded outwards. The function pointer is null for query kinds whose result is
+     * neighbours. */
     int (*compare)(const octree_answer *asked, const double position[3], double slack);
 
     /* A closed box that contains the region and all positions within `slack` >= 0 of it. The function pointer is null
@@ -67,7 +67,7 @@ static inline bool query_is_judged(const octree_query *query)
 octree_answer query_to_answer(const octree_query *query, const double player[3]);
 
 /* Round all positions and lengths among an answer's members to floats. */
-void round_answer(octree_answer *answer);
+void round_answer_to_floats(octree_answer *answer);
 
 /* Ask a query that was checked. The result is appended to the lists of the run, and answer->count receives the number
  * of appended items. The answer's pointers to points and neighbours stay null. */

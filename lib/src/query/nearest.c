@@ -6,20 +6,23 @@
  * the k-th point is known.
  *
  * Idea: depth first, nearest octant first. The textbook descent measures every node on the way down. Here the bits of
- * the target's Morton code lead straight to the target's leaf, without any measuring. The search measures the nodes of
- * this path on the way back up. By then the best distance is small, and most siblings are out of reach. From the best
- * distance and the keys, count_nodes_out_of_reach() finds how many nodes of the path need no measuring at all.
+ * the target's Morton code lead straight to the target's leaf, without any measuring. (The code is made of three keys,
+ * one per axis: the numbers of the grid cells that contain the target's coordinates, see plane.h.) The search measures
+ * the nodes of this path on the way back up. By then the best distance is small, and most siblings are out of reach.
+ * count_nodes_out_of_reach() finds how many nodes of the path need no measuring at all.
  *
- * Distances from planes: planes are whole numbers in keys, so the distance is the difference from the target's position
- * in keys. It has a known error, by which the reach of nodes is widened (find_node_reach() in neighbor_heap.c). In
- * worlds where keys may be wrong, and for targets outside the world, the planes themselves are computed.
+ * Distances to planes: measured in keys, every plane is a whole number, so a distance is the difference between this
+ * number and the target's position in keys. The difference has a known error, by which the reach of nodes is widened
+ * (find_node_reach() in neighbor_heap.c). In worlds where keys may be wrong, and for targets outside the world, the
+ * planes themselves are computed.
  *
- * Order of siblings: a child's squared distance is a sum of one term per axis. The term is the parent's (near half) or
- * the squared distance to the splitting plane (far half). The eight sums are ordered like the subset sums of three
- * increments, so comparisons find their order in a table, and the first child out of reach ends the node.
+ * Order of siblings: a child's squared distance is a sum of one term per axis. On an axis where the child is in the
+ * half near the target, the term is the parent's term; in the far half, it is the squared distance to the splitting
+ * plane. The eight sums are ordered like the subset sums of three increments, so comparisons find their order in a
+ * table, and the first child out of reach ends the node.
  *
- * Cost: O(D + M) on average for points of bounded density, O(n) at worst. Source: the paper, Algorithms
- * 6 and 7; Samet (2006) on best-first and depth-first search. neighbor_heap.c keeps the results and decides near ties.
+ * Cost: O(D + M) on average for points of bounded density, O(n) at worst. Source: the paper, Algorithms 6 and 7; Samet
+ * (2006) on best-first and depth-first search. neighbor_heap.c keeps the results and decides near ties.
  */
 #include "../exact/float_mode.h"
 #include "../tree/leaf.h"
@@ -30,7 +33,7 @@
 
 enum { CACHED = 300000 }; /* a tree with fewer points fits into a processor's caches, where prefetching gains nothing */
 
-/* An inner node that is within reach. */
+/* An inner node within reach (it may contain one of the k nearest points), and its distances from the target. */
 typedef struct branch {
     const node *node;
     octree_address address;
@@ -44,17 +47,19 @@ typedef struct search {
     const octree *tree;
     neighbor_heap found;
     meter meter;
-    bool is_metered;             /* the caller wants costs or a trace */
-    bool is_in_keys;             /* distances from planes are differences of keys; false: the planes are computed */
-    double place[3];             /* the target's position in keys; only if is_in_keys */
+    bool is_metered; /* true: the caller wants the cost or a trace of the search */
+    /* true: distances to planes are differences of keys; false: they are differences of coordinates */
+    bool is_in_keys;
+    double place[3];             /* the target's position in keys; valid only if is_in_keys is true */
     double root_squares[3];      /* on each axis, the squared distance from the target to the world */
-    double squares[SCAN_POINTS]; /* of the points that are being scanned */
-    branch branches[OCTREE_MAX_DEPTH]; /* a node on the path to the target's leaf, and nodes below it */
+    double squares[SCAN_POINTS]; /* the squared distances of the points that are being scanned */
+    /* a stack: a node on the path to the target's leaf, and the nodes of the current descent below it */
+    branch branches[OCTREE_MAX_DEPTH];
 } search;
 
-/* The order of a node's octants by distance. Elements are the values `octant ^ near`, where `near` is the octant
- * nearest to the target. a, b and c are the bits of the axes with the least, the middle and the greatest increment; d
- * is the fourth element: a | b or c. */
+/* The octants of a node in ascending order of distance, each as `octant ^ near`, where `near` is the octant nearest to
+ * the target. The far half on an axis adds an increment to the squared distance. a, b and c are the octant bits of the
+ * axes with the least, the middle and the greatest increment. d is the fourth element, a | b or c. */
 #define ORDER_ROW(a, b, c, d)                                                                                          \
     {                                                                                                                  \
         0, a, b, d, 7 ^ (d), 7 ^ (b), 7 ^ (a), 7                                                                       \
@@ -81,8 +86,8 @@ static inline const uint8_t *find_octant_order(const branch *b)
     return orders[(y < x) | (z < y) << 1 | (z < x) << 2][(x + y) + z < 2 * most];
 }
 
-/* Measure the squared distances from the target to the planes that split a cell: the distances of the far halves.
- * Returns the octant that is nearest to the target. */
+/* Measure the squared distances from the target to the planes that split a cell. On each axis this is the distance to
+ * the far half. Returns the octant that is nearest to the target. */
 static inline unsigned measure_planes(const search *s, branch *b)
 {
     unsigned below = 0;
@@ -140,7 +145,7 @@ static inline void make_child_branch(const branch *parent, const node *child, un
 }
 
 /* Search the children of a node in the octants `left`, nearest first, as far as they are within reach. `near` is the
- * octant that is nearest to the target. The element after *b is free for a child. */
+ * octant that is nearest to the target. b[1] is free for the branch of a child. */
 static void search_octants(search *s, branch *b, unsigned near, unsigned left)
 {
     const uint8_t *flips = find_octant_order(b);
@@ -229,7 +234,7 @@ static void prefetch_adjacent_leaves(const path *p, uint64_t code, const uint32_
 }
 
 /* Store the keys of the target's position after clamping it to the world. */
-static void find_nearest_keys(const octree *tree, const double target[3], uint32_t keys[3])
+static void find_clamped_keys(const octree *tree, const double target[3], uint32_t keys[3])
 {
     for (int i = 0; i < 3; i++) {
         const axis *a = &tree->axes[i];
@@ -241,13 +246,14 @@ static void find_nearest_keys(const octree *tree, const double target[3], uint32
  * of reach of the target.
  *
  * The number is 20 minus the highest bit in which the keys of target - reach and target + reach differ on any axis. The
- * reach in keys is widened by the error of the keys plus two. The result is 0 if distances are not in keys. */
+ * reach in keys is widened, to cover rounding. The result is 0 if distances are not in keys. */
 static unsigned count_nodes_out_of_reach(const search *s, const uint32_t keys[3])
 {
     const double reach = sqrt(s->found.node_reach);
     uint32_t differ = 1;
     for (int i = 0; i < 3; i++) {
-        const double width = reach * s->tree->axes[i].keys_per_unit + 3; /* the keys' error is less than a half */
+        /* 3 covers the error of the keys, less than a half, and the roundings of both keys to integers */
+        const double width = reach * s->tree->axes[i].keys_per_unit + 3;
         if (!(width < PLANE_GRID) || !s->is_in_keys)
             return 0;
         const int32_t key = (int32_t)keys[i], wide = (int32_t)width, low = key - wide, high = key + wide;
@@ -258,7 +264,7 @@ static unsigned count_nodes_out_of_reach(const search *s, const uint32_t keys[3]
 }
 
 /* Search the nodes of the path to the target's leaf, from the depth `depth` up, as far as they are within reach. */
-static inline void search_path(search *s, const path *p, uint64_t code, const uint32_t keys[3], unsigned depth)
+static inline void search_path_upwards(search *s, const path *p, uint64_t code, const uint32_t keys[3], unsigned depth)
 {
     const unsigned first_near = count_nodes_out_of_reach(s, keys);
     while (depth > first_near) {
@@ -285,7 +291,8 @@ static inline const node *descend_along_path(const octree *tree, uint64_t code, 
     return n;
 }
 
-/* Search the leaf at some keys, then the nodes above it. */
+/* Search the leaf whose cell contains the target's keys, then the other nodes of the path to this leaf, from the leaf
+ * up. */
 static inline void search_from_leaf(search *s, const uint32_t keys[3])
 {
     const octree *tree = s->tree;
@@ -305,7 +312,7 @@ static inline void search_from_leaf(search *s, const uint32_t keys[3])
         }
         scan_leaf(s, end);
     }
-    search_path(s, &p, code, keys, depth);
+    search_path_upwards(s, &p, code, keys, depth);
 }
 
 /* Find the keys of the target's position after clamping it to the world. Returns false if the world is out of reach. */
@@ -319,12 +326,12 @@ static bool find_keys_from_planes(search *s, uint32_t keys[3])
         s->root_squares[i] = gap * gap;
         squares += s->root_squares[i];
     }
-    find_nearest_keys(tree, s->found.metric.target, keys);
+    find_clamped_keys(tree, s->found.metric.target, keys);
     return !(squares > s->found.node_reach);
 }
 
-/* Compute the position in keys of a target in the world, and round it down. The results may be off by one, because the
- * search may begin at any leaf near the target. */
+/* Compute the position in keys of a target in the world, and round it down. The results may be off by one, which does
+ * no harm: the search may begin at any leaf near the target. */
 static inline void guess_keys(search *s, uint32_t keys[3])
 {
     for (int i = 0; i < 3; i++) {
@@ -450,18 +457,18 @@ typedef struct target_batch {
     octree_cost costs[TASKS_AT_MOST];
 } target_batch;
 
-static void find_codes_of_share(size_t number, void *context)
+static void find_codes_in_task(size_t number, void *context)
 {
     const target_batch *b = context;
     for (size_t i = find_share_start(b->count, b->tasks, number); i < find_share_start(b->count, b->tasks, number + 1);
          i++) {
         uint32_t keys[3];
-        find_nearest_keys(b->tree, b->targets[i], keys);
+        find_clamped_keys(b->tree, b->targets[i], keys);
         b->order[i] = (morton_item){morton_interleave(keys), (uint32_t)i, MORTON_NEW};
     }
 }
 
-static void search_targets_of_share(size_t number, void *context)
+static void search_targets_in_task(size_t number, void *context)
 {
     target_batch *b = context;
     const size_t end = find_share_start(b->count, b->tasks, number + 1);
@@ -484,12 +491,12 @@ static void search_targets_of_share(size_t number, void *context)
 
 static void search_in_morton_order(target_batch *b, arena *memory)
 {
-    run_tasks(b->tree, find_codes_of_share, b->tasks, b);
+    run_tasks(b->tree, find_codes_in_task, b->tasks, b);
     morton_sort_tasks(b->tree, memory, b->order, b->order + b->count, b->count, 0, false);
     /* With a tracer there is only one task, because the caller's tracer need not be thread-safe. */
     if (b->how.trace)
         b->tasks = 1;
-    run_tasks(b->tree, search_targets_of_share, b->tasks, b);
+    run_tasks(b->tree, search_targets_in_task, b->tasks, b);
     for (unsigned i = 0; b->how.cost && i < b->tasks; i++)
         add_cost(b->how.cost, &b->costs[i]);
 }

@@ -4,11 +4,11 @@
  * Problem: a search offers thousands of points and keeps k. Each kept point lowers the distance beyond which points and
  * nodes are ignored. Squares in doubles order most points, but for near ties only the exact comparison decides.
  *
- * Idea: for k <= 32 a sorted array of keys. A key is the square as a double with its lowest five bits replaced by the
- * index of the neighbour's slot, so that moving one double moves the neighbour. Insertion shifts keys by minimum and
- * maximum, without branches and two at a time. A key is off by at most 2^-47 of itself. Neighbours whose keys differ by
- * less are compared exactly. During the search only the last key must belong to the right neighbour, because it limits
- * the search. The other neighbours are sorted exactly at the end.
+ * Idea: for k <= 32 a sorted array of keys. A key is a neighbour's squared distance as a double, with its lowest five
+ * bits replaced by the number of the slot that holds the neighbour. So moving one double moves the neighbour. Insertion
+ * shifts keys by minimum and maximum, without branches and two at a time. A key is off by at most 2^-47 of itself.
+ * Neighbours whose keys differ by less are compared exactly. During the search only the last key must belong to the
+ * right neighbour, because it limits the search. The other neighbours are sorted exactly at the end.
  *
  * Why not a heap for all k: for small k its unpredictable branches cost more than the shifts. Larger k use a binary
  * heap in the caller's array, farthest on top. Cost for each point kept: O(k) with the array, O(log k) with the heap.
@@ -17,21 +17,23 @@
 #include "search.h"
 
 #if defined(__GNUC__)
-/* Marks functions that are rarely called. They are not inlined, so that the frequent path saves fewer registers. */
+/* Marks functions that are rarely called. They are not inlined, so that their callers save fewer registers. */
 #define RARE __attribute__((noinline))
 #else
 #define RARE
 #endif
 
-/* Return the reach of nodes for a limit of the squares of points. */
+/* Return the squared distance beyond which nodes are pruned, if points are searched up to the squared distance
+ * `square`. */
 static inline double find_node_reach(const neighbor_heap *h, double square)
 {
     const double reach = sqrt(square) + h->node_error;
     return metric_above(h->node_error > 0 ? reach * reach : square);
 }
 
-/* Return the reach of points for the square of the farthest of k neighbours. Nodes have the same tolerance in FAST mode
- * as in EXACT mode, because the bound of epsilon and the order of siblings (nearest.c) depend on it. */
+/* Return the squared distance beyond which points are ignored, if `worst` is the squared distance of the farthest of k
+ * neighbours. FAST mode drops the tolerance for points only: nodes keep it, because the bound of epsilon and the order
+ * of siblings (nearest.c) depend on it. */
 static inline double find_point_reach(const neighbor_heap *h, double worst)
 {
     return h->how->mode == OCTREE_FAST ? worst : metric_above(worst);
@@ -100,8 +102,9 @@ static double make_slot_key(double square, unsigned place)
     return square;
 }
 
-/* Return a limit: a neighbour with a smaller square or key is certainly nearer than the neighbour with `key`. Each key
- * is off by at most 2^-47 of itself, and metric_below() covers the errors of the squares. */
+/* Return a limit: a neighbour with a smaller square or key is certainly nearer than the neighbour with `key`. Two keys
+ * are off by at most 2^-47 of themselves each, and metric_below() allows 2^-47 and 2^-998 for the errors of the
+ * squares; 2^-45 is more than this sum. */
 static double find_certainly_nearer_limit(double key)
 {
     return key * (1 - 0x1p-45) - 0x1p-998;
@@ -158,8 +161,9 @@ static RARE void move_farthest_to_end(const neighbor_heap *h, double *keys, size
     keys[last] = key;
 }
 
-/* Returns whether a point takes the place of the farthest of k neighbours. */
-static inline bool is_among_few(const neighbor_heap *h, const octree_point *point, double square, double farthest)
+/* Returns whether a point is nearer than the farthest of k neighbours, whose key is `farthest`. */
+static inline bool is_nearer_than_farthest(const neighbor_heap *h, const octree_point *point, double square,
+                                           double farthest)
 {
     return square < find_certainly_nearer_limit(farthest) || is_nearer(h, point, square, find_slot_of_key(farthest));
 }
@@ -169,7 +173,7 @@ static inline bool is_rejected(const neighbor_heap *h, const octree_point *point
     return square > h->point_reach || (h->is_filtered && !is_accepted(h, point, square));
 }
 
-/* Insert the key of a point at the index `last` or before it. The point takes the slot of the key at this index. */
+/* Insert a point's key into the sorted keys. The key at index `last` is dropped, and the point takes its slot. */
 static inline void insert_neighbor(few_neighbors *f, const octree_point *point, double square, size_t last)
 {
     const unsigned place = find_slot_of_key(f->keys[last]);
@@ -202,14 +206,15 @@ static void add_to_few_neighbors(neighbor_heap *h, const octree_point *points, c
     }
     for (; within; within &= within - 1) {
         const unsigned i = bits_lowest(within);
-        if (is_rejected(h, &points[i], squares[i]) || !is_among_few(h, &points[i], squares[i], f->keys[last]))
+        if (is_rejected(h, &points[i], squares[i]) ||
+            !is_nearer_than_farthest(h, &points[i], squares[i], f->keys[last]))
             continue;
         insert_neighbor(f, &points[i], squares[i], last);
         limit_by_farthest(h, last);
     }
 }
 
-/* Returns whether keys are in the exact order of their neighbours already. */
+/* Returns whether keys are so far apart that their order is certainly the exact order of their neighbours. */
 static bool are_certainly_ascending(const double *keys, size_t count)
 {
     bool ascend = true;
@@ -247,7 +252,7 @@ static inline void add_to_one_neighbor(neighbor_heap *h, const octree_point *poi
 {
     few_neighbors *f = &h->few;
     if (is_rejected(h, point, square) ||
-        (h->count > 0 && !is_among_few(h, point, square, make_slot_key(f->squares[0], 0))))
+        (h->count > 0 && !is_nearer_than_farthest(h, point, square, make_slot_key(f->squares[0], 0))))
         return;
     f->points[0] = point;
     f->squares[0] = h->worst = square;

@@ -33,7 +33,7 @@ typedef struct neighbor_heap {
     double radius_square;
     double shrink; /* 1 / (1 + epsilon)^2, rounded up: a node is pruned if its square exceeds the farthest square times
                       this factor */
-    double worst;  /* once k neighbours are found, the square of the farthest */
+    double worst;  /* the squared distance of the farthest neighbour, once k neighbours are found */
     double point_reach;     /* a point with a greater scaled squared distance is not among the k nearest */
     double node_error;      /* the greatest error of the distances of nodes */
     double node_reach;      /* a node with a greater scaled squared distance contains none of the k nearest */
@@ -67,14 +67,13 @@ static inline void neighbor_heap_begin(neighbor_heap *h, const octree_search *ho
         neighbor_heap_begin_few(h);
 }
 
-/* Return a number that at least NEIGHBOR_GROUPS of the squares do not exceed: the greatest of the least squares of as
- * many groups. No square is NaN, because points of the world are finite. */
+/* Divide the squares into NEIGHBOR_GROUPS groups and return the greatest of the groups' minima. At least
+ * NEIGHBOR_GROUPS squares do not exceed this bound. No square is NaN, because points of the world are finite. */
 #define NEIGHBOR_GROUPS 8
 double neighbor_heap_bound(const double squares[], unsigned count);
 
 /* Return a limit for the squares of some points: a point with a greater square is not among the k nearest. `least` is
- * the least of the squares. If these points are the first ones, the existence of the nearest k of them lowers the
- * limit. */
+ * the least of the squares. If no neighbour was found yet, the k nearest of these points already lower the limit. */
 static inline double neighbor_heap_reach(const neighbor_heap *h, const double squares[], unsigned count, double least)
 {
     double reach = h->point_reach;
@@ -89,7 +88,8 @@ static inline double neighbor_heap_reach(const neighbor_heap *h, const double sq
  * skipped. */
 void neighbor_heap_add(neighbor_heap *h, const octree_point *points, const double squares[], uint64_t within);
 
-/* Returns the distance of a neighbour from its square. If nothing was scaled, it is the root of the square. */
+/* Returns the distance of a neighbour whose scaled squared distance is `square`. The root of the square is used if it
+ * is accurate: without scaling, and far from overflow and underflow. */
 static inline double neighbor_distance(const neighbor_heap *h, const octree_point *point, double square)
 {
     return h->metric.scale == 1 && 0x1p-900 < square && square < 0x1p900
@@ -100,7 +100,7 @@ static inline double neighbor_distance(const neighbor_heap *h, const octree_poin
 /* Sort the neighbours by distance, id and position. Replace their squares by distances. */
 void neighbor_heap_sort(neighbor_heap *h);
 
-/* Complete the caller's array: one neighbour needs no sorting. */
+/* Store the results in the caller's array. A single neighbour needs no sorting. */
 static inline void neighbor_heap_finish(neighbor_heap *h)
 {
     if (h->k > 1) {

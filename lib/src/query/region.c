@@ -85,7 +85,7 @@ static void prefetch_children(const frame *f)
         prefetch_memory(child_at(f->node, bits_lowest(pending))->below);
 }
 
-static void open_node(descent *d, const node *n, octree_address address, unsigned octant)
+static void enter_inner_node(descent *d, const node *n, octree_address address, unsigned octant)
 {
     region *r = d->region;
     const octant_masks masks = r->enter(r->shape, r->tree, d->depth, octant);
@@ -103,7 +103,7 @@ static bool visit_node(descent *d, const node *n, octree_address address, unsign
     meter_visit(&d->region->meter, address);
     if (n->octants == 0)
         return queue_leaf(d, n);
-    open_node(d, n, address, octant);
+    enter_inner_node(d, n, address, octant);
     return true;
 }
 
@@ -151,8 +151,9 @@ static key_box find_box_keys(const octree *tree, const octree_box *box)
     return keys;
 }
 
-/* Return the keys of `box`, changed so that every cell strictly between the keys lies inside `box`. If the lower face
- * of `box` coincides with a plane between cells, `box` contains the cell that begins at that plane. */
+/* Return the keys of `box`, changed so that a cell lies inside `box` if all its keys are strictly between them. On an
+ * axis where the lower face of `box` is a grid plane, the cell that begins at this plane is inside, so the key is
+ * lowered by 1. */
 static key_box find_enclosing_keys(const octree *tree, const octree_box *box, key_box keys)
 {
     for (int i = 0; i < 3; i++)

@@ -16,14 +16,14 @@
  * If d_i or d_j is 0, the box around the step implies this already.
  *
  * Error bound. Everything is scaled by a power of two that brings step, positions and world below 8. The scaling has an
- * error below 2^-1074. Let u = 2^-53 and S = |d_i| far_j + |d_j| far_i + R, where far is the distance from a to the
- * farther end of the world. For a point, the error of side is at most 5u S (roundings in d, in p - a, in the product,
- * in the sum, and their combination), that of R at most 4u S. For a cell, planes are treated as evenly spaced: side at
- * its lowest corner is that of the world's lowest corner (5u S) plus two products of a key (4u of at most 2S each);
- * four sums of terms of at most 3S add 12u S, in total 33u S. The planes themselves are at most two ulps of the world's
- * coordinates off their ideal position (test_exact_planes); four are used. A band of 128u S, plus those ulps times d,
- * plus 2^-1000 for underflow, on either side of R covers all of this: beyond it a point is certainly outside, within it
- * certainly inside.
+ * error below 2^-1074. Let u = 2^-53 and S = |d_i| far_j + |d_j| far_i + R, where far_i is the distance on axis i from
+ * a to the farther end of the world. For a point, the error of side is at most 5u S (roundings in d, in p - a, in the
+ * product, in the sum, and their combination), that of R at most 4u S. For a cell, planes are treated as evenly spaced:
+ * side at its lowest corner is that of the world's lowest corner (5u S) plus two products of a key (4u of at most 2S
+ * each); four sums of terms of at most 3S add 12u S, in total 33u S. The planes themselves are at most two ulps of the
+ * world's coordinates off their ideal position (test_exact_planes); four are used. A band of 128u S, plus those ulps
+ * times d, plus 2^-1000 for underflow, on either side of R covers all of this: beyond it a point is certainly outside,
+ * within it certainly inside.
  */
 #include "../exact/float_mode.h"
 #include "region.h"
@@ -122,7 +122,7 @@ static bool hull_make(hull *h, const octree *tree, const sweep *box)
 
 /* The octants of a cell that may lie between all pairs of faces, and the octants that certainly lie between them. `low`
  * holds the lowest keys of the cell. */
-static octant_masks hull_octants(const hull *h, const int32_t low[3], unsigned depth)
+static octant_masks find_hull_octants(const hull *h, const int32_t low[3], unsigned depth)
 {
     const double half = (double)cell_size(depth) / 2, quarter = half / 2;
     unsigned misses = 0, leaves = 0;
@@ -161,10 +161,11 @@ static octant_masks enter_swept_cell(void *shape, const octree *tree, unsigned d
 {
     swept_shape *s = shape;
     const octant_masks around = box_shape_enter(&s->around, tree, depth, octant);
-    /* only one octant meets the box, so the hull is compared with the children of that octant instead */
+    /* If only one octant meets the box, skip the hull here: the hull is compared with this octant's children
+     * instead. */
     if ((around.meets & (around.meets - 1)) == 0)
         return (octant_masks){around.meets, 0};
-    const octant_masks between = hull_octants(&s->hull, s->around.low[depth], depth);
+    const octant_masks between = find_hull_octants(&s->hull, s->around.low[depth], depth);
     return (octant_masks){around.meets & between.meets, around.inside & between.inside};
 }
 

@@ -65,7 +65,7 @@ static octree_status check_point_and_destination(const batch *b, size_t place, u
     return status == OCTREE_OK && b->to ? check_in_world(b->tree, b->to[place]) : status;
 }
 
-/* Append items for those of the points points[first .. first + count - 1] that are valid. */
+/* Append items for the valid points among points[first .. first + count - 1]. */
 static void collect_valid_points(batch *b, size_t first, size_t count)
 {
     uint64_t codes[TOGETHER];
@@ -116,7 +116,7 @@ static void collect_valid_items(batch *b)
         append_part_items(&b->valid, d->parts[i].batch.valid);
 }
 
-enum { LEAST_REMADE = 64 };
+enum { LEAST_REBUILT = 64 };
 
 static bool sort_items(batch *b)
 {
@@ -135,40 +135,42 @@ static bool sort_items(batch *b)
 enum { LEVELS_BELOW = 6 };
 
 /* Returns whether moves rarely meet a full leaf. This is so if the tree never refuses a point, or if a cell at the
- * maximum depth is much smaller than a cell of the grid. */
+ * maximum depth is much smaller than a cell of the deepest grid (grid_fill.c). */
 static bool rarely_refuses_points(const octree_def *def)
 {
     return def->full_leaf != OCTREE_REFUSE || def->max_depth >= GRID_DEEPEST + LEVELS_BELOW;
 }
 
 /* A rebuild is worth its cost if at least three tenths of the points move. It touches up to 64 bytes of new memory for
- * each stored point. Half of the time of the first rebuild are page faults in this memory: with a fifth of the points,
- * it took longer than a loop of octree_move (octree-bench, move_20%). */
+ * each stored point. Half of the time of the first rebuild is spent on page faults in this memory. For a move of a
+ * fifth of the points, a rebuild took longer than a loop of octree_move (octree-bench, move_20%). */
 bool is_rebuild_cheaper(const octree *tree, size_t count)
 {
-    return tree->root.count >= LEAST_REMADE && count >= tree->root.count / 10 * 3;
+    return tree->root.count >= LEAST_REBUILT && count >= tree->root.count / 10 * 3;
 }
 
-/* Decide whether a batch of moves rebuilds the tree. Without a grid, sorting also finds the points that may meet a full
- * leaf. Returns false if memory runs out. */
-static bool decide_remake(batch *b)
+/* Decide whether a batch of moves rebuilds the tree, by a grid (grid_fill.c) or by sorting. A grid is tried only if
+ * moves rarely meet a full leaf, because only sorting finds the points that may meet one. Returns false if memory runs
+ * out. */
+static bool decide_rebuild(batch *b)
 {
     const size_t stored = b->tree->root.count;
-    b->remakes = b->to && is_rebuild_cheaper(b->tree, b->count);
-    return !b->remakes || !rarely_refuses_points(&b->tree->def) || choose_grid(b, stored);
+    b->rebuilds = b->to && is_rebuild_cheaper(b->tree, b->count);
+    return !b->rebuilds || !rarely_refuses_points(&b->tree->def) || choose_grid(b, stored);
 }
 
 octree_status prepare_batch(batch *b)
 {
     b->store = &b->tree->store;
-    if (!decide_remake(b))
+    if (!decide_rebuild(b))
         return OCTREE_NO_MEMORY;
     divide_work_of_batch(b);
-    return b->remakes ? OCTREE_OK : collect_batch_points(b);
+    return b->rebuilds ? OCTREE_OK : collect_batch_points(b);
 }
 
-/* Find the grid cells of one task's points. When points are inserted into an empty tree, grid cells replace items. */
-static void find_cells_of_share(size_t number, void *context)
+/* Find the grid cells of one task's points. A batch that is inserted into an empty tree uses these cells instead of
+ * items. */
+static void find_cells_in_task(size_t number, void *context)
 {
     const batch *b = context;
     const unsigned tasks = count_tasks(b->tree, b->count);
@@ -186,7 +188,7 @@ octree_status collect_batch_points(batch *b)
         b->cells = arena_allocate(&b->store->memory, b->count * sizeof *b->cells);
         if (!b->cells)
             return OCTREE_NO_MEMORY;
-        run_tasks(b->tree, find_cells_of_share, count_tasks(b->tree, b->count), b);
+        run_tasks(b->tree, find_cells_in_task, count_tasks(b->tree, b->count), b);
         return OCTREE_OK;
     }
     if (!allocate_lists(b))
@@ -348,8 +350,8 @@ static void visit_leaves_below(batch *b, node *n, unsigned depth, span items, le
 
 /* ---- Visiting by tasks -------------------------------------------------------------------------------------- */
 
-/* Add jobs for the items. A job is a subtree with the items in it. A job has at most `grain` items, or its subtree is a
- * single leaf. Returns false if memory runs out. */
+/* Add jobs that visit the leaves of the items. A job is a subtree with its items. It has at most `grain` items, or its
+ * subtree is a single leaf. Returns false if memory runs out. */
 static bool add_visit_jobs(batch *b, const node *n, unsigned depth, span items)
 {
     if (!n || !n->octants || items.count <= b->division->grain)

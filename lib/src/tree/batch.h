@@ -2,9 +2,9 @@
 /* batch.h - makes many changes of a tree at once.
  *
  * The points that leave their position and the points that arrive at one are sorted by Morton code. restructure_tree()
- * walks the tree once and makes a plan: a leaf with enough room is edited later in place; any other changed node gets a
- * successor; unchanged nodes are shared. Planning allocates memory and may fail. Carrying out the plan cannot fail, so
- * a batch happens completely or not at all.
+ * walks the tree once and makes a plan: a leaf with enough room is edited later in place; for any other changed node, a
+ * successor is built, which replaces the node later; unchanged nodes are shared. Planning allocates memory and may
+ * fail. Carrying out the plan cannot fail, so a batch happens completely or not at all.
  */
 #ifndef OCTREE_BATCH_H
 #define OCTREE_BATCH_H
@@ -41,7 +41,7 @@ typedef struct batch {
 
     /* true: the batch only inserts points, so that an empty tree may be built with a grid */
     bool inserts;
-    bool remakes;               /* true: so many points move that the tree is rebuilt; `valid` is then empty at first */
+    bool rebuilds;              /* true: so many points move that the tree is rebuilt; `valid` is then empty at first */
     bool settled;               /* true: the statuses of the moves are final, and no move meets a full leaf */
     bool may_be_stored;         /* true: an arriving point may already be stored, so each point must be checked */
     bool duplicate;             /* true: an arriving point is already stored */
@@ -84,8 +84,8 @@ static inline octree_point point_of_item(const batch *b, const morton_item *item
     return item->index == MORTON_NEW ? arriving_point(b, item) : b->stored[item->index];
 }
 
-/* Returns the number of sorted items in the same octant as the first item; the octant is an octant of a cell of this
- * depth. */
+/* The items lie in one cell of this depth and are sorted. Returns the number of items that lie in the same octant of
+ * the cell as the first item. */
 size_t count_in_first_octant(const morton_item *items, size_t count, unsigned depth);
 
 /* Returns the number of items up to which a cell becomes a leaf. The items of a leaf need no order. */
@@ -98,7 +98,7 @@ static inline size_t unsorted_limit(const octree *tree)
 bool is_rebuild_cheaper(const octree *tree, size_t count);
 
 /* prepare_batch() checks all positions, sets the statuses, and sorts the valid points into `valid`. If the batch
- * rebuilds the tree (`remakes`), prepare_batch() does not fill `valid`; collect_batch_points() fills it if the points
+ * rebuilds the tree (`rebuilds`), prepare_batch() does not fill `valid`; collect_batch_points() fills it if the points
  * are needed. */
 octree_status prepare_batch(batch *b);
 octree_status collect_batch_points(batch *b);
@@ -164,9 +164,9 @@ octree_status restructure_tree(batch *b);
 bool can_overflow(const batch *b, const node *old, cell c, span arriving);
 
 /* Returns whether moves might meet a full leaf anywhere, by comparing the old tree with the rebuilt tree. This is
- * faster than calling can_overflow() for each cell, but the result may be true although no leaf is full. Cost: O(n) for
- * the n points in leaves that, together with the leaf at the same place in the other tree, hold more than the
- * capacity. */
+ * faster than calling can_overflow() for each cell, but the result may be true although no leaf is full. Two leaves at
+ * the same place in the two trees are examined only if they hold more points together than the capacity. Cost: O(points
+ * in these leaves). */
 bool can_overflow_when_rebuilt(const octree *tree, const node *made);
 
 /* Build a new tree and replace the old tree by it. With a grid, the new tree has the points that have grid cells;
@@ -176,7 +176,7 @@ octree_status rebuild_from_batch(batch *b);
 
 /* Move the points by rebuilding the tree. *settled becomes false if moves depend on one another; the tree is then
  * unchanged and the statuses are undefined. Errors: NO_MEMORY. */
-octree_status remake_tree(batch *b, bool *settled);
+octree_status move_points_by_rebuild(batch *b, bool *settled);
 
 /* Simulate the moves one by one in the given order. Set their statuses, and list the points that leave and arrive in
  * the end. The tree is not changed. Returns false if memory runs out. */

@@ -59,8 +59,8 @@ static bool have_same_bits(const double a[3], const double b[3])
     return memcmp(a, b, 3 * sizeof *a) == 0;
 }
 
-/* Move a point that was found in a leaf. If the point stays in its leaf, move it now; undo_moves_made() can revert this
- * without allocating memory. Otherwise list the point as leaving and as arriving. */
+/* Move a point that was found in a leaf. If the point stays in its leaf, move it now; undo_moves_within_leaves() can
+ * revert this without allocating memory. Otherwise list the point as leaving and as arriving. */
 static void move_found_point(batch *b, node *leaf, unsigned depth, morton_item *item, uint32_t index)
 {
     const double *to = b->to[item->place];
@@ -109,9 +109,9 @@ static void find_moved_points(batch *b, node *leaf, unsigned depth, span items)
     }
 }
 
-/* Revert the moves that were made at once, the last one first. This is possible because no node has moved or changed
- * since then. */
-static void undo_moves_made(batch *b)
+/* Revert the moves within leaves that move_found_point() has already made, the last one first. This is possible because
+ * no node has moved or changed since then. */
+static void undo_moves_within_leaves(batch *b)
 {
     for (size_t i = b->valid.count; i-- > 0;) {
         morton_item *item = &b->valid.items[i];
@@ -132,7 +132,7 @@ static octree_status make_independent_moves(batch *b, bool *settled)
     const octree_status status = restructure_tree(b);
     *settled = !b->duplicate && !b->overflow;
     if (status != OCTREE_OK || !*settled)
-        undo_moves_made(b);
+        undo_moves_within_leaves(b);
     return status;
 }
 
@@ -148,8 +148,8 @@ static octree_status move_valid_points(batch *b)
 {
     bool settled = false;
     octree_status status = OCTREE_OK;
-    if (b->remakes) {
-        status = remake_tree(b, &settled);
+    if (b->rebuilds) {
+        status = move_points_by_rebuild(b, &settled);
         if (settled || status != OCTREE_OK)
             return status;
         status = collect_batch_points(b);
@@ -172,15 +172,14 @@ static octree_status check_arguments(const batch *b, octree_change_kind kind)
     return is_running_callback(b->tree) ? OCTREE_BUSY : OCTREE_OK;
 }
 
-/* Returns whether a position of the caller is that of a stored point, in the memory of its leaf, as in the array
- * octree_node.points. */
+/* Returns whether the pointer `position` points into a leaf of the tree, as pointers into octree_node.points do. */
 static bool lies_in_tree_memory(const octree *tree, const double *position)
 {
     if (check_position(tree, position) != OCTREE_OK)
         return false;
     const path p = find_path(tree, morton_code(tree->axes, position));
     const node *end = path_end(&p);
-    /* below the first point of the leaf, the difference wraps around and is large */
+    /* for an address below the leaf's first point, the difference wraps around and is large */
     return end->octants == 0 &&
            (uintptr_t)position - (uintptr_t)leaf_points(end) < (size_t)end->count * sizeof(octree_point);
 }
@@ -218,8 +217,8 @@ static octree_status change_by_kind(batch *b, octree_change_kind kind)
 
 /* ---- Logging ------------------------------------------------------------------------------------------------ */
 
-/* Returns whether a coordinate of a position is zero. Only zeros, +0 and -0, are equal but have different bits. A
- * position without zeros has the same bits as the equal stored position. */
+/* Returns whether a coordinate of a position is zero. Only +0 and -0 are equal but have different bits, so a position
+ * without zeros has the same bits as the equal stored position. */
 static bool has_zero_coordinate(const double position[3])
 {
     return position[0] == 0 || position[1] == 0 || position[2] == 0;
@@ -366,9 +365,9 @@ static octree_status move_one(const batch *b, size_t *moved)
     return OCTREE_OK;
 }
 
-/* Returns whether a batch of moves is made one by one. Its arrays must not lie in the tree's memory, unless move_few()
- * copies them. */
-static bool moves_one_by_one(const batch *b)
+/* Returns whether a batch of moves is made one by one. The arrays of a batch that move_few() does not copy must lie
+ * outside the tree's memory. */
+static bool should_move_one_by_one(const batch *b)
 {
     return is_small_batch_of_moves(b) &&
            (b->count <= FEW_AT_ONCE ||
@@ -398,5 +397,5 @@ octree_status octree_move_many(octree *tree, const octree_point *points, const d
         return status;
     if (count == 1)
         return move_one(&b, moved);
-    return moves_one_by_one(&b) ? move_few(b, moved) : apply_batch(b, OCTREE_MOVED, moved);
+    return should_move_one_by_one(&b) ? move_few(b, moved) : apply_batch(b, OCTREE_MOVED, moved);
 }

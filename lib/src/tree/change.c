@@ -7,7 +7,7 @@
  * anything changes, so that a failure leaves the tree as it was.
  *
  * Functions with a parameter `undo` describe there how to revert the change (undo.h). They then keep the memory that
- * the change no longer needs; settle_step() frees it. A null pointer means that the change is final.
+ * the change no longer needs; finish_move() frees this memory. If `undo` is null, the change is final.
  */
 #include "../exact/float_mode.h"
 #include "undo.h"
@@ -293,7 +293,8 @@ static void remove_from_leaf(octree *tree, const found_point *found, step *undo)
         remove_empty_child(tree, p->nodes[p->depth - 1], leaf);
 }
 
-/* Remove a point that was found. Cannot fail. The leaf `spare` is used or freed. */
+/* Remove a point that was found. Cannot fail. `spare` is the leaf from allocate_merged_leaf(); it is used or freed
+ * here. */
 static void remove_found_point(octree *tree, const found_point *found, node *spare, step *undo)
 {
     const path *p = &found->path;
@@ -350,7 +351,8 @@ static octree_status move_to_other_leaf(octree *tree, found_point *found, single
     node spare;
     if (!allocate_merged_leaf(tree, found, &spare))
         return OCTREE_NO_MEMORY;
-    const bool moves_nodes = path_end(to)->octants != 0; /* a group of nodes gets another node */
+    /* the insertion adds a node to a group of siblings, whose nodes may then move in memory */
+    const bool moves_nodes = path_end(to)->octants != 0;
     const octree_status status = insert_at_end(tree, to, &m->moved, m->to, true, undo);
     if (status != OCTREE_OK) {
         leaf_release(&tree->store, &spare);

@@ -16,8 +16,8 @@
 
 #include <string.h>
 
-/* Reading the changes costs at least as much as reading the whole tree if there are a quarter as many changes as
- * points. */
+/* Reading the changes costs at least as much as reading the whole tree if there are a quarter (1 / SHARE) as many
+ * changes as points. A small tree keeps at least LEAST_CHANGES changes. */
 enum { LEAST_CHANGES = 1024, SHARE = 4 };
 
 uint64_t change_log_limit(const octree *tree)
@@ -32,7 +32,8 @@ void change_log_stop(change_log *log, arena *memory)
     arena_free(memory, log->items, log->room * sizeof *log->items);
     log->items = NULL;
     log->room = 0;
-    log->first = ++log->next; /* the numbers continue after a gap of one, so that all older cursors are invalid */
+    /* the number of the next change is raised by one, so that all older cursors become invalid */
+    log->first = ++log->next;
 }
 
 /* ---- Writing ------------------------------------------------------------------------------------------------ */

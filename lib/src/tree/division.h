@@ -15,8 +15,8 @@
 #include "batch.h"
 #include "tasks.h"
 
-/* The work of a task on one node: either to plan the node's successor before the parent node is planned, or to visit
- * the leaves below the node. */
+/* The work of a task on one node: either to plan the node's successor (the node that replaces it), or to visit the
+ * leaves below the node. */
 typedef struct job {
     /* the node before the batch; null: there is no old node, and a new node is built from the arriving items */
     const node *old;
@@ -28,7 +28,7 @@ typedef struct job {
 
 typedef struct job_list {
     list jobs;   /* a list of struct job, in the order in which the planning reaches the jobs' nodes */
-    size_t next; /* the index of the next job whose result is used */
+    size_t next; /* the index of the next job whose result will be used */
     bool ready;  /* true: all jobs are done, so their results can be used */
 } job_list;
 

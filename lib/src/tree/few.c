@@ -217,8 +217,8 @@ static path path_to_removal(const removals *r, const removal *found)
     return find_path(r->batch->tree, morton_code(r->batch->tree->axes, r->batch->points[found->place].position));
 }
 
-/* Find the highest node above a removed point whose remaining points fit into one leaf, and allocate this leaf. If room
- * != 0 in an inner node, its leaf is already allocated. Returns false if memory runs out. */
+/* Find the highest node above a removed point whose remaining points fit into one leaf, and allocate this leaf. A
+ * nonzero `room` marks an inner node whose leaf is already allocated. Returns false if memory runs out. */
 static bool plan_merge(removals *r, const removal *found)
 {
     store *s = &r->batch->tree->store;

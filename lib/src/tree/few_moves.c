@@ -45,7 +45,7 @@ typedef struct move_group {
     size_t count;
     made_move *made;
     single_move moves[MOVES_TOGETHER];
-    found_point found[MOVES_TOGETHER]; /* with the paths of the positions before the moves */
+    found_point found[MOVES_TOGETHER]; /* found[i].path is the path of the position before move i */
     path to[MOVES_TOGETHER];
 } move_group;
 
@@ -100,7 +100,7 @@ static void find_paths_together(move_group *g)
     }
 }
 
-/* Find both paths of one move. The second path begins as the first one. */
+/* Find the paths of a move's two positions. The search for the second path begins where the two paths part. */
 static void find_paths_of_move(move_group *g, size_t i)
 {
     const single_move *m = &g->moves[i];
@@ -181,7 +181,7 @@ static size_t complete_moves(const batch *b, const made_move *made)
             b->statuses[i] = made[i].status;
         if (made[i].status != OCTREE_OK)
             continue;
-        settle_move(b->tree, &made[i].old, made[i].undo);
+        finish_move(b->tree, &made[i].old, made[i].undo);
         moved++;
         if (change_log_is_on(&b->tree->changes))
             change_log_append(b->tree, OCTREE_MOVED, &made[i].old, b->to[i]);

@@ -21,7 +21,7 @@
 
 #include <string.h>
 
-enum { SAMPLE_STEP = 16 }; /* one point in 16 is sampled */
+enum { SAMPLE_STEP = 16 }; /* choose_grid() looks at one point in 16 */
 
 /* A crowd: a node with so many points in one grid cell that the node must be divided further than the grid. */
 typedef struct crowd {
@@ -49,7 +49,7 @@ static size_t cell_count_at(unsigned depth)
 }
 
 /* Returns whether a leaf of this many points can be written without sorting. */
-static bool fits_direct_leaf(const octree *tree, size_t count)
+static bool can_write_leaf_unsorted(const octree *tree, size_t count)
 {
     return count <= POOL_MAX_UNITS && fits_leaf(tree, count);
 }
@@ -155,7 +155,7 @@ static size_t find_items_share(const item_making *m, size_t number)
 }
 
 /* Store the number of items of a task at the start of the next task. */
-static void count_items_of_share(size_t number, void *context)
+static void count_items_in_task(size_t number, void *context)
 {
     item_making *m = context;
     const uint32_t *cells = m->whole->cells;
@@ -166,7 +166,7 @@ static void count_items_of_share(size_t number, void *context)
     m->starts[number + 1] = count;
 }
 
-static void make_items_of_share(size_t number, void *context)
+static void make_items_in_task(size_t number, void *context)
 {
     const item_making *m = context;
     const batch *b = m->whole;
@@ -183,16 +183,16 @@ size_t make_grid_items(const batch *b, octree_point *const *filter, morton_item 
 {
     item_making m = {.whole = b, .filter = filter, .items = items};
     m.tasks = count_tasks(b->tree, b->count + b->stored_count);
-    run_tasks(b->tree, count_items_of_share, m.tasks, &m);
+    run_tasks(b->tree, count_items_in_task, m.tasks, &m);
     for (unsigned task = 0; task < m.tasks; task++)
         m.starts[task + 1] += m.starts[task];
-    run_tasks(b->tree, make_items_of_share, m.tasks, &m);
+    run_tasks(b->tree, make_items_in_task, m.tasks, &m);
     return m.starts[m.tasks];
 }
 
 /* ---- Counting ----------------------------------------------------------------------------------------------- */
 
-static void count_points_of_share(size_t number, void *context)
+static void count_points_in_task(size_t number, void *context)
 {
     const filling *f = context;
     const uint32_t *cells = f->whole->cells;
@@ -268,7 +268,7 @@ static bool make_grid_node(filling *f, cell c, size_t index, node *made)
 {
     batch *b = f->whole;
     const uint32_t count = f->counts[c.depth][index];
-    if (fits_direct_leaf(b->tree, count)) {
+    if (can_write_leaf_unsorted(b->tree, count)) {
         if (!leaf_create(b->store, made, count))
             return false;
         made->count = count;
@@ -300,7 +300,7 @@ static void write_points_to_leaves(const uint32_t *cells, const octree_point *po
     }
 }
 
-static void write_points_of_share(size_t number, void *context)
+static void write_points_in_task(size_t number, void *context)
 {
     const filling *f = context;
     const batch *b = f->whole;
@@ -347,7 +347,7 @@ static bool build_crowded_cells(filling *f)
 static bool build_tree_from_counts(filling *f, node *made)
 {
     const octree *tree = f->whole->tree;
-    run_tasks(tree, count_points_of_share, f->tasks, f);
+    run_tasks(tree, count_points_in_task, f->tasks, f);
     sum_cell_counts(f);
     if (f->counts[0][0] == 0)
         return true;
@@ -356,7 +356,7 @@ static bool build_tree_from_counts(filling *f, node *made)
     store_expect_points(f->whole->store, 0);
     if (!ok)
         return false;
-    run_tasks(tree, write_points_of_share, f->tasks, f);
+    run_tasks(tree, write_points_in_task, f->tasks, f);
     if (!build_crowded_cells(f))
         return false;
     if (f->crowded > 0)

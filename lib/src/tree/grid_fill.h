@@ -21,7 +21,7 @@ void find_grid_cells(const batch *b, const octree_point *points, size_t count, u
                      octree_status *statuses);
 
 /* Make items (Morton code and index) for the points of the batch and of `stored` that have a grid cell. Returns the
- * number of items. If `filter` is not null, make items only for points for whose cell the filter's entry is null. */
+ * number of items. If `filter` is not null, only points in cells whose entry in `filter` is null get an item. */
 size_t make_grid_items(const batch *b, octree_point *const *filter, morton_item *items);
 
 /* Build a tree of the points that have grid cells. *made receives the root. All ids must differ. Returns false if

@@ -304,7 +304,8 @@ void store_init(store *s)
 
 void store_expect_points(store *s, size_t count)
 {
-    s->points.expected = count + count / 12; /* blocks of leaves have room for up to a twelfth more points */
+    /* a twelfth more, because the blocks of leaves are larger than their points need */
+    s->points.expected = count + count / 12;
     s->nodes.expected = count / 16;
 }
 

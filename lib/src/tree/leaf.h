@@ -68,7 +68,7 @@ static inline node *child_at(const node *n, unsigned octant)
     return n->octants >> octant & 1 ? children_of(n) + child_index(n, octant) : NULL;
 }
 
-/* Start loading memory into the caches that will be read soon. This affects only the speed. The empty assembly
+/* Start loading memory that will be read soon into the caches. This affects only the speed. The empty assembly
  * statement counts as a side effect: without it, GCC considers a function that only prefetches as pure, and drops calls
  * of it. */
 static inline void prefetch_memory(const void *memory)

@@ -21,7 +21,7 @@
 #define LEVELS 3 /* the maximum number of tree levels that one pass sorts: 8^3 buckets */
 
 typedef struct sorter {
-    const octree *tree; /* the tree; null unless the sort runs in tasks, as is `memory` */
+    const octree *tree; /* the tree; null (like `memory`) if the sort uses no tasks */
     arena *memory;
     size_t unsorted; /* a cell of at most this many items becomes a leaf and stays unsorted */
     bool differ;     /* true: all items are different points, so that equal codes need not be adjacent */
@@ -175,7 +175,7 @@ static void count_digits(size_t number, void *context)
         counts[digit_of(p, &p->from[i])]++;
 }
 
-static void scatter_items_of_share(size_t number, void *context)
+static void scatter_items_in_task(size_t number, void *context)
 {
     const pass *p = context;
     uint32_t *next = p->counts[number];
@@ -242,7 +242,7 @@ static void sort_by_tasks(sorter *s, morton_item *items, morton_item *other, siz
     }
     run_tasks(s->tree, count_digits, p.tasks, &p);
     sum_digit_counts(&p);
-    run_tasks(s->tree, scatter_items_of_share, p.tasks, &p);
+    run_tasks(s->tree, scatter_items_in_task, p.tasks, &p);
     arena_free(s->memory, p.counts, p.tasks * sizeof *p.counts);
     assign_cells_to_tasks(&p);
     run_tasks(s->tree, sort_cells, p.tasks, &p);

@@ -237,7 +237,7 @@ bool can_overflow(const batch *b, const node *old, cell c, span arriving)
 
 /* Compute a distance for each axis. Two points that are farther apart on some axis never lie in one indivisible cell.
  * Such a cell has the greatest depth, or contains no double between its planes. */
-static void separating_distance(const octree *tree, double distance[3])
+static void compute_separating_distance(const octree *tree, double distance[3])
 {
     const octree_box *world = &tree->def.world;
     for (int i = 0; i < 3; i++) {
@@ -295,6 +295,6 @@ bool can_overflow_when_rebuilt(const octree *tree, const node *made)
     double distance[3];
     if (tree->def.full_leaf != OCTREE_REFUSE)
         return false;
-    separating_distance(tree, distance);
+    compute_separating_distance(tree, distance);
     return can_overflow_in_nodes(tree, &tree->root, made, distance);
 }

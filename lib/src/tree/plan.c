@@ -116,8 +116,8 @@ bool get_job_result(batch *b, node *made)
     return true;
 }
 
-/* Build the node of one large leaf by jobs of its own. Meanwhile, the job list of the whole tree is stored
- * elsewhere. */
+/* Build the node of one large leaf by jobs of its own. The job list of the whole batch is set aside and restored
+ * afterwards. */
 bool build_node_by_tasks(batch *b, cell c, span items, node *made)
 {
     if (!b->division)

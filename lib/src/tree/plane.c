@@ -38,7 +38,8 @@ static double keep_high_31_bits(double value)
 }
 
 /* Set the range of fractions of a guessed key for which the key is certain. Rounding to fixed point adds one more
- * error. In subnormal worlds no guess is certain, because the guess is computed from a different product. */
+ * error. In subnormal worlds no guess is certain, because plane_fixed_point_key() does not convert subnormal
+ * numbers. */
 static void set_range_of_certain_keys(axis *a)
 {
     static const double first = (double)PLANE_GRID;

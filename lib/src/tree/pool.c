@@ -26,7 +26,8 @@
 #define SLAB_MAX_BYTES (1u << 22)
 #define CACHE_LINE 64
 
-/* The header of a slab. One bit per unit follows, which is used to join free blocks, and then the units. */
+/* The header of a slab. A bit map with one bit per unit follows, by which free blocks are joined; after the bit map
+ * come the units. */
 struct slab {
     struct slab *next;
     size_t size; /* the size of the whole slab in bytes */
@@ -57,14 +58,14 @@ octree_allocator default_allocator(void)
 }
 
 /* Returns the arena that counts the allocated bytes. Locks this arena if tasks share it. */
-static arena *lock_owner(arena *a)
+static arena *lock_counting_arena(arena *a)
 {
     if (a->shared)
         arena_lock(a->shared);
     return a->shared ? a->shared : a;
 }
 
-static void unlock_owner(arena *a)
+static void unlock_counting_arena(arena *a)
 {
     if (a->shared)
         arena_unlock(a->shared);
@@ -72,12 +73,12 @@ static void unlock_owner(arena *a)
 
 void *arena_allocate(arena *a, size_t size)
 {
-    arena *owner = lock_owner(a);
+    arena *owner = lock_counting_arena(a);
     const bool paused = float_mode_pause();
     void *memory = owner->allocator.allocate(size, owner->allocator.context);
     float_mode_resume(paused);
     owner->bytes += memory ? size : 0;
-    unlock_owner(a);
+    unlock_counting_arena(a);
     return memory;
 }
 
@@ -85,12 +86,12 @@ void arena_free(arena *a, void *memory, size_t size)
 {
     if (!memory)
         return;
-    arena *owner = lock_owner(a);
+    arena *owner = lock_counting_arena(a);
     owner->bytes -= size;
     const bool paused = float_mode_pause();
     owner->allocator.release(memory, size, owner->allocator.context);
     float_mode_resume(paused);
-    unlock_owner(a);
+    unlock_counting_arena(a);
 }
 
 void pool_init(pool *p, arena *memory, size_t unit)
@@ -238,7 +239,7 @@ static void add_free_runs(pool *p, struct slab *slab)
     }
 }
 
-/* Join adjacent free blocks. */
+/* Make new free lists, in which adjacent free blocks are joined to larger blocks. */
 static void join_free_blocks(pool *p)
 {
     struct slab **sorted = sort_slabs(p);
@@ -251,8 +252,9 @@ static void join_free_blocks(pool *p)
     arena_free(p->memory, sorted, p->slab_count * sizeof *sorted);
 }
 
-/* Returns the size of the next slab in bytes. The expected units come first. Further slabs are an eighth of the pool,
- * so that at most an eighth of the pool is unused, or a thirty-second if the pool knew what to expect. */
+/* Returns the size of the next slab in bytes. The first slabs have room for the expected units. A further slab is as
+ * large as an eighth of the pool, or a thirty-second if a number of units was expected. So at most this part of the
+ * pool is unused. */
 static size_t next_slab_bytes(const pool *p)
 {
     const size_t least = p->lender ? POOL_MAX_UNITS * p->unit : SLAB_MIN_BYTES;

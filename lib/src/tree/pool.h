@@ -26,7 +26,7 @@ typedef struct arena {
 
 static inline void arena_lock(arena *a)
 {
-    /* unreachable: reached by chance only, when two threads allocate at the same time */
+    /* unreachable: tests wait here only by chance, when two threads allocate at the same time */
     while (atomic_flag_test_and_set_explicit(&a->busy, memory_order_acquire))
         ;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* remake.c - a batch in which many points move: rebuilds the tree from the destinations and the staying points.
+/* rebuild.c - a batch in which many points move: rebuilds the tree from the destinations and the staying points.
  *
  * Problem: when three tenths of the points or more move, as in every step of a simulation, nearly every leaf changes.
  * Finding each moved point by descent and then editing its leaf costs more than building a tree.
@@ -26,7 +26,7 @@ typedef struct id_table {
      * id is stored twice, and the table is not used */
     const octree_point *_Atomic *stored;
     uint64_t *bits; /* for dense ids: bit i is set if a move has the id least + i; else null */
-    /* for other ids: for each slot, 1 + the index of the move, or 0 if the slot is empty; null if the ids are dense */
+    /* for ids that are not dense: for each slot, 1 + the index of the move, or 0 if the slot is empty; else null */
     uint32_t *places;
     size_t slot_count, first, stored_count;
     uint64_t least;
@@ -40,7 +40,7 @@ typedef struct findings {
     size_t seen, moved; /* seen: the number of moves whose id is stored; moved: the number of valid moves */
 } findings;
 
-typedef struct remake {
+typedef struct rebuild {
     batch *whole; /* the batch of moves */
     id_table ids;
     /* copies of the points that stay; each task writes its copies from the index of the first point that it reads */
@@ -51,7 +51,7 @@ typedef struct remake {
     unsigned move_tasks;
     forest stored; /* the tree before the moves */
     findings found[TASKS_AT_MOST];
-} remake;
+} rebuild;
 
 /* ---- The table of ids --------------------------------------------------------------------------------------- */
 
@@ -62,7 +62,7 @@ typedef struct id_check {
         ascend[TASKS_AT_MOST]; /* whether the ids of each task's share ascend, beginning with the id before the share */
 } id_check;
 
-static void check_ids_of_share(size_t number, void *context)
+static void check_ids_in_task(size_t number, void *context)
 {
     id_check *check = context;
     const octree_point *points = check->whole->points;
@@ -78,7 +78,7 @@ bool are_ids_ascending(const batch *b)
 {
     id_check check = {.whole = b, .tasks = count_tasks(b->tree, b->count)};
     bool all = true;
-    run_tasks(b->tree, check_ids_of_share, check.tasks, &check);
+    run_tasks(b->tree, check_ids_in_task, check.tasks, &check);
     for (unsigned task = 0; task < check.tasks; task++)
         all = all && check.ascend[task];
     return all;
@@ -204,12 +204,12 @@ static bool make_move_table(const batch *b, id_table *t, bool *differ)
 /* ---- The stored points -------------------------------------------------------------------------------------- */
 
 /* Find the grid cells of a range of staying points. */
-static void find_staying_cells(const remake *r, size_t first, size_t count)
+static void find_staying_cells(const rebuild *r, size_t first, size_t count)
 {
     find_grid_cells(r->whole, r->staying + first, count, r->cells + r->count + first, NULL);
 }
 
-static void separate_moving_points_in_leaf(const remake *r, const node *leaf, findings *f)
+static void separate_moving_points_in_leaf(const rebuild *r, const node *leaf, findings *f)
 {
     /* a local copy, so that the compiler knows that the stores below do not change the table */
     const id_table ids = r->ids;
@@ -225,7 +225,7 @@ static void separate_moving_points_in_leaf(const remake *r, const node *leaf, fi
     f->looked_up += leaf->count;
 }
 
-static void separate_moving_points_below(const remake *r, const node *n, findings *f)
+static void separate_moving_points_below(const rebuild *r, const node *n, findings *f)
 {
     const unsigned children = bits_count8(n->octants);
     for (unsigned i = 0; i < children; i++) {
@@ -237,9 +237,9 @@ static void separate_moving_points_below(const remake *r, const node *n, finding
         separate_moving_points_in_leaf(r, n, f);
 }
 
-static void separate_moving_points_of_share(size_t number, void *context)
+static void separate_moving_points_in_task(size_t number, void *context)
 {
-    remake *r = context;
+    rebuild *r = context;
     const subtree *s = first_subtree(&r->stored, number), *end = first_subtree(&r->stored, number + 1);
     findings *f = &r->found[number];
     *f = (findings){.first = s < end ? s->before : 0};
@@ -262,7 +262,7 @@ static octree_status find_move_error(const batch *b, size_t place)
 }
 
 /* Returns whether a move is valid. *to receives the grid cell of the move's destination. */
-static bool is_valid_move(const remake *r, size_t place, const octree_point *stored, uint32_t *to)
+static bool is_valid_move(const rebuild *r, size_t place, const octree_point *stored, uint32_t *to)
 {
     const batch *b = r->whole;
     if (!stored || !same_position(stored->position, b->points[place].position))
@@ -277,7 +277,7 @@ static bool is_valid_move(const remake *r, size_t place, const octree_point *sto
 
 /* Check a group of moves. The stored points of all moves are prefetched before the first move is checked, so that cache
  * misses overlap. */
-static void check_move_group(const remake *r, size_t first, size_t count, findings *f)
+static void check_move_group(const rebuild *r, size_t first, size_t count, findings *f)
 {
     const batch *b = r->whole;
     const octree_point *stored[GRID_TOGETHER];
@@ -304,9 +304,9 @@ static void check_move_group(const remake *r, size_t first, size_t count, findin
     }
 }
 
-static void check_moves_of_share(size_t number, void *context)
+static void check_moves_in_task(size_t number, void *context)
 {
-    remake *r = context;
+    rebuild *r = context;
     const size_t end = find_share_start(r->count, r->move_tasks, number + 1);
     for (size_t i = find_share_start(r->count, r->move_tasks, number); i < end; i += GRID_TOGETHER)
         check_move_group(r, i, end - i < GRID_TOGETHER ? end - i : GRID_TOGETHER, &r->found[number]);
@@ -314,9 +314,9 @@ static void check_moves_of_share(size_t number, void *context)
 
 /* ---- The new tree ------------------------------------------------------------------------------------------ */
 
-/* Add the stored points of invalid moves to the staying points, which these points join unmoved. The copies are written
- * where the parts of tasks have room left. */
-static void keep_points_of_invalid_moves(remake *r)
+/* The point of an invalid move stays where it is: copy it to the staying points. The copies fill the gaps that the
+ * tasks left in the array. */
+static void keep_points_of_invalid_moves(rebuild *r)
 {
     unsigned task = 0;
     for (size_t i = 0; i < r->count; i++) {
@@ -348,7 +348,7 @@ static octree_status sort_and_build(batch *b, size_t total)
     return status;
 }
 
-static octree_status build_moved_tree(remake *r, bool *settled)
+static octree_status build_moved_tree(rebuild *r, bool *settled)
 {
     const batch *whole = r->whole;
     const size_t total = whole->tree->root.count;
@@ -368,7 +368,7 @@ static octree_status build_moved_tree(remake *r, bool *settled)
     return status;
 }
 
-static octree_status check_moves_and_build(remake *r, bool *settled)
+static octree_status check_moves_and_build(rebuild *r, bool *settled)
 {
     batch *b = r->whole;
     size_t looked_up = 0, stay = 0, seen = 0;
@@ -379,8 +379,8 @@ static octree_status check_moves_and_build(remake *r, bool *settled)
     divide_tree(&r->stored, b->tree, NULL, NULL);
     r->move_tasks = count_tasks(b->tree, r->count);
     memset(r->found, 0, sizeof r->found);
-    run_tasks(b->tree, separate_moving_points_of_share, r->stored.tasks, r);
-    run_tasks(b->tree, check_moves_of_share, r->move_tasks, r);
+    run_tasks(b->tree, separate_moving_points_in_task, r->stored.tasks, r);
+    run_tasks(b->tree, check_moves_in_task, r->move_tasks, r);
     b->done = 0;
     for (unsigned i = 0; i < TASKS_AT_MOST; i++) {
         looked_up += r->found[i].looked_up;
@@ -392,11 +392,11 @@ static octree_status check_moves_and_build(remake *r, bool *settled)
     return *settled && b->done > 0 ? build_moved_tree(r, settled) : OCTREE_OK;
 }
 
-octree_status remake_tree(batch *b, bool *settled)
+octree_status move_points_by_rebuild(batch *b, bool *settled)
 {
     arena *memory = &b->store->memory;
     const size_t stored = b->tree->root.count, cells = (b->count + stored) * sizeof(uint32_t);
-    remake *r = arena_allocate(memory, sizeof *r);
+    rebuild *r = arena_allocate(memory, sizeof *r);
     octree_status status = OCTREE_NO_MEMORY;
     *settled = true;
     if (!r)

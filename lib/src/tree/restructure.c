@@ -120,7 +120,7 @@ static void append_arriving_points(batch *b, node *made, span arriving)
     }
 }
 
-static bool remake_leaf(batch *b, const node *old, span leaving, span arriving, node *made)
+static bool make_changed_leaf(batch *b, const node *old, span leaving, span arriving, node *made)
 {
     if (!leaf_create(b->store, made, (uint32_t)(old->count - leaving.count + arriving.count)))
         return false;
@@ -274,7 +274,7 @@ static bool change_leaf(batch *b, const node *old, cell c, span leaving, span ar
         return divide_leaf(b, old, c, leaving, arriving, made);
     if (old->room != LEAF_HASHED && count <= old->room)
         return plan_leaf_edit(b, old, leaving, arriving, made);
-    return remake_leaf(b, old, leaving, arriving, made);
+    return make_changed_leaf(b, old, leaving, arriving, made);
 }
 
 /* Append the points of a subtree to the leaf `made`, except the points that leave the tree. `old` is the root of the
@@ -308,7 +308,7 @@ static bool merge_into_leaf(batch *b, const node *old, cell c, span leaving, spa
 
 bool plan_replacement(batch *b, node *at, const node *made)
 {
-    /* the child is unchanged: if the blocks are the same, octants and room are the same too */
+    /* With the same block and the same count, the node is unchanged: its octants and room are then the same, too. */
     if (at->below == made->below && at->count == made->count)
         return true;
     const patch p = {at, *made};

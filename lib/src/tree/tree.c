@@ -175,7 +175,7 @@ octree_status rebuild_tree(octree *tree, const octree_def *def)
     octree_point *points = arena_allocate(&other->store.memory, size);
     status = OCTREE_NO_MEMORY;
     if (points) {
-        /* mark `tree` as visited, because its executor runs tasks of the other tree */
+        /* while its executor runs tasks of the other tree, changes of `tree` return BUSY */
         const unsigned begun = begin_callbacks(tree);
         node_copy_points(&tree->root, points);
         status = insert_all_points(other, points, count);
@@ -200,7 +200,7 @@ octree_status octree_replace_all(octree *tree, const octree_point *points, size_
     octree_status status = octree_create(&tree->def, &other);
     if (status != OCTREE_OK)
         return status;
-    /* mark `tree` as visited, because its executor runs tasks of the other tree */
+    /* while its executor runs tasks of the other tree, changes of `tree` return BUSY */
     const unsigned begun = begin_callbacks(tree);
     if (tree->def.full_leaf == OCTREE_GROW) /* no leaf refuses points */
         store_expect_points(&other->store, count);
@@ -275,8 +275,9 @@ bool find_point(const octree *tree, const double position[3], uint64_t id, found
     return found->index != LEAF_NONE;
 }
 
-/* Returns the leaf of shifted keys, or the inner node that has no child in their octant. */
-static inline const node *find_end(const octree *tree, const uint64_t keys[3])
+/* Returns the leaf whose cell contains the shifted keys (plane.h). If there is none, returns the last node on the path
+ * to them. */
+static inline const node *find_deepest_node(const octree *tree, const uint64_t keys[3])
 {
     const node *n = &tree->root;
     for (uint64_t x = keys[0], y = keys[1], z = keys[2]; n->octants; x <<= 1, y <<= 1, z <<= 1) {
@@ -298,7 +299,8 @@ static inline uint64_t mask_four_equal(const octree_point *points, __m128d x)
 }
 #endif
 
-/* Returns a bit mask of those of 1 to 64 points that have this x. The last four points may overlap the previous four.
+/* Returns a bit mask of the points, 1 to 64, whose first coordinate equals `x`. Points are compared four at a time; the
+ * last four may overlap the previous four.
  */
 static inline uint64_t mask_equal_x(const octree_point *points, unsigned count, double x)
 {
@@ -333,10 +335,10 @@ static inline const octree_point *find_in_leaf(const node *leaf, const double po
     return found;
 }
 
-static inline octree_status find_from_keys(const octree *tree, const uint64_t keys[3], const double position[3],
-                                           uint64_t *id)
+static inline octree_status find_id_by_keys(const octree *tree, const uint64_t keys[3], const double position[3],
+                                            uint64_t *id)
 {
-    const node *end = find_end(tree, keys);
+    const node *end = find_deepest_node(tree, keys);
     const octree_point *found = end->octants ? NULL : find_in_leaf(end, position);
     if (found && id)
         *id = found->id;
@@ -344,13 +346,13 @@ static inline octree_status find_from_keys(const octree *tree, const uint64_t ke
 }
 
 /* Find a position near a plane, or outside the world. */
-static octree_status find_near_plane(const octree *tree, const double position[3], uint64_t *id)
+static octree_status find_id_near_plane(const octree *tree, const double position[3], uint64_t *id)
 {
     const octree_status status = check_position(tree, position);
     uint64_t keys[3];
     for (int i = 0; i < 3 && status == OCTREE_OK; i++)
         keys[i] = (uint64_t)plane_key(&tree->axes[i], position[i]) << (64 - OCTREE_MAX_DEPTH);
-    return status == OCTREE_OK ? find_from_keys(tree, keys, position, id) : status;
+    return status == OCTREE_OK ? find_id_by_keys(tree, keys, position, id) : status;
 }
 
 octree_status octree_find(const octree *tree, const double position[3], uint64_t *id)
@@ -360,8 +362,8 @@ octree_status octree_find(const octree *tree, const double position[3], uint64_t
     if (!tree || !position)
         return OCTREE_NULL_ARGUMENT;
     if (RARELY(!plane_shifted_keys(tree->axes, position, keys)))
-        return find_near_plane(tree, position, id);
-    return find_from_keys(tree, keys, position, id);
+        return find_id_near_plane(tree, position, id);
+    return find_id_by_keys(tree, keys, position, id);
 }
 
 bool octree_contains(const octree *tree, const double position[3], uint64_t id)

@@ -237,12 +237,12 @@ static octree_mix clamp_mix(octree_mix mix, size_t most)
     return mix;
 }
 
-static octree_status choose_by_sample(octree *tree, const octree_mix *mix, size_t *capacity)
+static octree_status choose_capacity_by_sample(octree *tree, const octree_mix *mix, size_t *capacity)
 {
     sample s = {.mix = clamp_mix(*mix, LEAST_CELL)};
     arena *memory = &tree->store.memory;
     const size_t size = ((s.mix.k > s.mix.hits ? s.mix.k : s.mix.hits) + 1) * sizeof *s.neighbors;
-    /* mark `tree` as visited, because its executor runs tasks of the trial trees */
+    /* while its executor runs tasks of the trial trees, changes of `tree` return BUSY */
     const unsigned begun = begin_callbacks(tree);
     s.neighbors = arena_allocate(memory, size);
     const bool ok = s.neighbors && make_sample(&s, tree);
@@ -266,7 +266,7 @@ octree_status octree_tune(octree *tree, const octree_mix *mix)
     /* the tree has no points, so it gets the default capacity */
     def.leaf_capacity = octree_def_default().leaf_capacity;
     if (status == OCTREE_OK && octree_count(tree) > 0)
-        status = choose_by_sample(tree, &asked, &def.leaf_capacity);
+        status = choose_capacity_by_sample(tree, &asked, &def.leaf_capacity);
     if (status == OCTREE_OK && def.leaf_capacity != tree->def.leaf_capacity)
         status = rebuild_tree(tree, &def);
     if (status == OCTREE_OK)

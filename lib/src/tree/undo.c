@@ -19,7 +19,7 @@ static void restore_removed_point(node *leaf, const step *s, const octree_point 
 }
 
 /* Free the new group of children and its new leaf, which is the only child that the old node does not have. */
-static void restore_group(octree *tree, node *at, const node *old)
+static void restore_child_group(octree *tree, node *at, const node *old)
 {
     leaf_release(&tree->store, child_at(at, bits_lowest(at->octants & ~old->octants)));
     pool_free(&tree->store.nodes, at->below, bits_count8(at->octants));
@@ -50,7 +50,7 @@ static void revert_step(octree *tree, const step *s, uint64_t code, const octree
         *at = s->old;
         break;
     case STEP_REGROUPED:
-        restore_group(tree, at, &s->old);
+        restore_child_group(tree, at, &s->old);
         break;
     case STEP_NONE:
     case STEP_OVERWRITTEN:
@@ -70,10 +70,10 @@ void revert_move(octree *tree, const single_move *m, const step undo[2])
     }
 }
 
-/* ---- Settling ----------------------------------------------------------------------------------------------- */
+/* ---- Finishing ---------------------------------------------------------------------------------------------- */
 
 /* Remove the leaf at a position if it is empty. If it is hashed, shrink its block. */
-static void tidy_leaf_at(octree *tree, const double position[3])
+static void remove_or_shrink_leaf_at(octree *tree, const double position[3])
 {
     const path p = find_path(tree, morton_code(tree->axes, position));
     node *leaf = path_end(&p);
@@ -84,14 +84,14 @@ static void tidy_leaf_at(octree *tree, const double position[3])
         remove_empty_child(tree, p.nodes[p.depth - 1], leaf);
 }
 
-static void settle_removal(octree *tree, const step *s, const octree_point *removed)
+static void finish_removal(octree *tree, const step *s, const octree_point *removed)
 {
     leaf_free_end(&tree->store, &s->old);
     if (s->old.count == 1 || s->old.room == LEAF_HASHED)
-        tidy_leaf_at(tree, removed->position);
+        remove_or_shrink_leaf_at(tree, removed->position);
 }
 
-void settle_move(octree *tree, const octree_point *old, const step undo[2])
+void finish_move(octree *tree, const octree_point *old, const step undo[2])
 {
     for (int i = 0; i < 2; i++) {
         const step *s = &undo[i];
@@ -100,6 +100,6 @@ void settle_move(octree *tree, const octree_point *old, const step undo[2])
         else if (s->kind == STEP_REGROUPED)
             pool_free(&tree->store.nodes, s->old.below, bits_count8(s->old.octants));
         else if (s->kind == STEP_REMOVED)
-            settle_removal(tree, s, old);
+            finish_removal(tree, s, old);
     }
 }

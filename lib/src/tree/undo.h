@@ -7,7 +7,7 @@
  * Idea: each change of a node is a step that keeps the memory which the node no longer needs. The blocks of the old
  * node are not freed, and a leaf that becomes empty stays. So a step is reverted by writing the old node back. Steps
  * are reverted in the opposite order, so that each one finds the nodes above it as they were. When all moves of the
- * batch are made, settle_move() frees the memory that the steps kept.
+ * batch are made, finish_move() frees the memory that the steps kept.
  *
  * Cost: 24 bytes a step, two steps a move.
  */
@@ -26,7 +26,7 @@ typedef enum step_kind {
 } step_kind;
 
 typedef struct step {
-    node old;       /* the node before the step; of a leaf that got a point, or whose point moved, it is not set */
+    node old;       /* the node before the step; not set for STEP_OVERWRITTEN and STEP_APPENDED */
     uint32_t index; /* the index of a removed point in its leaf */
     uint8_t depth;  /* the depth of the changed node */
     uint8_t kind;   /* a step_kind */
@@ -38,9 +38,9 @@ typedef struct single_move {
 } single_move;
 
 /* Move a point. found->path and `to` are the paths of the two positions; found->index is not read. m->old.position
- * becomes the position as it was stored. If `undo` is not null, it has two steps of the kind STEP_NONE, which receive
- * how to revert the move: the arrival of the point, or its move within the leaf; and the departure of the point.
- * Returns the statuses of octree_move(). */
+ * becomes the position as it was stored. `undo` may be null. Otherwise undo[0] and undo[1] must be STEP_NONE before the
+ * call. undo[0] receives the arrival of the point or its move within a leaf, undo[1] its departure. Returns the
+ * statuses of octree_move(). */
 octree_status move_along_paths(octree *tree, single_move *m, found_point *found, const path *to, step *undo);
 
 /* Returns whether a move has moved or replaced inner nodes, so that the paths of other points may be wrong. If not, the
@@ -50,10 +50,10 @@ static inline bool changes_paths(const step undo[2])
     return undo[0].kind == STEP_REGROUPED || undo[1].kind == STEP_REPLACED;
 }
 
-/* revert_move() restores the tree as it was before a move, after which nothing else has changed. settle_move() frees
- * the memory that the steps of a move kept; `old` is the point before the move. No move can then be reverted any more.
- * Neither needs memory. */
+/* revert_move() restores the tree as it was before a move, after which nothing else has changed. finish_move() frees
+ * the memory that the steps of a move kept; `old` is the point before the move. After finish_move(), no move can be
+ * reverted any more. Neither function allocates memory. */
 void revert_move(octree *tree, const single_move *m, const step undo[2]);
-void settle_move(octree *tree, const octree_point *old, const step undo[2]);
+void finish_move(octree *tree, const octree_point *old, const step undo[2]);
 
 #endif

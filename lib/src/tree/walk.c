@@ -230,7 +230,7 @@ static bool check_divided_node(const subtree *s, void *context)
     return !broken;
 }
 
-static void check_subtrees_of_share(size_t number, void *context)
+static void check_subtrees_in_task(size_t number, void *context)
 {
     reading *r = context;
     const octree *tree = r->forest.tree;
@@ -251,7 +251,7 @@ const char *octree_check(const octree *tree, octree_address *where)
     reading r;
     memset(r.first, 0, sizeof r.first);
     divide_tree(&r.forest, tree, check_divided_node, &r);
-    run_tasks(tree, check_subtrees_of_share, r.forest.tasks, &r);
+    run_tasks(tree, check_subtrees_in_task, r.forest.tasks, &r);
     validation *first = &r.first[r.forest.tasks];
     for (unsigned i = 0; i < r.forest.tasks; i++)
         keep_first_violation(first, r.first[i].broken, r.first[i].where);
@@ -344,7 +344,7 @@ static bool digest_divided_node(const subtree *s, void *context)
     return true;
 }
 
-static void digest_subtrees_of_share(size_t number, void *context)
+static void digest_subtrees_in_task(size_t number, void *context)
 {
     reading *r = context;
     const subtree *end = first_subtree(&r->forest, number + 1);
@@ -359,7 +359,7 @@ uint64_t octree_digest(const octree *tree)
     reading r;
     memset(r.sums, 0, sizeof r.sums);
     divide_tree(&r.forest, tree, digest_divided_node, &r);
-    run_tasks(tree, digest_subtrees_of_share, r.forest.tasks, &r);
+    run_tasks(tree, digest_subtrees_in_task, r.forest.tasks, &r);
     uint64_t sum = 0;
     for (unsigned i = 0; i <= r.forest.tasks; i++)
         sum += r.sums[i];
