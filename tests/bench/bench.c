@@ -11,11 +11,12 @@
 
 const char program_name[] = "octree-bench";
 
-enum { COUNTS_AT_MOST = 16, POINTS_AT_LEAST = 100, POINTS_AT_MOST = 100000000 };
+enum { COUNTS_AT_MOST = 16 };
 
 typedef struct options {
     size_t counts[COUNTS_AT_MOST];
     int count;
+    point_file file; /* points to measure; no rows: the sets are measured */
     bool sets[OCTREE_SAMPLE_KINDS];
     bool ops[OPS];
     unsigned threads[BENCH_THREAD_COUNTS];
@@ -29,11 +30,14 @@ static void print_help(void)
     puts("octree-bench - every operation of the octree, timed beside nanoflann and Boost.Geometry where those are\n"
          "installed: in one process, in turn, on the same points, the answers compared\n\n"
          "usage: octree-bench [OPTION ...]\n\n"
-         "      --n LIST      numbers of points, separated by commas (100 to 1e8; default 1e4,1e5,1e6)");
+         "      --n LIST      numbers of points, separated by commas (100 to 1e8; default\n"
+         "                    1e4,1e5,2.5e5,7e5,1e6: the leaves of a tree of 2.5e5 points hold the most)");
     fputs("      --set LIST    of", stdout);
     for (int i = 0; i < OCTREE_SAMPLE_KINDS; i++)
         printf(" %s", octree_sample_name((octree_sample_kind)i));
-    fputs(" (default all)\n      --op LIST     of", stdout);
+    fputs(" (default all; a surface is as a scanner sees it)\n"
+          "      --points FILE measure points of this file, lines of x y z, instead of sets\n      --op LIST     of",
+          stdout);
     for (int i = 0; i < OPS; i++)
         printf("%s%s", i % 6 == 5 ? "\n                    " : " ", all_ops[i].name);
     printf(" (default all)\n"
@@ -90,7 +94,7 @@ static void take_threads(void *to, const char *entry)
 /* Without options, everything is measured. */
 static void fill_defaults(options *o)
 {
-    static const size_t counts[] = {10000, 100000, 1000000};
+    static const size_t counts[] = {10000, 100000, 250000, 700000, 1000000};
     if (o->count == 0) {
         o->count = sizeof counts / sizeof counts[0];
         memcpy(o->counts, counts, sizeof counts);
@@ -105,10 +109,15 @@ static void fill_defaults(options *o)
 static options read_options(int argc, char **argv)
 {
     static const struct option names[] = {
-        {"n", required_argument, NULL, 'n'},      {"set", required_argument, NULL, 's'},
-        {"op", required_argument, NULL, 'o'},     {"threads", required_argument, NULL, 't'},
-        {"rounds", required_argument, NULL, 'r'}, {"json", no_argument, NULL, 'j'},
-        {"help", no_argument, NULL, 'h'},         {NULL, 0, NULL, 0},
+        {"n", required_argument, NULL, 'n'},
+        {"set", required_argument, NULL, 's'},
+        {"points", required_argument, NULL, 'p'},
+        {"op", required_argument, NULL, 'o'},
+        {"threads", required_argument, NULL, 't'},
+        {"rounds", required_argument, NULL, 'r'},
+        {"json", no_argument, NULL, 'j'},
+        {"help", no_argument, NULL, 'h'},
+        {NULL, 0, NULL, 0},
     };
     options o = {.rounds = 5};
     for (int name; (name = getopt_long(argc, argv, "h", names, NULL)) != -1;) {
@@ -118,6 +127,9 @@ static options read_options(int argc, char **argv)
             break;
         case 's':
             parse_list(&o, optarg, take_set);
+            break;
+        case 'p':
+            o.file = read_point_file(optarg);
             break;
         case 'o':
             parse_list(&o, optarg, take_op);
@@ -148,7 +160,7 @@ static int run_workload(const options *o, octree_sample_kind set, size_t count)
 {
     workload w;
     outcome result = OUT_OF_MEMORY;
-    if (workload_make(&w, set, count) && o->thread_counts > 0) {
+    if (workload_make(&w, set, o->file.rows ? &o->file : NULL, count) && o->thread_counts > 0) {
         if (measure_threads(&w, o->threads, o->thread_counts, o->rounds, o->json))
             result = MEASURED;
         workload_free(&w);
@@ -167,8 +179,9 @@ int main(int argc, char **argv)
 {
     const options o = read_options(argc, argv);
     int status = EXIT_DONE;
-    for (int set = 0; status == EXIT_DONE && set < OCTREE_SAMPLE_KINDS; set++)
-        for (int i = 0; status == EXIT_DONE && o.sets[set] && i < o.count; i++)
+    for (int set = 0; status == EXIT_DONE && set < (o.file.rows ? 1 : OCTREE_SAMPLE_KINDS); set++)
+        for (int i = 0; status == EXIT_DONE && (o.file.rows || o.sets[set]) && i < o.count; i++)
             status = run_workload(&o, (octree_sample_kind)set, o.counts[i]);
+    free(o.file.rows);
     exit_with_status(status);
 }

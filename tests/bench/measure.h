@@ -5,7 +5,7 @@
 
 #include "workload.h"
 
-enum { ROUNDS_AT_MOST = 99, RIVALS_AT_MOST = 8 };
+enum { ROUNDS_AT_MOST = 99, RIVALS_AT_MOST = 16 };
 
 /* A tree that takes part in an operation. */
 typedef struct contender {

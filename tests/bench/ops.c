@@ -21,8 +21,10 @@ const op all_ops[OPS] = {
     {"box1000", STAGE_STATIC, .ask = PEER_BOX, .most = 5000, .hits = 1000, .goal = {AT_LEAST, 2}},
     {"radius100", STAGE_STATIC, .ask = PEER_RADIUS, .most = 20000, .hits = 100, .goal = {AT_LEAST, 2}},
     {"collide", STAGE_STATIC, .ask = PEER_COLLIDE, .most = 50000, .hits = 10},
-    {"nearest", STAGE_STATIC, .ask = PEER_NEAREST, .most = 100000, .goal = {AT_LEAST, 2}},
-    {"knn8", STAGE_STATIC, .ask = PEER_KNN, .most = 50000, .goal = {AT_LEAST, 2}},
+    {"nearest", STAGE_STATIC, .ask = PEER_NEAREST, .most = 100000, .goal = {AT_LEAST, 1}},
+    {"knn8", STAGE_STATIC, .ask = PEER_KNN, .most = 50000, .goal = {AT_LEAST, 1}},
+    {"nearest_sorted", STAGE_STATIC, .ask = PEER_NEAREST, .most = 100000, .sorted = true, .goal = {AT_LEAST, 1}},
+    {"knn8_sorted", STAGE_STATIC, .ask = PEER_KNN, .most = 50000, .sorted = true, .goal = {AT_LEAST, 1}},
     {"nearest_batch", STAGE_STATIC, .ask = PEER_NEAREST_BATCH, .most = 100000, .rival = "octree-singly",
      .rival_ask = PEER_NEAREST, .note = SINGLE_SEARCHES},
     {"nearest_all", STAGE_STATIC, .ask = PEER_NEAREST_ALL, .most = 100000, .rival = "octree-singly",
@@ -171,7 +173,9 @@ static outcome run_asks(const op *o, lineup *l, workload *w, int rounds)
     if (o->hits && !workload_size_targets(w, o->ask, o->hits))
         return OUT_OF_MEMORY;
     const questions asked = {.op = o->name,
-                             .queries = o->stored ? w->stored : w->targets,
+                             .queries = o->stored   ? w->stored
+                                        : o->sorted ? w->sorted
+                                                    : w->targets,
                              .count = w->query_count < o->most ? w->query_count : o->most};
     return measure_asks(l, w, &asked, rounds);
 }

@@ -2,10 +2,16 @@
 /* peer.h - one interface for every tree that the bench measures: the octree and its peers.
  *
  * Each function takes a whole array, so that the tree is timed and not the call. A null function is an operation that
- * the tree does not have. The peers in C++ end the program when memory runs out. */
+ * the tree does not have. The peers in C++ end the program when memory runs out.
+ *
+ * To measure another index, write a file peer_NAME.cpp or peer_NAME.c that defines `const peer peer_NAME`; in C++, the
+ * header declares it as extern "C". peer_nanoflann.cpp is a short example. Then configure with
+ *     cmake -DOCTREEL_BENCH_PEERS="/path/peer_NAME.cpp" -DOCTREEL_BENCH_INCLUDES="/path/of/its/headers"
+ * Both options are lists, separated by semicolons. The bench compares every answer with the octree's. */
 #ifndef BENCH_PEER_H
 #define BENCH_PEER_H
 
+#include "more_peers.h" /* BENCH_MORE_PEERS, which CMake writes */
 #include "octree/octree.h"
 
 #ifdef __cplusplus
@@ -53,6 +59,7 @@ typedef struct peer {
     void *(*create)(const octree_box *world); /* null: no memory */
     void (*destroy)(void *self);
     size_t (*memory)(const void *self); /* bytes, coordinates and ids included */
+    double error; /* the greatest error of a distance, for trees that compute in floats; 0: errors of doubles */
     peer_change change[PEER_CHANGES];
     peer_ask ask[PEER_ASKS];
 } peer;
@@ -66,9 +73,14 @@ void *make_octree(const octree_box *world, size_t capacity);
 extern const peer peer_grid;
 
 extern const peer peer_nanoflann;
+extern const peer peer_nanoflann_float;
 extern const peer peer_boost_packed;
 extern const peer peer_boost_quadratic;
 extern const peer peer_boost_rstar;
+
+/* The peers of OCTREEL_BENCH_PEERS. */
+#define BENCH_DECLARE_PEER(name) extern const peer peer_##name;
+BENCH_MORE_PEERS(BENCH_DECLARE_PEER)
 
 #ifdef __cplusplus
 }

@@ -8,6 +8,4 @@
 /* Ends with null; the octree is first. */
 extern const peer *const all_peers[];
 
-enum { PEERS_AT_MOST = 5 };
-
 #endif

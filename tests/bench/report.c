@@ -6,8 +6,8 @@
 
 void report_heading(const workload *w, int rounds)
 {
-    printf("\n%zu %s points: CPU nanoseconds an operation, the median of %d round%s\n", w->count,
-           octree_sample_name(w->set), rounds, rounds == 1 ? "" : "s");
+    printf("\n%zu %s points: CPU nanoseconds an operation, the median of %d round%s\n", w->count, w->name, rounds,
+           rounds == 1 ? "" : "s");
     printf("%-16s %10s %8s %12s  %-16s %6s  %s\n", "operation", "octree", "bytes", "best other", "who", "ratio",
            "goal");
 }
@@ -52,7 +52,7 @@ void report_json(const op *o, const workload *w, const lineup *l, void *context)
     for (int i = 0; i < l->count; i++) {
         const contender *c = &l->of[i];
         printf("{\"op\":\"%s\",\"set\":\"%s\",\"n\":%zu,\"who\":\"%s\",\"ns\":%.1f,\"bytes_per_point\":%.1f}\n",
-               o->name, octree_sample_name(w->set), w->count, c->who, c->ns, (double)c->memory / (double)c->points);
+               o->name, w->name, w->count, c->who, c->ns, (double)c->memory / (double)c->points);
     }
     fflush(stdout);
 }

@@ -255,8 +255,8 @@ static void report_op_by_threads(const workload *w, int op, const unsigned *thre
         if (json)
             printf("{\"op\":\"%s\",\"set\":\"%s\",\"n\":%zu,\"threads\":%u,\"clock_ns\":%.2f,\"serial_ns\":%.2f,"
                    "\"critical_ns\":%.2f}\n",
-                   bulk_names[op], octree_sample_name(w->set), w->count, threads[i], t->clock / points,
-                   t->serial / points, t->critical / points);
+                   bulk_names[op], w->name, w->count, threads[i], t->clock / points, t->serial / points,
+                   t->critical / points);
         else
             printf("%-12s %7u %10.2f %6.2f %10.2f %10.2f %6.2f\n", bulk_names[op], threads[i], t->clock / points,
                    times[0].clock / t->clock, t->serial / points, t->critical / points,
@@ -273,8 +273,8 @@ bool measure_threads(const workload *w, const unsigned *threads, int count, int 
     bool ok = true;
     if (!json)
         printf("\n%zu %s points: nanoseconds a point, the median of %d round%s\n%-12s %7s %10s %6s %10s %10s %6s\n",
-               w->count, octree_sample_name(w->set), rounds, rounds == 1 ? "" : "s", "operation", "threads", "clock",
-               "ratio", "serial", "critical", "ratio");
+               w->count, w->name, rounds, rounds == 1 ? "" : "s", "operation", "threads", "clock", "ratio", "serial",
+               "critical", "ratio");
     while (ok && begun < count) {
         ok = game_begin(&games[begun], w, threads[begun]);
         begun++;

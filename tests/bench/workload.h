@@ -7,7 +7,7 @@
 #include "peer.h"
 
 typedef struct workload {
-    octree_sample_kind set;
+    const char *name; /* of the set of points */
     octree_box world;
     size_t count;
     octree_point *points; /* in random order; ids are places */
@@ -16,11 +16,26 @@ typedef struct workload {
     octree_point *near, *far; /* where the first picks move to: one mean spacing away, to a place like the others */
     peer_query *stored;       /* the places of the first picks */
     peer_query *targets;      /* places of the same distribution (for a lattice: anywhere) where no point is */
+    peer_query *sorted;       /* some of the targets, in Morton order and without a size */
     size_t query_count;       /* of near, far, stored and targets */
 } workload;
 
-/* Make the workload of a set. False when there is no memory; it is then empty. */
-bool workload_make(workload *w, octree_sample_kind set, size_t count);
+enum { POINTS_AT_LEAST = 100, POINTS_AT_MOST = 100000000 };
+
+/* Points to measure instead of a sample: rows of coordinates. */
+typedef struct point_file {
+    const char *name;
+    double (*rows)[3];
+    size_t count;
+} point_file;
+
+/* Read a file of lines that begin with three numbers, such as an .xyz file. Shuffle the points, and scale them to the
+ * world of the bench. Ends the program with an error if the file cannot be read. */
+point_file read_point_file(const char *path);
+
+/* Make the workload of a sample or, if `file` is not null, of points of the file. False when there is no memory; it is
+ * then empty. */
+bool workload_make(workload *w, octree_sample_kind set, const point_file *file, size_t count);
 void workload_free(workload *w);
 
 /* Where a point goes that moves by one mean spacing, within the world. */
