@@ -107,11 +107,11 @@ typedef struct octree_sampled {
     struct {
         octree_sample_kind kind;
         uint64_t count, seed;
-    } points; /* points were made by octree_sample() with these arguments and the world as the box */
+    } points; /* the positions were made by octree_sample() with these arguments, and with the world as the box */
     struct {
         double speed;
         uint64_t seed;
-    } velocities; /* velocities: each component is a random number from -speed to speed */
+    } velocities; /* each component of a velocity is a random number from -speed to speed */
     bool by_points, by_velocities;
     bool known; /* false: the bodies were not made from seeds, and the other members are not read */
 } octree_sampled;

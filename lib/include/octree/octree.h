@@ -101,8 +101,8 @@ octree_status octree_insert(octree *tree, const double position[3], uint64_t id)
  * unchanged. */
 octree_status octree_remove(octree *tree, const double position[3], uint64_t id);
 
-/* Move a point. The effect is the effect of a removal and an insertion. On an error the point stays where it was. A
- * move within one leaf can fail only with DUPLICATE. Cost: O(D + M). Errors: those of octree_insert for `to` and of
+/* Move a point. The result is the same as that of a removal and an insertion. On an error the point stays where it was.
+ * A move within one leaf can fail only with DUPLICATE. Cost: O(D + M). Errors: those of octree_insert for `to` and of
  * octree_remove for `from`. */
 octree_status octree_move(octree *tree, const double from[3], uint64_t id, const double to[3]);
 
@@ -280,7 +280,7 @@ octree_status octree_collide_search(const octree *tree, const double center[3], 
  * straight line from the position `from` to the position `to`, both included. Coordinates are compared as real numbers.
  * No point is missed, however long the step is.
  *
- * A collision test at the two ends alone misses no point only if the step is along one axis and at most 2 * box_size
+ * A collision test at the two ends alone finds every point only if the step is along one axis and at most 2 * box_size
  * long. `self` means the same as in octree_collide. The answer is exact whatever the options say.
  *
  * Errors: as octree_collide_search. Cost: O(nodes that the box touches on its way + points in their leaves). */

@@ -197,7 +197,7 @@ static uint64_t digest_foreign_node(uint64_t digest, const octree_foreign_node *
 
 /* Set place->kind to the index of the node's kind in the list of kinds. A new kind is appended to the list. If the
  * list is full, further kinds share its last index. False when there is no memory. */
-static bool find_node_kind(foreign *f, octree_foreign_place *place)
+static bool assign_node_kind(foreign *f, octree_foreign_place *place)
 {
     const char(*kinds)[OCTREE_NODE_KIND] = f->kinds.items;
     const size_t last = place->kind; /* the kind of the previous node, which is usually also the kind of this node */
@@ -252,7 +252,7 @@ bool foreign_set_nodes(foreign *f, const octree_foreign_tree *tree)
     octree_foreign_place *places = f->places.items;
     for (size_t i = 0; i < f->places.count; i++) {
         places[i].kind = i ? places[i - 1].kind : 0;
-        if (!find_node_kind(f, &places[i]) ||
+        if (!assign_node_kind(f, &places[i]) ||
             !list_push(f->memory, &f->marks, &(foreign_mark){.query = 0}, sizeof(foreign_mark)))
             return false;
         state->digest = digest_foreign_node(state->digest, places[i].node);

@@ -373,8 +373,8 @@ static bool is_point_pruned(const octree_point *point, void *context)
     return holders > 0;
 }
 
-/* A point is lost because the query pruned all nodes that hold it. Report these pruned nodes. For each query, a node
- * is reported only once, with the first point that was lost. */
+/* Report the nodes that hold a point; the query lost the point because it pruned all of these nodes. For each query, a
+ * node is reported only once, with the first lost point. */
 static bool report_pruned_point(const octree_point *point, void *context)
 {
     const node_query *q = context;

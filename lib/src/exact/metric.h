@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* metric.h - computes squared distances in doubles, with a proven error bound. They neither overflow nor underflow in
- * any world.
+/* metric.h - computes squared distances in doubles, with a proven error bound. The squares neither overflow nor
+ * underflow in any world.
  *
  * Coordinates are multiplied by a power of two, so that the world's extent is moderate: from 2^-99 to 2^100. Nearly all
  * worlds are moderate by themselves, and are not multiplied. For points of the world the product is exact, or has an

@@ -31,7 +31,7 @@ static ends make_ends_on_axis(const sweep *box, const double from[3], const doub
 
 /* The time interval, in doubles, during which the point is within the box on all axes that were examined so far. */
 typedef struct moments {
-    double enter, leave; /* enter: the latest time of entering on these axes; leave: the earliest time of leaving */
+    double enter, leave; /* the latest time of entering, and the earliest time of leaving, on the examined axes */
     double error;        /* an error bound for `enter` and `leave` */
 } moments;
 

@@ -90,7 +90,7 @@ octree_status octree_input_check(const octree_input *input)
 
 /* Check the ticks of an array of items; each item begins with its tick. The ticks must ascend. If `distinct` is true,
  * no two ticks may be equal. */
-static octree_status check_order(const void *items, size_t size, size_t count, bool distinct)
+static octree_status check_tick_order(const void *items, size_t size, size_t count, bool distinct)
 {
     if (!items && count)
         return OCTREE_NULL_ARGUMENT;
@@ -119,17 +119,17 @@ octree_status game_check_session(const octree_session *s, const octree *tree)
     if (status == OCTREE_OK && s->edit_count && s->edits[0].tick == 0)
         status = OCTREE_BAD_ORDER;
     if (status == OCTREE_OK)
-        status = check_order(s->edits, sizeof *s->edits, s->edit_count, false);
+        status = check_tick_order(s->edits, sizeof *s->edits, s->edit_count, false);
     if (status == OCTREE_OK)
-        status = check_order(s->queries, sizeof *s->queries, s->query_count, false);
+        status = check_tick_order(s->queries, sizeof *s->queries, s->query_count, false);
     if (status == OCTREE_OK)
-        status = check_order(s->shapes, sizeof *s->shapes, s->shape_count, false);
+        status = check_tick_order(s->shapes, sizeof *s->shapes, s->shape_count, false);
     if (status == OCTREE_OK)
-        status = check_order(s->gaps, sizeof *s->gaps, s->gap_count, true);
+        status = check_tick_order(s->gaps, sizeof *s->gaps, s->gap_count, true);
     for (size_t i = 0; status == OCTREE_OK && i < s->gap_count; i++)
         status = check_gap(&s->gaps[i]);
     if (status == OCTREE_OK)
-        status = check_order(s->foreign, sizeof *s->foreign, s->foreign_count, true);
+        status = check_tick_order(s->foreign, sizeof *s->foreign, s->foreign_count, true);
     for (size_t i = 0; status == OCTREE_OK && i < s->foreign_count; i++)
         status = octree_foreign_check(&s->foreign[i], NULL);
     return status;

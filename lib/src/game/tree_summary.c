@@ -138,7 +138,7 @@ static void add_stats(octree_stats *to, const octree_stats *of)
     }
 }
 
-static void swap_with_before(list *now, list *before)
+static void swap_lists(list *now, list *before)
 {
     const list kept = *before;
     *before = *now;
@@ -150,8 +150,8 @@ bool tree_summary_update(tree_summary *s, arena *memory, const octree *tree)
 {
     update u = {.to = s, .memory = memory};
     uint64_t sum = 0;
-    swap_with_before(&s->subtrees, &s->subtrees_before);
-    swap_with_before(&s->inner, &s->inner_before);
+    swap_lists(&s->subtrees, &s->subtrees_before);
+    swap_lists(&s->inner, &s->inner_before);
     if (!s->known || s->capacity != tree->def.leaf_capacity)
         s->subtrees_before.count = 0;
     list_sort(&s->touched, sizeof(uint64_t), compare_first_words);

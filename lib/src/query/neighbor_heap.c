@@ -248,7 +248,7 @@ static void sort_few_neighbors(neighbor_heap *h)
 
 /* ---- One neighbour: the first slot, without a key ------------------------------------------------------------- */
 
-static inline void add_to_one_neighbor(neighbor_heap *h, const octree_point *point, double square)
+static inline void keep_if_nearest(neighbor_heap *h, const octree_point *point, double square)
 {
     few_neighbors *f = &h->few;
     if (is_rejected(h, point, square) ||
@@ -342,7 +342,7 @@ void neighbor_heap_add(neighbor_heap *h, const octree_point *points, const doubl
 {
     if (h->k == 1)
         for (; within; within &= within - 1)
-            add_to_one_neighbor(h, &points[bits_lowest(within)], squares[bits_lowest(within)]);
+            keep_if_nearest(h, &points[bits_lowest(within)], squares[bits_lowest(within)]);
     else if (keeps_few_neighbors(h))
         add_to_few_neighbors(h, points, squares, within);
     else

@@ -46,8 +46,8 @@ static inline double larger(double a, double b)
     return a > b ? a : b;
 }
 
-/* Return true if a square is compared as a double, without exact arithmetic. This is so in FAST mode, unless the square
- * overflowed. */
+/* Return true if a square is compared as a double, without exact arithmetic. This is the case in FAST mode, unless the
+ * square overflowed. */
 static inline bool is_compared_as_double(octree_mode mode, double square)
 {
     return mode == OCTREE_FAST && square < HUGE_VAL;

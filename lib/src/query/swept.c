@@ -32,7 +32,7 @@
 /* Two parallel faces of the hull. Their normal lies in the plane of the axes i and j. */
 typedef struct hull_faces {
     int i, j;
-    double step_i, step_j;       /* the components of the step d on these axes */
+    double step_i, step_j;       /* the components of the step d on the axes i and j */
     double lowest;               /* the value of side() at the world's lowest corner */
     double per_key_i, per_key_j; /* the decrease of side() per key on axis i, and its increase per key on axis j */
     double reach, whole;         /* R plus the error band, and R minus the error band; `whole` may be negative */

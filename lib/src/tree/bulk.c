@@ -242,8 +242,8 @@ static void copy_stored_signs(const octree *tree, octree_point *points, size_t c
             points[i] = stored_point(&found);
 }
 
-/* The points with a zero coordinate that earlier moves of the batch have moved. They are stored as a leaf. A later move
- * of the batch may start at one of these points. */
+/* The points with a zero coordinate that earlier moves of the batch have moved. They are stored in a leaf outside the
+ * tree. A later move of the batch may start at one of these points. */
 typedef struct moved_points {
     store *store;
     node points;

@@ -64,7 +64,7 @@ static unsigned find_octant(const shares *s, const double p[3])
            (unsigned)(p[2] >= s->planes[2]);
 }
 
-static void count_in_octant(shares *s, const octree_point *point)
+static void add_to_octant_count(shares *s, const octree_point *point)
 {
     const unsigned octant = find_octant(s, point->position);
     s->counts[octant]++;
@@ -77,8 +77,8 @@ static shares count_points_by_octant(const octree *tree, cell c, const node *ful
     for (int i = 0; i < 3; i++)
         s.planes[i] = plane_at(&tree->axes[i], c.low[i] + cell_size(c.depth + 1));
     for (uint32_t i = 0; i < full->count; i++)
-        count_in_octant(&s, &leaf_points(full)[i]);
-    count_in_octant(&s, point);
+        add_to_octant_count(&s, &leaf_points(full)[i]);
+    add_to_octant_count(&s, point);
     return s;
 }
 

@@ -50,7 +50,7 @@ typedef struct move_group {
 } move_group;
 
 /* Read the moves from the index `first` on, and check their positions. */
-static void read_moves(move_group *g, const batch *b, size_t first)
+static void load_move_group(move_group *g, const batch *b, size_t first)
 {
     const octree_point *points = b->points + first;
     const double(*to)[3] = b->to + first;
@@ -141,7 +141,7 @@ static size_t make_group_of_moves(move_group *g)
     return g->count;
 }
 
-static single_move find_made_move(const batch *b, const made_move *made, size_t i)
+static single_move to_single_move(const batch *b, const made_move *made, size_t i)
 {
     single_move m = {.old = made[i].old, .moved = arriving_point(b, &(morton_item){.place = (uint32_t)i})};
     m.from = morton_code(b->tree->axes, m.old.position);
@@ -159,14 +159,14 @@ static bool make_moves(const batch *b, made_move *made)
     for (; done < b->count && count == g.count; done += count) {
         g.count = b->count - done < MOVES_TOGETHER ? b->count - done : MOVES_TOGETHER;
         g.made = made + done;
-        read_moves(&g, b, done);
+        load_move_group(&g, b, done);
         count = make_group_of_moves(&g);
     }
     if (done == b->count)
         return true;
     while (done-- > 0)
         if (made[done].status == OCTREE_OK) {
-            const single_move m = find_made_move(b, made, done);
+            const single_move m = to_single_move(b, made, done);
             revert_move(b->tree, &m, made[done].undo);
         }
     return false;

@@ -140,7 +140,7 @@ static size_t append_grid_items(const batch *b, size_t first, size_t count, octr
     return made;
 }
 
-/* Items that tasks make. */
+/* The state of tasks that make items (Morton code and index) for points. */
 typedef struct item_making {
     const batch *whole;
     octree_point *const *filter;
@@ -149,19 +149,19 @@ typedef struct item_making {
     size_t starts[TASKS_AT_MOST + 1]; /* the index of the first item of each task */
 } item_making;
 
-static size_t find_items_share(const item_making *m, size_t number)
+static size_t find_first_point_of_task(const item_making *m, size_t number)
 {
     return find_share_start(m->whole->count + m->whole->stored_count, m->tasks, number);
 }
 
-/* Store the number of items of a task at the start of the next task. */
+/* Store the number of a task's items in starts[number + 1]. make_grid_items() then turns the numbers into indices. */
 static void count_items_in_task(size_t number, void *context)
 {
     item_making *m = context;
     const uint32_t *cells = m->whole->cells;
-    const size_t end = find_items_share(m, number + 1);
+    const size_t end = find_first_point_of_task(m, number + 1);
     size_t count = 0;
-    for (size_t i = find_items_share(m, number); i < end; i++)
+    for (size_t i = find_first_point_of_task(m, number); i < end; i++)
         count += cells[i] != GRID_NONE && !(m->filter && m->filter[cells[i]]);
     m->starts[number + 1] = count;
 }
@@ -171,8 +171,8 @@ static void make_items_in_task(size_t number, void *context)
     const item_making *m = context;
     const batch *b = m->whole;
     morton_item *next = m->items + m->starts[number];
-    const size_t last = find_items_share(m, number + 1);
-    for (size_t i = find_items_share(m, number), end; i < last; i = end) {
+    const size_t last = find_first_point_of_task(m, number + 1);
+    for (size_t i = find_first_point_of_task(m, number), end; i < last; i = end) {
         const size_t most = i < b->count && b->count < last ? b->count : last;
         end = most - i < GRID_TOGETHER ? most : i + GRID_TOGETHER;
         next += append_grid_items(b, i, end - i, m->filter, next);

@@ -76,7 +76,7 @@ static void plan_jobs_of_part(size_t number, void *context)
     }
 }
 
-/* Free the list of jobs, and those results of jobs that were not used. */
+/* Free the list of jobs, and the unused results of jobs. */
 static void release_jobs(batch *b)
 {
     static const node none = {0};

@@ -175,7 +175,7 @@ octree_status rebuild_tree(octree *tree, const octree_def *def)
     octree_point *points = arena_allocate(&other->store.memory, size);
     status = OCTREE_NO_MEMORY;
     if (points) {
-        /* while its executor runs tasks of the other tree, changes of `tree` return BUSY */
+        /* while the executor of `tree` runs tasks of the other tree, changes of `tree` return BUSY */
         const unsigned begun = begin_callbacks(tree);
         node_copy_points(&tree->root, points);
         status = insert_all_points(other, points, count);
@@ -200,7 +200,7 @@ octree_status octree_replace_all(octree *tree, const octree_point *points, size_
     octree_status status = octree_create(&tree->def, &other);
     if (status != OCTREE_OK)
         return status;
-    /* while its executor runs tasks of the other tree, changes of `tree` return BUSY */
+    /* while the executor of `tree` runs tasks of the other tree, changes of `tree` return BUSY */
     const unsigned begun = begin_callbacks(tree);
     if (tree->def.full_leaf == OCTREE_GROW) /* no leaf refuses points */
         store_expect_points(&other->store, count);

@@ -28,7 +28,8 @@ struct octree {
     double scale;
     double key_squares[3]; /* on each axis, the square of the distance between two grid planes */
     double key_error;      /* the greatest error of a distance between a point and planes that is computed from keys */
-    bool has_key_squares;  /* false: keys may be wrong, or the scale is not 1; then the values above are not used */
+    /* false: keys may be wrong, or the scale is not 1; key_squares and key_error are then not used */
+    bool has_key_squares;
     uint64_t version;
     change_log changes;
     tuning tuning;

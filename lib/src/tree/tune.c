@@ -37,7 +37,7 @@ enum { LEAST_CAPACITY = 4, MOST_CAPACITY = 256 };
  * mostly inside the cell. The larger the cells are, the fewer cells are sampled. */
 enum { LEAST_CELL = 4096, MOST_CELL = 32768, TARGETS = 128 };
 
-static size_t choose_cell_points(const octree_mix *mix)
+static size_t choose_points_per_cell(const octree_mix *mix)
 {
     const size_t most = mix->k > mix->hits ? mix->k : mix->hits;
     return most >= MOST_CELL / 16 ? MOST_CELL : most <= LEAST_CELL / 16 ? LEAST_CELL : 16 * most;
@@ -84,7 +84,7 @@ static octree_walk_order copy_selected_cell(const octree_node *seen, void *conte
 
 static bool make_sample(sample *s, octree *tree)
 {
-    const size_t count = octree_count(tree), cell = choose_cell_points(&s->mix);
+    const size_t count = octree_count(tree), cell = choose_points_per_cell(&s->mix);
     s->room = count < 2 * MOST_CELL ? count : 2 * MOST_CELL;
     s->points = arena_allocate(&tree->store.memory, s->room * sizeof *s->points);
     if (!s->points)
@@ -242,7 +242,7 @@ static octree_status choose_capacity_by_sample(octree *tree, const octree_mix *m
     sample s = {.mix = clamp_mix(*mix, LEAST_CELL)};
     arena *memory = &tree->store.memory;
     const size_t size = ((s.mix.k > s.mix.hits ? s.mix.k : s.mix.hits) + 1) * sizeof *s.neighbors;
-    /* while its executor runs tasks of the trial trees, changes of `tree` return BUSY */
+    /* while the executor of `tree` runs tasks of the trial trees, changes of `tree` return BUSY */
     const unsigned begun = begin_callbacks(tree);
     s.neighbors = arena_allocate(memory, size);
     const bool ok = s.neighbors && make_sample(&s, tree);

@@ -18,7 +18,7 @@ static void restore_removed_point(node *leaf, const step *s, const octree_point 
     points[s->index] = *point;
 }
 
-/* Free the new group of children and its new leaf, which is the only child that the old node does not have. */
+/* Give a node its old group of children back. Free the new group, and the leaf that was added with it. */
 static void restore_child_group(octree *tree, node *at, const node *old)
 {
     leaf_release(&tree->store, child_at(at, bits_lowest(at->octants & ~old->octants)));

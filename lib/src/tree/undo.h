@@ -43,8 +43,8 @@ typedef struct single_move {
  * statuses of octree_move(). */
 octree_status move_along_paths(octree *tree, single_move *m, found_point *found, const path *to, step *undo);
 
-/* Returns whether a move has moved or replaced inner nodes, so that the paths of other points may be wrong. If not, the
- * last node of a path is the same, but may have been split. */
+/* Returns whether a move has moved or replaced inner nodes, so that the paths of other points may be wrong. If the
+ * result is false, each path still ends at the same node, which may have been split. */
 static inline bool changes_paths(const step undo[2])
 {
     return undo[0].kind == STEP_REGROUPED || undo[1].kind == STEP_REPLACED;
