@@ -38,7 +38,7 @@ static decomposed decompose_double(double value)
 
 bool has_exact_double_arithmetic(void)
 {
-    /* volatile, so that the compiler does not compute the results itself */
+    /* volatile, so that the results are not computed at compile time */
     static const volatile double inexact = 1 + 0x1p-30, rounded_square = 1 + 0x1p-29, one = 1, tiny = 0x1p-60;
     const double x = inexact, y = one;
     return x * x - rounded_square == 0 && (y + tiny) - y == 0;

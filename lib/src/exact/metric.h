@@ -31,7 +31,7 @@ static inline double metric_scaled(const metric *m, double x)
     return m->grain > 0 ? subnormal_count(x) * m->grain : x * m->scale;
 }
 
-/* Complete a metric whose target is set, for a scale that is not 1. */
+/* Set the scale and the scaled target of a metric. metric_set() calls this function if the scale is not 1. */
 void metric_set_scaled(metric *m, double scale, bool subnormal);
 
 static inline void metric_set(metric *m, double scale, bool subnormal, const double target[3])

@@ -6,8 +6,8 @@
 #include "../tree/pool.h"
 #include "octree/game.h"
 
-/* A body and its motion. The position is computed from the origin and the ticks since then, not from the previous
- * tick. */
+/* A body and its motion. The position is computed from the origin of the motion and the number of ticks since its
+ * start, not from the previous tick. */
 typedef struct moving_body {
     uint64_t id;
     double position[3]; /* the position that the tree stores */

@@ -12,7 +12,7 @@ octree_input session_input(const octree_session *session, uint64_t tick);
 /* Return true if a key can be the player's key in a tick: any key of game.h except q, which ends the session. */
 bool is_game_key(char key);
 
-/* Check a session whose tree could be created. Returns the errors that octree_game_create() documents. */
+/* Check a session. `tree` is the empty tree of the session. Returns the errors that octree_game_create() documents. */
 octree_status game_check_session(const octree_session *session, const octree *tree);
 
 /* Insert the bodies of the game's session and record refusals. Returns OK, DUPLICATE or NO_MEMORY. */

@@ -132,7 +132,8 @@ static inline double squared_distance_to_octant(const branch *b, unsigned flip)
 static const double sides[8][3] = {{-1, -1, -1}, {-1, -1, 1}, {-1, 1, -1}, {-1, 1, 1},
                                    {1, -1, -1},  {1, -1, 1},  {1, 1, -1},  {1, 1, 1}};
 
-/* Make the branch of a node's child in an octant. Its planes are not measured yet. */
+/* Make the branch of a node's child in an octant. The distances to the child's splitting planes are not measured
+ * yet. */
 static inline void make_child_branch(const branch *parent, const node *child, unsigned octant, unsigned flip, branch *b)
 {
     b->node = child;

@@ -183,7 +183,7 @@ static inline void insert_neighbor(few_neighbors *f, const octree_point *point, 
     insert_key(f->keys, last, make_slot_key(square < METRIC_FINITE ? square : METRIC_FINITE, place));
 }
 
-/* Once k neighbours are found, move the farthest to the end, and limit the search by it. */
+/* Once k neighbours are found, move the key of the farthest to the end, and limit the search to its distance. */
 static inline void limit_by_farthest(neighbor_heap *h, size_t last)
 {
     double *keys = h->few.keys;

@@ -34,10 +34,11 @@ typedef struct neighbor_heap {
     double shrink; /* 1 / (1 + epsilon)^2, rounded up: a node is pruned if its square exceeds the farthest square times
                       this factor */
     double worst;  /* the squared distance of the farthest neighbour, once k neighbours are found */
-    double point_reach;     /* a point with a greater scaled squared distance is not among the k nearest */
-    double node_error;      /* the greatest error of the distances of nodes */
-    double node_reach;      /* a node with a greater scaled squared distance contains none of the k nearest */
-    octree_neighbor *items; /* the caller's array. Until the end of the search `distance` holds scaled squares */
+    double point_reach; /* a point with a greater scaled squared distance is not among the k nearest */
+    double node_error;  /* the greatest error of the distances of nodes */
+    double node_reach;  /* a node with a greater scaled squared distance contains none of the k nearest */
+    /* the caller's array of neighbours. Until the end of the search, `distance` holds the scaled squared distance */
+    octree_neighbor *items;
     size_t count, k;
     few_neighbors few; /* if k <= FEW_NEIGHBORS, holds the neighbours in place of `items` until the end of the search */
 } neighbor_heap;

@@ -25,7 +25,7 @@
  * point. */
 static morton_item *allocate_items(const batch *b, size_t each)
 {
-    /* unreachable: size_t has 64 bits, and a batch has at most UINT32_MAX points */
+    /* unreachable: the size cannot overflow, because size_t has 64 bits and a batch has at most UINT32_MAX points */
     if (b->count >= SIZE_MAX / sizeof(morton_item) / each - 1)
         return NULL;
     return arena_allocate(&b->tree->store.memory, each * (b->count + 1) * sizeof(morton_item));

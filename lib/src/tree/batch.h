@@ -49,7 +49,7 @@ typedef struct batch {
     const octree_point *stored; /* the array of stored points to which items of stored points refer */
     /* the number of stored points whose grid cells are in `cells`, after the cells of the batch's points */
     size_t stored_count;
-    uint32_t *cells;     /* the grid cells of the points, which replace items (grid_fill.h) */
+    uint32_t *cells;     /* the grid cell of each point, if a grid is used instead of items (grid_fill.h) */
     unsigned grid;       /* the depth of the grid; 0: there is no grid */
     list patches, edits; /* the plan: patches replace nodes, edits change leaves (division.h) */
 } batch;

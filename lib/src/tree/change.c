@@ -201,7 +201,7 @@ static octree_status insert_into_leaf(octree *tree, node *leaf, const octree_poi
     return append_to_leaf(tree, leaf, point, undo);
 }
 
-/* Insert a point at the end of the path of its code. */
+/* Insert a point at the end of the path to its code: into the leaf there, or as a new leaf of the inner node there. */
 static octree_status insert_at_end(octree *tree, const path *p, const octree_point *point, uint64_t code, bool divides,
                                    step *undo)
 {

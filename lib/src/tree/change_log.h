@@ -34,7 +34,7 @@ static inline bool change_log_is_on(const change_log *log)
  * memory. */
 void change_log_append(octree *tree, octree_change_kind kind, const octree_point *old, const double to[3]);
 
-/* Returns a number of changes. If a reader has at least so many changes to read, reading the whole tree costs less. */
+/* Returns the number of changes from which on reading the changes costs more than reading the whole tree. */
 uint64_t change_log_limit(const octree *tree);
 
 /* Discard all changes and turn the log off. */

@@ -172,7 +172,8 @@ static bool make_moves(const batch *b, made_move *made)
     return false;
 }
 
-/* Complete moves that were all made, and log them. Returns the number of points that moved. */
+/* After all moves are made, free the memory that was kept for reverting them, and log them. Returns the number of
+ * points that moved. */
 static size_t complete_moves(const batch *b, const made_move *made)
 {
     size_t moved = 0;

@@ -199,7 +199,7 @@ static bool can_overfill_leaf(const batch *b, const node *leaf, cell c, span arr
     const size_t moved = find_item_by_first_word(b->valid.items, sizeof *b->valid.items, b->valid.count, end) - start;
     const size_t sum = leaf->count + moved + arriving.count, room = 2 * sum * sizeof(morton_item);
     arena *memory = &b->store->memory;
-    /* unreachable: size_t has 64 bits, and leaves and batches have at most UINT32_MAX points */
+    /* unreachable: the size cannot overflow, because leaves and batches have at most UINT32_MAX points */
     morton_item *all = sum <= SIZE_MAX / 2 / sizeof *all ? arena_allocate(memory, room) : NULL;
     if (!all)
         return true;

@@ -133,7 +133,7 @@ bool build_node_by_tasks(batch *b, cell c, span items, node *made)
 /* ---- The plan ----------------------------------------------------------------------------------------------- */
 
 /* Edit a leaf in place. Arriving points first overwrite leaving points, and the remaining arriving points are appended.
- * If more points leave than arrive, the last points of the leaf fill the gaps. */
+ * If more points leave than arrive, the last points of the leaf overwrite the remaining leaving points. */
 static void apply_leaf_edit(batch *b, const edit *e)
 {
     uint32_t count = e->count;

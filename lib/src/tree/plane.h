@@ -27,7 +27,7 @@ typedef struct axis {
     /* the number of grid planes per unit of length, rounded; may be 0 or infinite in extreme worlds */
     double keys_per_unit;
     double guess_error; /* an error bound of a guessed key, as a number of keys; may be infinite or NaN */
-    /* in fixed point: the distance from a plane to the first position above it at which a guess is certain */
+    /* the bits of the double 2^21, plus the error of a guess in fixed point; see plane_fixed_point_key() */
     uint64_t sure_from;
     uint64_t sure_span; /* in fixed point: the length of the range of certain guesses; 0: no guess is certain */
 } axis;

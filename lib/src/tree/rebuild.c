@@ -45,7 +45,8 @@ typedef struct rebuild {
     id_table ids;
     /* copies of the points that stay; each task writes its copies from the index of the first point that it reads */
     octree_point *staying;
-    /* the grid cells of all moves, followed by the grid cells of all staying points; without a grid all cells are 0 */
+    /* the grid cells of all moves, followed by the grid cells of all staying points; without a grid, all cells of valid
+     * moves and staying points are 0 */
     uint32_t *cells;
     size_t count; /* the number of moves */
     unsigned move_tasks;
@@ -58,8 +59,8 @@ typedef struct rebuild {
 typedef struct id_check {
     const batch *whole;
     unsigned tasks;
-    bool
-        ascend[TASKS_AT_MOST]; /* whether the ids of each task's share ascend, beginning with the id before the share */
+    /* ascend[i]: whether the ids of the points of task i ascend, including the id before its first point */
+    bool ascend[TASKS_AT_MOST];
 } id_check;
 
 static void check_ids_in_task(size_t number, void *context)
@@ -261,7 +262,8 @@ static octree_status find_move_error(const batch *b, size_t place)
     return status == OCTREE_OK ? OCTREE_NOT_FOUND : status;
 }
 
-/* Returns whether a move is valid. *to receives the grid cell of the move's destination. */
+/* Returns whether a move is valid. If *to, the grid cell of the move's destination, is still unknown (GRID_NONE),
+ * compute it. */
 static bool is_valid_move(const rebuild *r, size_t place, const octree_point *stored, uint32_t *to)
 {
     const batch *b = r->whole;
@@ -388,7 +390,9 @@ static octree_status check_moves_and_build(rebuild *r, bool *settled)
         seen += r->found[i].seen;
         b->done += r->found[i].moved;
     }
-    *settled = looked_up - stay == seen; /* if the two numbers differ, an id that moves is stored twice */
+    /* The two numbers count stored points that move, and moves whose id is stored. They differ if an id that moves is
+     * stored twice. */
+    *settled = looked_up - stay == seen;
     return *settled && b->done > 0 ? build_moved_tree(r, settled) : OCTREE_OK;
 }
 

@@ -199,7 +199,7 @@ static bool build_children(batch *b, cell c, span items, node *made)
 static bool divide_leaf(batch *b, const node *old, cell c, span leaving, span arriving, node *made)
 {
     const size_t sum = old->count - leaving.count + arriving.count, room = 2 * sum * sizeof(morton_item);
-    /* unreachable: size_t has 64 bits, and leaves and batches have at most UINT32_MAX points */
+    /* unreachable: the size cannot overflow, because leaves and batches have at most UINT32_MAX points */
     morton_item *all = sum <= SIZE_MAX / 2 / sizeof *all ? arena_allocate(&b->store->memory, room) : NULL;
     if (!all)
         return false;

@@ -18,12 +18,12 @@ unsigned count_tasks(const octree *tree, size_t points);
  * thread at the end. */
 void run_tasks(const octree *tree, octree_task *task, unsigned count, void *context);
 
-/* Divide `things` items among tasks. Returns the index of the first item of the task with this number. The task's items
- * end where the items of the next task begin. */
-static inline size_t find_share_start(size_t things, unsigned tasks, size_t number)
+/* Divide this many items among tasks. Returns the index of the first item of the task with this number. The task's
+ * items end where the items of the next task begin. */
+static inline size_t find_share_start(size_t items, unsigned tasks, size_t number)
 {
-    const size_t more = things % tasks;
-    return things / tasks * number + (number < more ? number : more);
+    const size_t more = items % tasks;
+    return items / tasks * number + (number < more ? number : more);
 }
 
 /* A node and all nodes below it. */

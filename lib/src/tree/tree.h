@@ -27,7 +27,8 @@ struct octree {
     /* a power of two by which coordinates are multiplied, so that the world's extent is moderate (metric.h) */
     double scale;
     double key_squares[3]; /* on each axis, the square of the distance between two grid planes */
-    double key_error;      /* the greatest error of a distance between a point and planes that is computed from keys */
+    /* the greatest error of a distance from a point to a plane, if the distance is computed from keys */
+    double key_error;
     /* false: keys may be wrong, or the scale is not 1; key_squares and key_error are then not used */
     bool has_key_squares;
     uint64_t version;
