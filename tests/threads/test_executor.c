@@ -2,9 +2,7 @@
 /* test_executor.c - nodes, statuses, answers, digests and memory are the same for any number of threads and any order
  * of tasks. The library's sources once more, which divide work at a few points; and again with ThreadSanitizer.
  */
-#define same_position same_position_of_tree /* fixture.h has one of that name */
 #include "tree.h"
-#undef same_position
 
 #include "broken_tree.h"
 #include "counting_allocator.h"

@@ -70,7 +70,7 @@ static judged_point judge_point(const judge_state *s, const octree_point *point)
 static bool is_skipped(const judge_state *s, const judged_point *p)
 {
     return (s->about->skip == OCTREE_SKIP_ID && p->point.id == s->about->skip_id) ||
-           (s->about->skip == OCTREE_SKIP_COINCIDENT && same_position(p->at, s->asked.target));
+           (s->about->skip == OCTREE_SKIP_COINCIDENT && is_same_position(p->at, s->asked.target));
 }
 
 static void append_judged_point(judge_state *s, list *l, const judged_point *p)
@@ -335,7 +335,7 @@ static void judge_region(judge_state *s)
  * this rank and is nearer than `a`. Point `a` may be farther than `b` only by the factor 1 + epsilon. */
 static bool is_too_far(const judge_state *s, const judged_point *a, const judged_point *b)
 {
-    if (!(s->asked.epsilon > 0) || same_position(b->at, s->asked.target))
+    if (!(s->asked.epsilon > 0) || is_same_position(b->at, s->asked.target))
         return true;
     /* metric_above() also covers the rounding error of this factor, and 2^-999 covers underflow of the square */
     const double factor = 1 + s->asked.epsilon;

@@ -11,8 +11,9 @@
  * wrong.
  *
  * Why not exact arithmetic throughout: it is far too slow. Why not an epsilon: it has no right value,
- * and ties would depend on the order of insertion. Cost: metric_squares() takes about nine instructions a point with
- * SSE2; the exact comparison adds up to twelve products. Worlds of subnormal coordinates use integers (float_rules.h).
+ * and ties would depend on the order of insertion. Cost: metric_compute_squares() takes about nine instructions a point
+ * with SSE2; the exact comparison adds up to twelve products. Worlds of subnormal coordinates use integers
+ * (float_rules.h).
  */
 #include "metric.h"
 #include "exact.h"
@@ -77,7 +78,7 @@ static double compute_squares_in_fours(const metric *m, const octree_point *poin
 }
 #endif
 
-double metric_squares(const metric *m, const octree_point *points, unsigned count, double squares[])
+double metric_compute_squares(const metric *m, const octree_point *points, unsigned count, double squares[])
 {
 #ifdef OCTREE_SSE2
     if (count >= 4 && m->scale == 1)
@@ -96,7 +97,7 @@ int metric_compare(const double target[3], const double a[3], const double b[3])
     /* |a - t|^2 - |b - t|^2 is the sum of a^2 - 2at - b^2 + 2bt over the axes: twelve exact products, or fewer if
      * coordinates are equal. */
     /* Many points may share one position, so equal positions are compared often. */
-    if (same_position(a, b))
+    if (is_same_position(a, b))
         return 0;
     exact_sum sum;
     exact_clear(&sum);

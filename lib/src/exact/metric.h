@@ -63,7 +63,7 @@ static inline double metric_square(const metric *m, const double p[3])
 
 /* Compute the squared distances of 1 to 64 points. Each square equals the result of metric_square() in every bit.
  * Returns the least of the squares. */
-double metric_squares(const metric *m, const octree_point *points, unsigned count, double squares[]);
+double metric_compute_squares(const metric *m, const octree_point *points, unsigned count, double squares[]);
 
 #ifdef OCTREE_SSE2
 /* Returns a mask of the four squares that are not above `reach`. */
@@ -94,7 +94,7 @@ static inline uint64_t metric_mask_within(const double squares[], unsigned count
 
 /* Returns the scaled distance from the target to an interval on axis i. Returns 0 if the target is inside the
  * interval. */
-static inline double metric_gap(const metric *m, int i, double min, double max)
+static inline double metric_interval_distance(const metric *m, int i, double min, double max)
 {
     const double below = metric_scaled(m, min) - m->scaled[i];
     const double above = m->scaled[i] - metric_scaled(m, max);

@@ -8,7 +8,7 @@
 
 /* Returns whether two positions are equal. A single branch decides for all coordinates: if points share some
  * coordinates, as on a lattice, three branches would be unpredictable. */
-static inline bool same_position(const double a[3], const double b[3])
+static inline bool is_same_position(const double a[3], const double b[3])
 {
 #ifdef OCTREE_SSE2
     const __m128d xy = _mm_cmpeq_pd(_mm_loadu_pd(a), _mm_loadu_pd(b));

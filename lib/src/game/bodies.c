@@ -193,7 +193,7 @@ static void restart_motion(moving_body *body, const octree_box *world, const dou
 
 static void record_changed_position(octree_game *game, const double place[3])
 {
-    tree_summary_record(&game->summary, &game->memory, game->tree, place);
+    tree_summary_record_change(&game->summary, &game->memory, game->tree, place);
 }
 
 octree_status game_insert(octree_game *game, const double position[3], uint64_t id)

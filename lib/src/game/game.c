@@ -241,8 +241,9 @@ static bool summarize_tree(octree_game *game)
     const bool first = game->tick.number == 0;
     if (!first && summary->version == octree_version(game->tree))
         return true;
-    const bool ok = tree_summary_update(summary, &game->memory, game->tree) &&
-                    (first || tree_summary_compare(summary, &game->memory, &game->splits, &game->merges));
+    const bool ok =
+        tree_summary_update(summary, &game->memory, game->tree) &&
+        (first || tree_summary_list_splits_and_merges(summary, &game->memory, &game->splits, &game->merges));
     game->tick.events |= game->splits.count ? OCTREE_EVENT_SPLIT : 0;
     game->tick.events |= game->merges.count ? OCTREE_EVENT_MERGED : 0;
     game->tick.stats = summary->stats;

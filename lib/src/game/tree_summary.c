@@ -23,7 +23,7 @@ typedef struct update {
     bool out_of_memory;
 } update;
 
-void tree_summary_record(tree_summary *s, arena *memory, const octree *tree, const double position[3])
+void tree_summary_record_change(tree_summary *s, arena *memory, const octree *tree, const double position[3])
 {
     if (!s->known)
         return;
@@ -185,7 +185,7 @@ static bool append_difference(arena *memory, const list *a, const list *b, list 
     return true;
 }
 
-bool tree_summary_compare(const tree_summary *s, arena *memory, list *splits, list *merges)
+bool tree_summary_list_splits_and_merges(const tree_summary *s, arena *memory, list *splits, list *merges)
 {
     return append_difference(memory, &s->inner, &s->inner_before, splits) &&
            append_difference(memory, &s->inner_before, &s->inner, merges);

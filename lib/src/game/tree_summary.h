@@ -27,7 +27,7 @@ typedef struct tree_summary {
 
 /* Record that a point was inserted at or removed from a position. If there is no memory, the next update walks the
  * whole tree. */
-void tree_summary_record(tree_summary *s, arena *memory, const octree *tree, const double position[3]);
+void tree_summary_record_change(tree_summary *s, arena *memory, const octree *tree, const double position[3]);
 
 /* Update the summary. Returns false when there is no memory; the next update then walks the whole tree. Cost:
  * O(subtrees + nodes and points of the subtrees that changed). */
@@ -35,7 +35,7 @@ bool tree_summary_update(tree_summary *s, arena *memory, const octree *tree);
 
 /* Append the nodes that became inner nodes in the last update to `splits`. Append the nodes that ceased to be inner
  * nodes to `merges`. False when there is no memory. */
-bool tree_summary_compare(const tree_summary *s, arena *memory, list *splits, list *merges);
+bool tree_summary_list_splits_and_merges(const tree_summary *s, arena *memory, list *splits, list *merges);
 
 void tree_summary_release(tree_summary *s, arena *memory);
 

@@ -130,7 +130,7 @@ bool collect_unless_skipped(const octree_point *point, void *context)
     query_run *run = context;
     const octree_answer *asked = run->asked;
     const bool skipped = (asked->skip == OCTREE_SKIP_ID && point->id == asked->skip_id) ||
-                         (asked->skip == OCTREE_SKIP_COINCIDENT && same_position(point->position, asked->target)) ||
+                         (asked->skip == OCTREE_SKIP_COINCIDENT && is_same_position(point->position, asked->target)) ||
                          (asked->bounds == OCTREE_BOUNDS_OPEN && is_on_boundary(asked, point->position));
     run->failed = !skipped && !list_push(run->memory, run->points, point, sizeof *point);
     return !run->failed;
@@ -208,7 +208,7 @@ octree_status run_query(query_run *run, const octree_query *query, const double 
 
 /* Copy the items of a list to a memory block of exactly the needed size, and release the list. Returns null if there
  * are no items or no memory. */
-static void *move_to_block(arena *memory, list *l, size_t item_size)
+static void *move_list_to_block(arena *memory, list *l, size_t item_size)
 {
     void *items = l->count ? arena_allocate(memory, l->count * item_size) : NULL;
     if (items)
@@ -234,8 +234,8 @@ octree_status octree_query_answer(const octree *tree, const octree_query *query,
     query_run run = {tree, search_or_default(how), &memory, &points, &neighbors, NULL, false};
     octree_answer made;
     status = run_query(&run, query, player, &made);
-    made.points = move_to_block(&memory, &points, sizeof(octree_point));
-    made.neighbors = move_to_block(&memory, &neighbors, sizeof(octree_neighbor));
+    made.points = move_list_to_block(&memory, &points, sizeof(octree_point));
+    made.neighbors = move_list_to_block(&memory, &neighbors, sizeof(octree_neighbor));
     if (status == OCTREE_OK && made.count && !made.points && !made.neighbors)
         status = OCTREE_NO_MEMORY;
     if (status == OCTREE_OK)

@@ -115,7 +115,7 @@ static inline void scan_leaf(search *s, const node *leaf)
     }
     for (uint32_t left = leaf->count, count; left > 0; left -= count, points += count) {
         count = left < SCAN_POINTS ? left : SCAN_POINTS;
-        const double least = metric_squares(&s->found.metric, points, count, s->squares);
+        const double least = metric_compute_squares(&s->found.metric, points, count, s->squares);
         if (!(least > s->found.point_reach)) {
             const double reach = neighbor_heap_reach(&s->found, s->squares, count, least);
             neighbor_heap_add(&s->found, points, s->squares, metric_mask_within(s->squares, count, reach));
@@ -323,7 +323,7 @@ static bool find_keys_from_planes(search *s, uint32_t keys[3])
     double squares = 0;
     for (int i = 0; i < 3; i++) {
         const axis *a = &tree->axes[i];
-        const double gap = metric_gap(&s->found.metric, i, a->min, a->max);
+        const double gap = metric_interval_distance(&s->found.metric, i, a->min, a->max);
         s->root_squares[i] = gap * gap;
         squares += s->root_squares[i];
     }

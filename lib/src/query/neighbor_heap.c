@@ -50,7 +50,7 @@ static bool is_skipped(const neighbor_heap *h, const octree_point *point)
     case OCTREE_SKIP_ID:
         return point->id == h->how->skip_id;
     case OCTREE_SKIP_COINCIDENT:
-        return same_position(point->position, h->metric.target);
+        return is_same_position(point->position, h->metric.target);
     default:
         return false;
     }
@@ -351,7 +351,7 @@ void neighbor_heap_add(neighbor_heap *h, const octree_point *points, const doubl
         h->node_reach = find_node_reach(h, h->worst * h->shrink);
 }
 
-double neighbor_heap_bound(const double squares[], unsigned count)
+double greatest_group_minimum(const double squares[], unsigned count)
 {
     double least[NEIGHBOR_GROUPS], bound = 0;
     memcpy(least, squares, sizeof least);

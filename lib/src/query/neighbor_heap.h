@@ -71,7 +71,7 @@ static inline void neighbor_heap_begin(neighbor_heap *h, const octree_search *ho
 /* Divide the squares into NEIGHBOR_GROUPS groups and return the greatest of the groups' minima. At least
  * NEIGHBOR_GROUPS squares do not exceed this bound. No square is NaN, because points of the world are finite. */
 #define NEIGHBOR_GROUPS 8
-double neighbor_heap_bound(const double squares[], unsigned count);
+double greatest_group_minimum(const double squares[], unsigned count);
 
 /* Return a limit for the squares of some points: a point with a greater square is not among the k nearest. `least` is
  * the least of the squares. If no neighbour was found yet, the k nearest of these points already lower the limit. */
@@ -81,7 +81,7 @@ static inline double neighbor_heap_reach(const neighbor_heap *h, const double sq
     if (h->how->skip == OCTREE_SKIP_NONE && h->k == 1)
         reach = metric_above(least);
     else if (h->how->skip == OCTREE_SKIP_NONE && h->count == 0 && h->k <= NEIGHBOR_GROUPS && count >= NEIGHBOR_GROUPS)
-        reach = metric_above(neighbor_heap_bound(squares, count));
+        reach = metric_above(greatest_group_minimum(squares, count));
     return reach < h->point_reach ? reach : h->point_reach;
 }
 

@@ -75,7 +75,7 @@ static uint64_t scan_ball_points(const void *shape, const octree_point *points, 
     const ball *b = shape;
     double squares[SCAN_POINTS];
     uint64_t found = 0;
-    metric_squares(&b->metric, points, count, squares);
+    metric_compute_squares(&b->metric, points, count, squares);
     for (uint64_t left = metric_mask_within(squares, count, b->reach); left; left &= left - 1) {
         const unsigned i = bits_lowest(left);
         found |= (uint64_t)is_within_ball(&b->metric, b->mode, &points[i], squares[i], b->radius, b->square) << i;
@@ -92,7 +92,7 @@ static octant_masks measure_root(ball *b, const octree *tree)
         const axis *a = &tree->axes[i];
         const double low = b->metric.scaled[i] - metric_scaled(&b->metric, a->min);
         const double high = metric_scaled(&b->metric, a->max) - b->metric.scaled[i];
-        const double gap = metric_gap(&b->metric, i, a->min, a->max);
+        const double gap = metric_interval_distance(&b->metric, i, a->min, a->max);
         c->center[i] = 0;
         c->near[i] = gap * gap;
         c->ends[i][0] = low * low;

@@ -31,6 +31,6 @@ bool is_printable_text(const char *text, size_t size)
 bool visit_unless_self(const octree_point *point, void *context)
 {
     const collision *c = context;
-    const bool is_self = c->self && c->self->id == point->id && same_position(c->self->position, point->position);
+    const bool is_self = c->self && c->self->id == point->id && is_same_position(c->self->position, point->position);
     return is_self || c->visit(point, c->context);
 }

@@ -91,7 +91,7 @@ static uint32_t find_in_leaf_after(const node *leaf, uint32_t last, const octree
     if (!leaf)
         return LEAF_NONE;
     if (next < leaf->count && leaf_points(leaf)[next].id == point->id &&
-        same_position(leaf_points(leaf)[next].position, point->position))
+        is_same_position(leaf_points(leaf)[next].position, point->position))
         return next;
     return leaf_find(leaf, point->position, point->id);
 }

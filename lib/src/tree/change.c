@@ -285,7 +285,7 @@ static void remove_from_leaf(octree *tree, const found_point *found, step *undo)
     node *leaf = path_end(p);
     if (undo) {
         *undo = (step){.kind = STEP_REMOVED, .old = *leaf, .index = found->index};
-        leaf_remove_and_keep(leaf, found->index);
+        leaf_remove_keeping_block(leaf, found->index);
         return;
     }
     leaf_remove(&tree->store, leaf, found->index);

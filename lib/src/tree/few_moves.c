@@ -136,7 +136,7 @@ static size_t make_group_of_moves(move_group *g)
         if (m->status == OCTREE_NO_MEMORY)
             return i;
         m->old = g->moves[i].old;
-        are_found = are_found && !changes_paths(m->undo);
+        are_found = are_found && !has_changed_paths(m->undo);
     }
     return g->count;
 }

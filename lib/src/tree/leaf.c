@@ -68,7 +68,7 @@ static uint32_t find_hash_slot(const octree_point *points, const double position
     uint32_t slot = find_home_slot(points, position, id);
     for (; slots[slot]; slot = (slot + 1) & mask) {
         const octree_point *point = &points[slots[slot] - 1];
-        if (point->id == id && same_position(point->position, position))
+        if (point->id == id && is_same_position(point->position, position))
             break;
     }
     return slot;
@@ -207,7 +207,7 @@ bool leaf_append(store *s, node *leaf, const octree_point *point)
     return true;
 }
 
-void leaf_remove_and_keep(node *leaf, uint32_t index)
+void leaf_remove_keeping_block(node *leaf, uint32_t index)
 {
     if (is_hashed(leaf)) {
         remove_from_hashed(leaf->below, leaf->count--, index);
@@ -239,7 +239,7 @@ void leaf_shrink_hashed(store *s, node *leaf)
 void leaf_remove(store *s, node *leaf, uint32_t index)
 {
     const node old = *leaf;
-    leaf_remove_and_keep(leaf, index);
+    leaf_remove_keeping_block(leaf, index);
     leaf_free_end(s, &old);
     leaf_shrink_hashed(s, leaf);
 }

@@ -115,7 +115,7 @@ static inline uint32_t leaf_find(const node *leaf, const double position[3], uin
            points[i + 3].id != id)
         i += 4;
     for (; i < leaf->count; i++)
-        if (points[i].id == id && same_position(points[i].position, position))
+        if (points[i].id == id && is_same_position(points[i].position, position))
             return i;
     return LEAF_NONE;
 }
@@ -151,7 +151,7 @@ void leaf_remove(store *s, node *leaf, uint32_t index);
 
 /* As leaf_remove(), but keep the unused end of the leaf's block allocated. leaf_free_end() frees it later; `old` is the
  * leaf before the removal. A hashed leaf keeps its whole block. */
-void leaf_remove_and_keep(node *leaf, uint32_t index);
+void leaf_remove_keeping_block(node *leaf, uint32_t index);
 void leaf_free_end(store *s, const node *old);
 
 /* If a hashed leaf uses little of its block, move its points to a smaller block. If memory runs out, the leaf keeps its

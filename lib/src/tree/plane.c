@@ -283,7 +283,7 @@ cell morton_cell(uint64_t code, unsigned depth)
     return c;
 }
 
-bool cell_divisible(const axis axes[3], cell c)
+bool is_cell_divisible(const axis axes[3], cell c)
 {
     const uint32_t half = cell_size(c.depth + 1);
     for (int i = 0; i < 3; i++) {

@@ -103,7 +103,7 @@ static inline uint32_t plane_key(const axis *a, double x)
 
 /* Compute the keys of a position, shifted so that their highest bits are the highest bits of the words. Returns false
  * if a guessed key is not certain, or if the position is outside the world. */
-static inline bool plane_shifted_keys(const axis axes[3], const double position[3], uint64_t keys[3])
+static inline bool compute_shifted_keys(const axis axes[3], const double position[3], uint64_t keys[3])
 {
     uint64_t unsure = 0, all = 0;
     for (int i = 0; i < 3; i++) {
@@ -144,7 +144,7 @@ octree_box cell_bounds(const axis axes[3], cell c);
 
 /* Returns whether at least one of the cell's three splitting planes lies strictly inside the cell. The cell's depth
  * must be less than OCTREE_MAX_DEPTH. */
-bool cell_divisible(const axis axes[3], cell c);
+bool is_cell_divisible(const axis axes[3], cell c);
 
 /* Returns the Morton code of three keys: 63 bits, with the bit of x as the highest bit of each group of three. */
 static inline uint64_t morton_interleave(const uint32_t keys[3])

@@ -267,7 +267,7 @@ static octree_status find_move_error(const batch *b, size_t place)
 static bool is_valid_move(const rebuild *r, size_t place, const octree_point *stored, uint32_t *to)
 {
     const batch *b = r->whole;
-    if (!stored || !same_position(stored->position, b->points[place].position))
+    if (!stored || !is_same_position(stored->position, b->points[place].position))
         return false;
     if (*to != GRID_NONE)
         return true;

@@ -328,7 +328,7 @@ static inline const octree_point *find_in_leaf(const node *leaf, const double po
         count = left < TOGETHER ? left : TOGETHER;
         for (uint64_t equal = mask_equal_x(points, count, position[0]); equal; equal &= equal - 1) {
             const octree_point *point = &points[bits_lowest(equal)];
-            if (same_position(point->position, position) && (!found || point->id < found->id))
+            if (is_same_position(point->position, position) && (!found || point->id < found->id))
                 found = point;
         }
     }
@@ -361,7 +361,7 @@ octree_status octree_find(const octree *tree, const double position[3], uint64_t
     uint64_t keys[3];
     if (!tree || !position)
         return OCTREE_NULL_ARGUMENT;
-    if (RARELY(!plane_shifted_keys(tree->axes, position, keys)))
+    if (RARELY(!compute_shifted_keys(tree->axes, position, keys)))
         return find_id_near_plane(tree, position, id);
     return find_id_by_keys(tree, keys, position, id);
 }

@@ -47,7 +47,7 @@ static inline bool is_subnormal_world(const octree *tree)
 /* Returns whether a full leaf in this cell splits. If not, the leaf refuses a new point or grows. */
 static inline bool can_split(const octree *tree, cell c)
 {
-    return c.depth < tree->def.max_depth && cell_divisible(tree->axes, c);
+    return c.depth < tree->def.max_depth && is_cell_divisible(tree->axes, c);
 }
 
 /* Returns whether this many points fit into one leaf. If so, nodes merge; if not, nodes split wherever their cell is

@@ -137,12 +137,12 @@ typedef struct range_cost {
     octree_cost all;
 } range_cost;
 
-static void add_nodes_below(octree_cost *cost, const node *n)
+static void add_cost_of_nodes_below(octree_cost *cost, const node *n)
 {
     cost->nodes++;
     cost->leaves += n->octants == 0;
     for (unsigned i = bits_count8(n->octants); i-- > 0;)
-        add_nodes_below(cost, &children_of(n)[i]);
+        add_cost_of_nodes_below(cost, &children_of(n)[i]);
 }
 
 static void count_visited_nodes(octree_address address, octree_trace_kind touch, void *context)
@@ -151,7 +151,7 @@ static void count_visited_nodes(octree_address address, octree_trace_kind touch,
     if (touch != OCTREE_TRACE_TAKEN)
         return;
     const path p = find_path(r->trial, morton_of_address(address));
-    add_nodes_below(&r->all, p.nodes[octree_address_depth(address)]);
+    add_cost_of_nodes_below(&r->all, p.nodes[octree_address_depth(address)]);
 }
 
 static octree_cost cost_of_range(const octree *trial, const octree_point *target, double extent)

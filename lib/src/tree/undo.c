@@ -40,7 +40,7 @@ static void revert_step(octree *tree, const step *s, uint64_t code, const octree
     node *at = p.nodes[s->depth];
     switch ((step_kind)s->kind) {
     case STEP_APPENDED:
-        leaf_remove_and_keep(at, leaf_find(at, point->position, point->id));
+        leaf_remove_keeping_block(at, leaf_find(at, point->position, point->id));
         break;
     case STEP_REMOVED:
         restore_removed_point(at, s, point);

@@ -45,7 +45,7 @@ octree_status move_along_paths(octree *tree, single_move *m, found_point *found,
 
 /* Returns whether a move has moved or replaced inner nodes, so that the paths of other points may be wrong. If the
  * result is false, each path still ends at the same node, which may have been split. */
-static inline bool changes_paths(const step undo[2])
+static inline bool has_changed_paths(const step undo[2])
 {
     return undo[0].kind == STEP_REGROUPED || undo[1].kind == STEP_REPLACED;
 }

@@ -152,7 +152,7 @@ static bool is_stored_twice(const node *n, uint32_t index)
     if (n->room == LEAF_HASHED)
         return leaf_find(n, point->position, point->id) != index;
     for (uint32_t i = 0; i < index; i++)
-        if (points[i].id == point->id && same_position(points[i].position, point->position))
+        if (points[i].id == point->id && is_same_position(points[i].position, point->position))
             return true;
     return false;
 }
