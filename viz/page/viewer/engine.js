@@ -247,9 +247,19 @@ const BLOCK = 4096;
 const MOST_STATE_BYTES = 160 << 20;
 const STATE_INTERVAL = 40; /* ms of playing between two saved states; going to a tick plays at most this long */
 
+function divide(bytes)
+{
+    const blocks = [];
+    for (let at = 0; at < bytes.length; at += BLOCK)
+        blocks.push(bytes.subarray(at, at + BLOCK));
+    return blocks;
+}
+
 /* Saved states of an engine, at some of its ticks. A state is a copy of the engine's memory, divided into blocks.
  * Blocks that did not change are shared with the previous state. When the states use too much memory, every second
- * state is dropped, and the interval between new states doubles. */
+ * state is dropped, and the interval between new states doubles. The first state copies all bytes at once, which is
+ * three times as fast as copying them block by block. It is divided into blocks when the blocks are needed, after the
+ * first picture. */
 class States {
     constructor()
     {
@@ -276,24 +286,19 @@ class States {
     /* Save a state of the engine. `isBranched`: the user's key presses are part of the state. */
     keep(engine, isBranched)
     {
-        const bytes = engine.used(), last = this.list.at(-1);
-        const blocks = last ? this.changedBlocks(bytes, last) : this.copiedBlocks(bytes);
-        this.list.push({tick: engine.tick, isBranched, size: bytes.length, blocks});
+        const bytes = engine.used(), last = this.list.at(-1), {tick} = engine, size = bytes.length;
+        if (last) {
+            this.list.push({tick, isBranched, size, blocks: this.changedBlocks(bytes, last)});
+        } else {
+            const copy = bytes.slice(), state = {tick, isBranched, size, get blocks() { return this.parts ??= divide(copy); }};
+            this.list.push(state);
+            this.bytes += size;
+        }
         if (this.bytes <= MOST_STATE_BYTES || this.list.length < 3)
             return;
         const gone = new Set(this.list.filter((state, i) => i % 2 === 1));
         this.forget(state => gone.has(state));
         this.interval *= 2;
-    }
-
-    /* Copy all bytes at once and divide the copy into blocks: copying block by block takes three times as long. */
-    copiedBlocks(bytes)
-    {
-        const copy = bytes.slice(), blocks = [];
-        for (let at = 0; at < copy.length; at += BLOCK)
-            blocks.push(copy.subarray(at, at + BLOCK));
-        this.bytes += copy.length;
-        return blocks;
     }
 
     changedBlocks(bytes, last)

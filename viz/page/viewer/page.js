@@ -24,7 +24,9 @@ class Viewer {
         this.filter = 0; /* the selected events as bits; 0: no filter */
         this.playing = false;
         this.stage = new Frames(byId("stage"), tick => recording.tick(tick).frame);
-        this.timeline = new Timeline(recording, {goTo: tick => this.goTo(tick), toggle: bit => this.toggle(bit)});
+        /* The promise of the first picture, or of the reason why the page cannot draw it. */
+        const begun = new Promise(done => this.begins = done);
+        this.timeline = new Timeline(recording, begun, {goTo: tick => this.goTo(tick), toggle: bit => this.toggle(bit)});
         this.inspector = new Inspector(this);
         this.interaction = new Interaction(this);
         this.address = new Address(this);
@@ -418,8 +420,7 @@ function openRecording()
     listenToKeys(viewer);
     listenToControls(viewer);
     viewer.address.read();
-    if (viewer.interaction.canPlay)
-        viewer.interaction.start();
+    viewer.begins(viewer.interaction.canPlay && viewer.interaction.start());
     return viewer;
 }
 

@@ -22,9 +22,12 @@ function element(name, content = "", attributes = {})
     return made;
 }
 
+/* A number with at most three decimals and commas between thousands, as in "12,345.5". Number.toLocaleString() would
+ * load the browser's tables of languages, which delays the first picture by 10 ms. */
 function grouped(number)
 {
-    return number.toLocaleString("en");
+    const [whole, decimals] = String(Math.round(number * 1000) / 1000).split(".");
+    return whole.replace(/\B(?=(\d{3})+$)/g, ",") + (decimals ? `.${decimals}` : "");
 }
 
 /* A count with its noun: "1 tick", "2 ticks". */

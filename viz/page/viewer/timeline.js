@@ -121,9 +121,11 @@ function drawCurve(context, scale, height, values, [low, high])
 
 class Timeline {
     /* `goTo(tick)` shows a tick. `toggle(bit)` selects or deselects an event. The lanes show the ticks `from` to `to`;
-     * the numbers may have fractions. */
-    constructor(recording, {goTo, toggle})
+     * the numbers may have fractions. The lanes are drawn after the browser has shown the first picture, because the
+     * lanes of 10,000 ticks would delay it: `begun` is the promise of this picture. */
+    constructor(recording, begun, {goTo, toggle})
     {
+        this.begun = begun;
         this.root = document.getElementById("timeline");
         this.scrub = document.getElementById("scrub");
         this.cursor = document.getElementById("cursor");
@@ -160,7 +162,9 @@ class Timeline {
         this.lanes.forEach((lane, i) => this.place(lane, i + 2));
         this.scrub.style.gridRow = `2 / span ${this.lanes.length}`;
         this.choose(this.bits);
-        this.draw();
+        this.measure();
+        this.mark(this.tick);
+        this.begun.then(() => requestAnimationFrame(() => setTimeout(() => this.draw())));
     }
 
     eventLane([name, sign, of], bit)
