@@ -73,7 +73,7 @@ bool folder_contains(const char *folder, const char *name)
     return path_print(folder, name, path) && stat(path, &status) == 0;
 }
 
-static int is_real_entry(const struct dirent *entry)
+static int is_no_dot_entry(const struct dirent *entry)
 {
     return strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0;
 }
@@ -87,7 +87,7 @@ static int compare_by_name(const struct dirent **a, const struct dirent **b)
 char **folder_names(const char *folder, octreel_error *error)
 {
     struct dirent **entries = NULL;
-    const int count = scandir(folder, &entries, is_real_entry, compare_by_name);
+    const int count = scandir(folder, &entries, is_no_dot_entry, compare_by_name);
     size_t size = 0;
     for (int i = 0; i < count; i++)
         size += strlen(entries[i]->d_name) + 1;

@@ -11,7 +11,7 @@
 
 enum { COMMAND_COLUMN = 18, OPTION_COLUMN = 24, CHOICE_WIDTH = 12 };
 
-static void print_filled(FILE *out, const char *text, int column)
+static void print_wrapped(FILE *out, const char *text, int column)
 {
     prose_fill(out, text, strlen(text), column, column);
 }
@@ -21,7 +21,7 @@ static void print_choices(FILE *out, const command_option *option)
 {
     for (int i = 0; option->names(i); i++) {
         fprintf(out, "%*s%-*s", OPTION_COLUMN, "", CHOICE_WIDTH, option->names(i));
-        print_filled(out, option->words(i), OPTION_COLUMN + CHOICE_WIDTH);
+        print_wrapped(out, option->words(i), OPTION_COLUMN + CHOICE_WIDTH);
     }
 }
 
@@ -43,7 +43,7 @@ static void print_options(FILE *out, const command *c)
     for (size_t n = 0; command_option_at(c, n, &option); n++) {
         if (!option.name) {
             fputs(had ? "\n" : "", out);
-            print_filled(out, option.help, 0);
+            print_wrapped(out, option.help, 0);
         } else {
             print_option(out, &option);
         }

@@ -174,7 +174,7 @@ static bool find_points(las_reader *reader)
 
 /* A part of the file may follow the points. The header holds the start of this part at offset `at`; 0 means that the
  * part is missing. If the start is lower than *next, set *next to it. */
-static bool lower_to_start_of_part(const las_reader *reader, size_t at, const char *what, uint64_t *next)
+static bool update_next_part_start(const las_reader *reader, size_t at, const char *what, uint64_t *next)
 {
     const uint64_t end = reader->first + reader->count * reader->length, start = read_unsigned(reader, at, 8);
     if (start == 0)
@@ -196,10 +196,10 @@ static bool check_bytes_after_points(const las_reader *reader)
     cloud_file before = *reader->file;
     uint64_t next = before.size;
     if (reader->minor >= 3 && has_waveforms[reader->format] &&
-        !lower_to_start_of_part(reader, AT_WAVEFORMS, "the waveforms", &next))
+        !update_next_part_start(reader, AT_WAVEFORMS, "the waveforms", &next))
         return false;
     if (reader->minor >= 4 && read_unsigned(reader, AT_RECORD_COUNT, 4) > 0 &&
-        !lower_to_start_of_part(reader, AT_RECORDS, "the extended records", &next))
+        !update_next_part_start(reader, AT_RECORDS, "the extended records", &next))
         return false;
     before.size = (size_t)next;
     cloud_note_trailing_bytes(&before, (size_t)(reader->first + reader->count * reader->length));

@@ -254,7 +254,7 @@ static void find_columns(cloud_file *file, cloud_span rest, char separator, text
     }
 }
 
-static int ranges_containing(double number)
+static int find_ranges_containing(double number)
 {
     return (number >= 0 && number <= 255 && number == floor(number) ? BYTES : 0) |
            (number >= 0 && number <= 1 ? FRACTIONS : 0);
@@ -273,9 +273,9 @@ static void discard_guessed_columns(cloud_file *file, text_columns *columns)
 static void check_guessed_columns(cloud_file *file, text_columns *columns, size_t count, const double *numbers)
 {
     double square = 0;
-    columns->shifted &= ranges_containing(numbers[CLOUD_INTENSITY]);
+    columns->shifted &= find_ranges_containing(numbers[CLOUD_INTENSITY]);
     for (int i = 0; i < 3; i++) {
-        columns->ranges &= ranges_containing(numbers[CLOUD_RED + i]);
+        columns->ranges &= find_ranges_containing(numbers[CLOUD_RED + i]);
         square += numbers[CLOUD_RED + i] * numbers[CLOUD_RED + i];
         columns->brightest = fmax(columns->brightest, numbers[CLOUD_RED + i]);
     }

@@ -160,8 +160,8 @@ static bool has_channel(const cloud_file *file, cloud_channel channel)
 
 /* Records whether a point has a value of a kind, and returns `valid`. If the value is not valid, counts it as out of
  * range. NaN and infinity are not counted, because many files mark missing values with them. */
-static bool set_has_value(const cloud_file *file, point_value_kind kind, bool valid, const double *numbers,
-                          size_t count, point_value *value)
+static bool set_value_presence(const cloud_file *file, point_value_kind kind, bool valid, const double *numbers,
+                               size_t count, point_value *value)
 {
     bool finite = !valid;
     for (size_t i = 0; finite && i < count; i++)
@@ -205,13 +205,13 @@ void cloud_convert_values(cloud_file *file, const double *numbers, point_value *
     const double *color = numbers + CLOUD_RED, *packed = numbers + CLOUD_PACKED;
     const double *intensity = numbers + CLOUD_INTENSITY, *class = numbers + CLOUD_CLASS;
     if (has_channel(file, CLOUD_RED))
-        set_has_value(file, POINT_COLOR, convert_color(file->out, color, value->color), color, 3, value);
+        set_value_presence(file, POINT_COLOR, convert_color(file->out, color, value->color), color, 3, value);
     else if (has_channel(file, CLOUD_PACKED))
-        set_has_value(file, POINT_COLOR, unpack_color(*packed, value->color), packed, 1, value);
+        set_value_presence(file, POINT_COLOR, unpack_color(*packed, value->color), packed, 1, value);
     if (has_channel(file, CLOUD_INTENSITY) &&
-        set_has_value(file, POINT_INTENSITY, fabs(*intensity) <= FLT_MAX, intensity, 1, value))
+        set_value_presence(file, POINT_INTENSITY, fabs(*intensity) <= FLT_MAX, intensity, 1, value))
         value->intensity = (float)*intensity;
-    if (has_channel(file, CLOUD_CLASS) && set_has_value(file, POINT_CLASS, is_class(*class), class, 1, value))
+    if (has_channel(file, CLOUD_CLASS) && set_value_presence(file, POINT_CLASS, is_class(*class), class, 1, value))
         value->class = (uint16_t) * class;
 }
 

@@ -7,7 +7,7 @@
 #include <string.h>
 
 /* Returns the distance from |value| to the next larger double. */
-static double spacing_above(double value)
+static double find_spacing_above(double value)
 {
     value = fabs(value);
     return value < DBL_MAX ? nextafter(value, INFINITY) - value : 0x1p971;
@@ -45,7 +45,7 @@ static double find_half_side(const octree_box *bounds)
         half = fmax(half, find_half_extent(bounds, i));
         largest = fmax(largest, fmax(fabs(bounds->min[i]), fabs(bounds->max[i])));
     }
-    return fmax(flat ? 0.5 : half, 2 * spacing_above(largest));
+    return fmax(flat ? 0.5 : half, 2 * find_spacing_above(largest));
 }
 
 octree_box find_point_world(const void *positions, size_t stride, size_t count)

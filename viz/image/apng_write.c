@@ -183,7 +183,7 @@ static void append_bytes(void *context, const uint8_t *bytes, size_t size)
     e->bytes.count += size;
 }
 
-static bool encode(apng_writer *w, const uint8_t *pixels, const rectangle *area, bool masked, encoding *e)
+static bool encode_frame(apng_writer *w, const uint8_t *pixels, const rectangle *area, bool masked, encoding *e)
 {
     const size_t count = (size_t)(area->right - area->left), rows = (size_t)(area->bottom - area->top);
     deflater *d = deflater_open(count * w->pixel + 1, rows, w->pixel, append_bytes, e);
@@ -199,7 +199,7 @@ static bool encode(apng_writer *w, const uint8_t *pixels, const rectangle *area,
     return d && !e->lacks_memory;
 }
 
-static bool keep_pixels(apng_writer *w, const uint8_t *pixels)
+static bool store_previous_frame(apng_writer *w, const uint8_t *pixels)
 {
     const size_t size = find_offset(w, 0, w->about.height);
     if (!w->before)
@@ -213,7 +213,8 @@ bool apng_writer_add(apng_writer *w, const uint8_t *pixels, uint16_t shown, octr
 {
     const rectangle area = find_changes(w, pixels);
     const bool both = w->before && w->transparent >= 0;
-    if (!encode(w, pixels, &area, false, &w->plain) || (both && !encode(w, pixels, &area, true, &w->masked)))
+    if (!encode_frame(w, pixels, &area, false, &w->plain) ||
+        (both && !encode_frame(w, pixels, &area, true, &w->masked)))
         return error_no_memory(error);
     const bool over = both && w->masked.bytes.count < w->plain.bytes.count;
     put_frame_control(w, &area, shown, over);
@@ -221,12 +222,12 @@ bool apng_writer_add(apng_writer *w, const uint8_t *pixels, uint16_t shown, octr
     if (w->write_error != 0)
         return error_set(error, "%s: cannot be written: %s", file_output_display_name(w->file.path),
                          strerror(w->write_error));
-    return keep_pixels(w, pixels) || error_no_memory(error);
+    return store_previous_frame(w, pixels) || error_no_memory(error);
 }
 
 /* ---- The file ------------------------------------------------------------------------------------------------ */
 
-static void release(apng_writer *w)
+static void release_writer(apng_writer *w)
 {
     free(w->before);
     free(w->row);
@@ -257,7 +258,7 @@ bool apng_writer_close(apng_writer *w, octreel_error *error)
     put_chunk(w, "IEND", NULL, 0);
     errno = w->write_error;
     const bool whole = file_writer_close(&w->file, error);
-    release(w);
+    release_writer(w);
     return whole;
 }
 
@@ -266,6 +267,6 @@ bool apng_writer_discard(apng_writer *w)
     if (!w)
         return false;
     file_writer_discard(&w->file);
-    release(w);
+    release_writer(w);
     return false;
 }

@@ -238,7 +238,7 @@ static void digest_rows(digest_state *d, const image *rows)
 
 /* ---- A picture ------------------------------------------------------------------------------------------------ */
 
-static void begin_digest(digest_state *d, image_digest_kind kind, const image *about)
+static void init_digest(digest_state *d, image_digest_kind kind, const image *about)
 {
     d->kind = kind;
     d->digest =
@@ -267,7 +267,7 @@ static uint64_t finish_digest(const digest_state *d)
 uint64_t image_digest_with(image_digest_kind kind, const image *image)
 {
     digest_state d;
-    begin_digest(&d, kind, image);
+    init_digest(&d, kind, image);
     digest_band(&d, image);
     return finish_digest(&d);
 }
@@ -287,7 +287,7 @@ bool image_digest_png(image_digest_kind kind, const char *path, image_color back
     about->pixels = NULL;
     const int rows = image_find_band_height(about);
     digest_state d;
-    begin_digest(&d, kind, about);
+    init_digest(&d, kind, about);
     for (image band; image_source_read_band(source, rows, &band);)
         digest_band(&d, &band);
     *digest = finish_digest(&d);

@@ -22,7 +22,7 @@
 
 /* Return the element id of a part of an answer, such as the line to a neighbour. `place` is the answer's index in the
  * tick. Markers do not use these ids: the id of a marker is the id of its point. */
-static uint64_t part_id(size_t place, size_t part)
+static uint64_t make_part_id(size_t place, size_t part)
 {
     return (uint64_t)place << 32 | (uint64_t)part;
 }
@@ -109,7 +109,7 @@ static void add_circle(scene *s, const octree_answer *ball, size_t place, int pl
     point_on_circle(ball, plane, 0, from);
     for (int i = 0; i < BALL_CHORDS; i++) {
         point_on_circle(ball, plane, (i + 1) % BALL_CHORDS, to);
-        scene_add_line(s, part_id(place, (size_t)(plane * BALL_CHORDS + i)), from, to, style);
+        scene_add_line(s, make_part_id(place, (size_t)(plane * BALL_CHORDS + i)), from, to, style);
         memcpy(from, to, sizeof from);
     }
 }
@@ -155,7 +155,7 @@ static void add_ranks(scene *s, const octree_answer *answer, size_t place, scene
     for (size_t i = 0; i < ranks; i++)
         text_space_reserve_mark(&words, s, answer->neighbors[i].point.position, NEIGHBOR_HALF);
     for (size_t i = 0; i < ranks; i++)
-        text_space_add_label_beside(&words, s, scene_make_label(part_id(place, i), style, "%zu", i + 1),
+        text_space_add_label_beside(&words, s, scene_make_label(make_part_id(place, i), style, "%zu", i + 1),
                                     answer->neighbors[i].point.position, NEIGHBOR_HALF);
 }
 
@@ -163,7 +163,7 @@ static void add_knearest(scene *s, const octree_answer *answer, size_t place, vi
 {
     const scene_style style = make_layer_style(layer, STROKE_SOLID, 1);
     for (size_t i = 0; i < answer->count; i++)
-        scene_add_line(s, part_id(place, i), answer->target, answer->neighbors[i].point.position, style);
+        scene_add_line(s, make_part_id(place, i), answer->target, answer->neighbors[i].point.position, style);
     add_ranks(s, answer, place, style);
 }
 

@@ -56,7 +56,7 @@ static void append_points(words *w, const octree_point *points, size_t count)
 /* ---- The player ---------------------------------------------------------------------------------------------- */
 
 /* Append the bound of the world that a key press would have crossed: "x = 1000". */
-static void append_bound(words *w, const layer_source *in)
+static void append_world_limit(words *w, const layer_source *in)
 {
     static const char keys[] = "adswfe"; /* lower and upper direction of each axis */
     const size_t way = (size_t)(strchr(keys, in->tick->key) - keys);
@@ -78,12 +78,12 @@ static void append_step(words *w, const layer_source *in)
         append(w, "step taken back, the leaf there is full");
     } else {
         append(w, "step refused, the world ends at ");
-        append_bound(w, in);
+        append_world_limit(w, in);
     }
 }
 
 /* Append the answer to the query that the key n asked. */
-static void append_asked(words *w, const octree_tick *tick)
+static void append_nearest_point(words *w, const octree_tick *tick)
 {
     char away[NUMBER_TEXT];
     const octree_answer *answer = tick->answers;
@@ -101,7 +101,7 @@ static void append_player(words *w, const layer_source *in)
     if (steps && tick->has_player) {
         append_step(w, in);
     } else if (tick->key == 'n') {
-        append_asked(w, tick);
+        append_nearest_point(w, tick);
     } else if (tick->has_player && in->session->player.kind == OCTREE_PLAYER_BODY) {
         append_place(w, "player at ", tick->player);
     }
