@@ -144,6 +144,8 @@ static int run(int argc, char **argv)
     make_page_name(a.session, name);
     if (!a.page)
         a.page = name;
+    if (!a.session)
+        a.film.view.diagram = DIAGRAM_BESIDE;
     return read_view(&a.view, &a.film.view) && check_page(&a) ? play_session(&a) : EXIT_TROUBLE;
 }
 

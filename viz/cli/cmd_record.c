@@ -179,6 +179,8 @@ static bool complete_film_options(arguments *a)
             has_view ? "session.json" : "recording.json");
     if (a->film.resume && has_view && !recording_read(folder, &a->film.view, &every, &error))
         return print_refusal("%s", error.text);
+    if (!a->session && !(a->film.resume && has_view))
+        a->film.view.diagram = DIAGRAM_BESIDE;
     a->film.every = a->no_frames ? 0 : a->every ? a->every : every;
     return read_view(&a->view, &a->film.view);
 }

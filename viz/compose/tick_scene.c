@@ -46,7 +46,17 @@ static void add_layers(scene *s, const layer_source *in)
     add_layer(s, in, LAYER_TEXT);
 }
 
-/* Build the close-up: a scene of its own, with the layers of the main scene except the world and the text. */
+/* Returns whether all markers in a close-up are the player's: the close-up shows neither a point nor an answer. */
+static bool shows_only_player(const scene *closeup, const layer_source *in)
+{
+    size_t i = 0;
+    while (i < closeup->markers.count && closeup->markers.items[i].id == in->session->player.id)
+        i++;
+    return i == closeup->markers.count;
+}
+
+/* Build the close-up: a scene of its own, with the layers of the main scene except the world and the text. A close-up
+ * that would show only the player is left out. */
 static void add_closeup(scene *s, const layer_source *in, const double place[3], double times)
 {
     layer_source close;
@@ -56,6 +66,7 @@ static void add_closeup(scene *s, const layer_source *in, const double place[3],
     }
     add_layers(s->closeup, &close);
     s->out_of_memory |= s->closeup->out_of_memory;
+    s->has_closeup = !(in->tick && in->tick->has_player && shows_only_player(s->closeup, in));
 }
 
 /* Forget the results for another tick. The history may end at the tick before the one that is built. The tick of a tree

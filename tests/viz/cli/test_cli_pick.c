@@ -28,7 +28,7 @@ static void show(shown *what, const temp_folder *own, const char *arguments, uin
     octreel_error error = {""};
     what->folder = place_in(own, "film");
     command_result result =
-        run_octreel(NULL, "record --keys wwdn --size 320x180 %s -o %s", arguments, what->folder.path);
+        run_octreel(NULL, "record --keys wwdn --size 320x180 --diagram none %s -o %s", arguments, what->folder.path);
     assert_done(&result);
     command_release(&result);
     what->frame = frame_place(what->folder.path, tick);

@@ -49,13 +49,18 @@ static void a_close_up_follows_the_player_and_is_fixed_in_the_picture(void **sta
         view v = view_make_default();
         scene s = {.refused = 0};
         double times = 0;
+        int left_out = 0;
         v.camera = camera;
         const camera_window w = layout_closeup_area(&v);
         for (int tick = 0; tick < 40; tick++) {
             const double *player = octree_game_tick(game)->player;
             double pixel[2];
             build_tick(&s, &v, game);
-            assert_true(s.has_closeup);
+            if (!s.has_closeup) { /* it would show only the player */
+                left_out++;
+                play_tick(game);
+                continue;
+            }
             times = tick ? times : s.closeup->times;
             assert_true(s.closeup->times == times && times > 1);
             assert_true(s.closeup->place[0] == w.x && s.closeup->place[1] == w.y);
@@ -65,6 +70,7 @@ static void a_close_up_follows_the_player_and_is_fixed_in_the_picture(void **sta
             assert_memory_equal(s.closeup->camera.forward, s.camera.forward, sizeof s.camera.forward);
             play_tick(game);
         }
+        assert_true(left_out > 0 && left_out < 30);
         scene_release(&s);
         octree_game_destroy(game);
     }
@@ -221,7 +227,10 @@ static void enlarged_area_is_outlined_however_small(void **state)
 {
     (void)state;
     octree_session session = octree_session_default();
+    const octree_body near_player = {.id = 99, .position = {1e-6, 0, 0}};
     session.player.step = session.player.box_size = 1e-5;
+    session.bodies = &near_player;
+    session.body_count = 1;
     octree_game *game = open_game(&session);
     scene s = {.refused = 0};
     const view v = view_make_default();

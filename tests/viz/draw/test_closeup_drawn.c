@@ -46,7 +46,7 @@ static void close_up_draws_its_scene_and_changes_no_other_pixel(void **state)
 {
     (void)state;
     for (int i = 0; i < 8; i++) {
-        scene s = close_scene(i % 2 ? CAMERA_FOLLOW : CAMERA_ISO, i / 2 % 2 + 1, i / 4 ? 219 : 30);
+        scene s = close_scene(i % 2 ? CAMERA_FOLLOW : CAMERA_ISO, i / 2 % 2 + 1, i / 4 ? 219 : 10);
         const size_t side = (size_t)s.view.aa, width = (size_t)s.view.width * side;
         const size_t own = (size_t)s.closeup->view.width * side, rows = (size_t)s.closeup->view.height * side;
         const size_t left = (size_t)s.closeup->place[0] * side, top = (size_t)s.closeup->place[1] * side;
@@ -107,7 +107,7 @@ static void layer_mask_includes_the_close_up(void **state)
 {
     (void)state;
     octreel_error error = {""};
-    scene s = close_scene(CAMERA_ISO, 1, 30);
+    scene s = close_scene(CAMERA_ISO, 1, 10);
     renderer *r = renderer_open(s.view.width, s.view.height, &(renderer_choice){0}, &error);
     uint8_t *mask = malloc(frame_samples(&s));
     const int *at = s.closeup->place;

@@ -40,6 +40,7 @@ static void program_and_library_record_the_same_bytes(void **state)
     film_options options = small_film(a.path);
     options.every = 40;
     options.view.camera = CAMERA_ORBIT;
+    options.view.diagram = DIAGRAM_BESIDE; /* as the program shows its example */
     assert_filmed(&session, &options);
     assert_filmed_by_program(NULL, "", VIEW, b.path);
     assert_same_folders(a.path, b.path, NULL);

@@ -24,7 +24,7 @@ static const struct {
     {"color-points", "height", "colouring of points (height, was plain)"},
     {"shade", "none", "shade (none, was bands)"},
     {"tree", "own", "tree (own, was auto)"},
-    {"diagram", "only", "diagram (only, was none)"},
+    {"diagram", "only", "diagram (only, was beside)"},
     {"no-closeup", "", "close-up (off, was on)"},
     {"slice", "z=100", "slice (z 100, was none)"},
     {"depths", "1:3", "range of depths ((1, 3), was none)"},

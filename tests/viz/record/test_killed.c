@@ -25,7 +25,7 @@
 
 enum { MOST = 512 };
 
-#define FILM "record --jobs 1 --keys wd --size 16x16"
+#define FILM "record --jobs 1 --keys wd --size 16x16 --diagram none"
 
 static const char KEYS[] = "wd";
 
