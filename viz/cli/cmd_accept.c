@@ -41,7 +41,7 @@ static const command_option options[] = {
     JSON_OPTION(arguments, json, "print a summary as JSON, with the names of all changed frames"),
     {.help = "Baselines. A baseline is a text file for git with one digest for each frame and the reason for each "
              "change; octreel help baseline describes it:"},
-    {"reason", "TEXT", "the reason for the change, one line; if REFERENCE does not exist, it becomes a baseline",
+    {"reason", "TEXT", "the reason for the change, one line; if REFERENCE does not exist, a baseline is created",
      .read = read_reason, OPTION_VALUE(arguments, reason)},
     {"date", "DATE", "the date of the change, as YYYY-MM-DD (default: today)", .read = read_date,
      OPTION_VALUE(arguments, date)},

@@ -49,7 +49,8 @@ typedef struct tree_subject {
     const octree_answer *answers;
     size_t answer_count;
     const point_values *values; /* colours, classes and intensities of the tree's points; may be null */
-    /* the results for the tree, if its scene is built for many cameras and the tree does not change; may be null */
+    /* keeps results between calls, for a tree whose scene is built for many cameras while the tree does not change;
+     * may be null */
     tick_history *history;
 } tree_subject;
 

@@ -127,7 +127,7 @@ bool diff_check(const diff_side *a, const diff_side *b, const diff_options *opti
                          "frames, which %s is not",
                          a->no_frames ? a->path : b->path, a->no_frames ? b->path : a->path);
     if ((a->kind == DIFF_PICTURE || b->kind == DIFF_PICTURE) && !is_single_pair(a, b))
-        return error_set(error, "cannot compare a picture with a %s of several: %s and %s",
+        return error_set(error, "cannot compare one picture with a %s of several pictures: %s and %s",
                          diff_kind_name(a->kind == DIFF_PICTURE ? b->kind : a->kind), a->path, b->path);
     if (a->count + b->count == 0 && !a->no_frames)
         return error_set(error, "nothing to compare: no PNG files in %s or %s", a->path, b->path);

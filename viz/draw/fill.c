@@ -65,7 +65,8 @@ static void fill_rectangle(const target *t, const quad *q)
  * point. */
 typedef struct edge_walk {
     int64_t at, beyond;
-    int64_t turn, rest; /* from one row to the next, the crossing moves by turn + rest / whole pixels */
+    /* the distance between the crossings of two adjacent rows: turn + (fraction rest / whole) pixels */
+    int64_t turn, rest;
     int64_t whole;
 } edge_walk;
 

@@ -292,7 +292,7 @@ static void print_group(FILE *out, const cause_group *group, bool brief)
         print_fact(out, &p, group, &group->listed[i]);
     }
     if (group->found > printed)
-        fprintf(out, " and %" PRIu64 " more of that kind", group->found - printed);
+        fprintf(out, " and %" PRIu64 " more of this kind", group->found - printed);
 }
 
 /* ---- All groups ------------------------------------------------------------------------------------------------ */

@@ -41,7 +41,7 @@ static bool advance_in_string(cutter *c, char at)
     return was || c->quoted;
 }
 
-static bool advance_in_lists(cutter *c, char at)
+static bool advance_outside_string(cutter *c, char at)
 {
     if (at == '[' || at == '{') {
         if (++c->depth == DEPTH)
@@ -74,7 +74,7 @@ static char *shorten_lists(const char *text, size_t size, size_t *left)
     size_t from = 0; /* offset of the first character that is neither copied nor dropped yet */
     for (size_t i = 0; ok && i < size; i++) {
         const bool cut = c.cut;
-        ok = advance_in_string(&c, text[i]) || advance_in_lists(&c, text[i]);
+        ok = advance_in_string(&c, text[i]) || advance_outside_string(&c, text[i]);
         if (!cut && c.cut)
             fwrite(text + from, 1, i - from, c.out);
         from = cut && !c.cut ? i : from;

@@ -20,7 +20,7 @@
 
 /* ---- Playing ------------------------------------------------------------------------------------------------ */
 
-static bool add_history(playback *p, octreel_error *error)
+static bool add_tick_to_history(playback *p, octreel_error *error)
 {
     return tick_history_add(&p->history, &p->view, p->game) || error_no_memory(error);
 }
@@ -32,7 +32,7 @@ bool playback_open(playback *p, const octree_session *session, const point_value
     const octree_status status = octree_game_create(session, &p->game);
     if (status != OCTREE_OK)
         return error_set(error, "the session cannot be played: %s", octree_status_text(status));
-    return picture_fit(&p->view, octree_game_tree(p->game), values, error) && add_history(p, error);
+    return picture_fit(&p->view, octree_game_tree(p->game), values, error) && add_tick_to_history(p, error);
 }
 
 void playback_close(playback *p)
@@ -50,7 +50,7 @@ static bool finish_tick(playback *p, octree_status status, octreel_error *error)
     if (status != OCTREE_OK)
         return error_set(error, "tick %" PRIu64 " cannot be played: %s", octree_game_tick(p->game)->number,
                          octree_status_text(status));
-    return add_history(p, error);
+    return add_tick_to_history(p, error);
 }
 
 static bool begin_tick(playback *p, const octree_input *input, octreel_error *error)

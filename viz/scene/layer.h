@@ -90,8 +90,7 @@ static inline bool view_shows_layer(const view *v, view_layer layer)
                                     : v->layers >> layer & 1;
 }
 
-/* Returns the style of an element: make_role_style() with the colour of a role, make_layer_style() with the colour of
- * the element's layer. */
+/* Return the style of an element. The colour is that of a role or, with make_layer_style(), that of the layer. */
 static inline scene_style make_role_style(view_layer layer, unsigned role, scene_stroke stroke, unsigned width)
 {
     return (scene_style){(uint8_t)layer, (uint8_t)role, (uint8_t)stroke, (uint8_t)width};

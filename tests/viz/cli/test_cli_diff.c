@@ -99,7 +99,7 @@ static void errors_are_printed_with_status_2(void **state)
     command_result result = run_octreel(NULL, "diff %s", p.a.path);
     assert_trouble(&result, "diff needs two sides");
     result = run_octreel(NULL, "diff %s %s", p.a.path, folder.path);
-    assert_trouble(&result, "cannot compare a picture with a folder");
+    assert_trouble(&result, "cannot compare one picture with a folder");
     result = run_octreel(NULL, "diff %s %s", p.a.path, text.path);
     assert_trouble(&result, "not a PNG file, a folder, or a baseline");
     assert_int_equal(truncate(p.b.path, 120), 0);
@@ -285,7 +285,7 @@ static void baseline_of_one_picture_is_compared_with_a_picture(void **state)
     assert_done(&result);
     command_release(&result);
     result = run_octreel(NULL, "diff %s %s", two.path, p.a.path);
-    assert_trouble(&result, "cannot compare a picture with a baseline");
+    assert_trouble(&result, "cannot compare one picture with a baseline");
 }
 
 static void help_describes_the_command(void **state)

@@ -255,7 +255,7 @@ static void refused_comparison_writes_no_evidence(void **state)
 {
     gallery_make(*state, "a", "1.png 2.png");
     do_in(state, "accept a.dig a --reason x && mkdir none nil");
-    assert_refused(state, "diff a a/1.png -o ev", "cannot compare a picture with a folder");
+    assert_refused(state, "diff a a/1.png -o ev", "cannot compare one picture with a folder");
     assert_refused(state, "diff none nil -o ev", "nothing to compare");
     assert_refused(state, "diff a.dig a --max-pixels 1 -o ev", "a baseline holds digests, which allow no tolerance");
 }

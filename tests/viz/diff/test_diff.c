@@ -183,7 +183,7 @@ static void incomparable_sides_are_refused(void **state)
     const place folder = gallery_make(*state, "a", "1.png"), empty = gallery_make(*state, "b", "");
     const place picture = place_below(folder.path, "1.png");
     diff_options options = diff_options_default();
-    assert_not_compared(folder.path, picture.path, NULL, "cannot compare a picture with a folder");
+    assert_not_compared(folder.path, picture.path, NULL, "cannot compare one picture with a folder");
     assert_not_compared(empty.path, empty.path, NULL, "nothing to compare");
     options.mask = ignore_layers;
     options.mask_context = &(unsigned){1u << LAYER_TEXT};

@@ -453,7 +453,7 @@ static void queries_are_named_by_kind_and_tick(void **state)
         "one more query at tick 4 (nearest (1, 1, 1)); tick 4: the nearest query asked only in the frames");
     assert_change_headline_from(
         no_query, three_more_queries,
-        "one more query at tick 4 (nearest (1, 1, 1)) and 2 more of that kind; tick 4: the nearest query "
+        "one more query at tick 4 (nearest (1, 1, 1)) and 2 more of this kind; tick 4: the nearest query "
         "asked only in the frames");
     assert_change_headline(one_query_fewer,
                            "one query fewer at every tick (range (-5, -5, -5) to (5, 5, 5)); tick 0: the range "
