@@ -13,22 +13,22 @@ function barHeight(pixels, most)
 }
 
 class Curve {
-    constructor(figure, findings, goTo)
+    constructor(section, findings, goTo)
     {
-        this.canvas = figure.querySelector("canvas");
+        this.canvas = section.querySelector("canvas");
         this.pixels = findings.whole.pixels;
         this.entries = findings.whole.entries; /* for each frame: the index of its finding in the page, or null */
         this.most = this.pixels.reduce((most, pixels) => Math.max(most, pixels ?? 0), 0);
         this.entry = -1;
         this.canvas.addEventListener("click", event => goTo(this.nearest(event.offsetX)));
         addEventListener("resize", () => this.draw());
-        figure.hidden = this.pixels.length < 2;
-        this.label(figure, findings);
+        section.hidden = this.pixels.length < 2;
+        this.label(section, findings);
     }
 
-    label(figure, {whole, frames})
+    label(section, {whole, frames})
     {
-        const captions = figure.querySelectorAll("figcaption span");
+        const captions = section.querySelectorAll("div span");
         captions[0].textContent = shortName({frame: whole.ends[0]});
         captions[2].textContent = shortName({frame: whole.ends[1]});
         this.canvas.setAttribute("aria-label", `Pixels that differ in ${this.pixels.length} frames, at most ` +
