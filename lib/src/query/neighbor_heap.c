@@ -27,8 +27,10 @@
  * `square`. */
 static inline double find_node_reach(const neighbor_heap *h, double square)
 {
+    if (!(h->node_error > 0))
+        return metric_above(square);
     const double reach = sqrt(square) + h->node_error;
-    return metric_above(h->node_error > 0 ? reach * reach : square);
+    return metric_above(reach * reach);
 }
 
 /* Return the squared distance beyond which points are ignored, if `worst` is the squared distance of the farthest of k
@@ -173,45 +175,68 @@ static inline bool is_rejected(const neighbor_heap *h, const octree_point *point
     return square > h->point_reach || (h->is_filtered && !is_accepted(h, point, square));
 }
 
-/* Insert a point's key into the sorted keys. The key at index `last` is dropped, and the point takes its slot. */
-static inline void insert_neighbor(few_neighbors *f, const octree_point *point, double square, size_t last)
+/* Store a point in a slot, and insert its key into the sorted keys. The key at index `last` is dropped. */
+static inline void insert_neighbor(few_neighbors *f, const octree_point *point, double square, size_t last,
+                                   unsigned place)
 {
-    const unsigned place = find_slot_of_key(f->keys[last]);
     f->points[place] = point;
     f->squares[place] = square;
     /* A square that is too large or NaN becomes METRIC_FINITE. */
     insert_key(f->keys, last, make_slot_key(square < METRIC_FINITE ? square : METRIC_FINITE, place));
 }
 
-/* Once k neighbours are found, move the key of the farthest to the end, and limit the search to its distance. */
-static inline void limit_by_farthest(neighbor_heap *h, size_t last)
+/* Once k neighbours are found, move the key of the farthest to the end. Returns a limit: a point with a smaller square
+ * is certainly nearer than the farthest. */
+static inline double settle_farthest(neighbor_heap *h, size_t last)
 {
     double *keys = h->few.keys;
     if (keys[last - 1] >= find_certainly_nearer_limit(keys[last]))
         move_farthest_to_end(h, keys, last);
-    h->worst = h->few.squares[find_slot_of_key(keys[last])];
-    h->point_reach = find_point_reach(h, h->worst);
+    return find_certainly_nearer_limit(keys[last]);
+}
+
+/* Returns whether a point whose square does not decide is nearer than the farthest of k neighbours. */
+static inline bool is_nearer_than_last(const neighbor_heap *h, const octree_point *point, double square, size_t last)
+{
+    const unsigned place = find_slot_of_key(h->few.keys[last]);
+    return !(square > find_point_reach(h, h->few.squares[place])) && is_nearer(h, point, square, place);
+}
+
+/* Keep points until there are k neighbours. Returns the points that were not offered yet, as bits. */
+static inline uint64_t fill_few_neighbors(neighbor_heap *h, const octree_point *points, const double squares[],
+                                          uint64_t within)
+{
+    size_t count = h->count;
+    for (; within && count < h->k; within &= within - 1) {
+        const unsigned i = bits_lowest(within);
+        if (!is_rejected(h, &points[i], squares[i])) {
+            insert_neighbor(&h->few, &points[i], squares[i], FEW_FIRST + count, (unsigned)count);
+            count++;
+        }
+    }
+    h->count = count;
+    return within;
 }
 
 static void add_to_few_neighbors(neighbor_heap *h, const octree_point *points, const double squares[], uint64_t within)
 {
-    few_neighbors *f = &h->few;
     const size_t last = FEW_FIRST - 1 + h->k;
-    for (; within && h->count < h->k; within &= within - 1) {
+    if (h->count < h->k)
+        within = fill_few_neighbors(h, points, squares, within);
+    if (h->count < h->k)
+        return;
+    for (double certain = settle_farthest(h, last); within; within &= within - 1) {
         const unsigned i = bits_lowest(within);
-        if (!is_rejected(h, &points[i], squares[i]))
-            insert_neighbor(f, &points[i], squares[i], FEW_FIRST + h->count++);
-        if (h->count == h->k)
-            limit_by_farthest(h, last);
-    }
-    for (; within; within &= within - 1) {
-        const unsigned i = bits_lowest(within);
-        if (is_rejected(h, &points[i], squares[i]) ||
-            !is_nearer_than_farthest(h, &points[i], squares[i], f->keys[last]))
+        const double square = squares[i];
+        if (!(square < certain) && !is_nearer_than_last(h, &points[i], square, last))
             continue;
-        insert_neighbor(f, &points[i], squares[i], last);
-        limit_by_farthest(h, last);
+        if (h->is_filtered && !is_accepted(h, &points[i], square))
+            continue;
+        insert_neighbor(&h->few, &points[i], square, last, find_slot_of_key(h->few.keys[last]));
+        certain = settle_farthest(h, last);
     }
+    h->worst = h->few.squares[find_slot_of_key(h->few.keys[last])];
+    h->point_reach = find_point_reach(h, h->worst);
 }
 
 /* Returns whether keys are so far apart that their order is certainly the exact order of their neighbours. */
@@ -234,16 +259,22 @@ static void sort_keys(const neighbor_heap *h, double *keys)
     }
 }
 
-/* Sort the neighbours exactly and store them in the caller's array, with their squares. */
-static void sort_few_neighbors(neighbor_heap *h)
+/* Sort the neighbours exactly and store them in the caller's array, with their squares. Returns true if the roots of
+ * the squares are accurate distances in ascending order, and are stored instead. */
+static bool sort_few_neighbors(neighbor_heap *h)
 {
     double *keys = h->few.keys + FEW_FIRST;
-    if (!are_certainly_ascending(keys, h->count))
+    const bool ascend = are_certainly_ascending(keys, h->count);
+    if (!ascend)
         sort_keys(h, keys);
+    const bool plain =
+        ascend && h->metric.scale == 1 && is_root_accurate(keys[0]) && is_root_accurate(keys[h->count - 1]);
     for (size_t i = 0; i < h->count; i++) {
         const unsigned place = find_slot_of_key(keys[i]);
-        h->items[i] = (octree_neighbor){*h->few.points[place], h->few.squares[place]};
+        const double square = h->few.squares[place];
+        h->items[i] = (octree_neighbor){*h->few.points[place], plain ? positive_root(square) : square};
     }
+    return plain;
 }
 
 /* ---- One neighbour: the first slot, without a key ------------------------------------------------------------- */
@@ -329,15 +360,6 @@ void neighbor_heap_limit(neighbor_heap *h, double radius)
     h->node_reach = find_node_reach(h, h->radius_square);
 }
 
-void neighbor_heap_begin_few(neighbor_heap *h)
-{
-    for (int i = 0; i < FEW_FIRST; i++)
-        h->few.keys[i] = -1;
-    for (unsigned i = 0; i < h->k; i++)
-        /* this initial key is greater than the key of any point */
-        h->few.keys[FEW_FIRST + i] = make_slot_key(2 * METRIC_FINITE, i);
-}
-
 void neighbor_heap_add(neighbor_heap *h, const octree_point *points, const double squares[], uint64_t within)
 {
     if (h->k == 1)
@@ -353,6 +375,17 @@ void neighbor_heap_add(neighbor_heap *h, const octree_point *points, const doubl
 
 double greatest_group_minimum(const double squares[], unsigned count)
 {
+#ifdef OCTREE_SSE2
+    __m128d least[NEIGHBOR_GROUPS / 2];
+    for (unsigned k = 0; k < NEIGHBOR_GROUPS / 2; k++)
+        least[k] = _mm_loadu_pd(&squares[2 * k]);
+    for (unsigned i = NEIGHBOR_GROUPS; i + NEIGHBOR_GROUPS <= count; i += NEIGHBOR_GROUPS)
+        for (unsigned k = 0; k < NEIGHBOR_GROUPS / 2; k++)
+            least[k] = _mm_min_pd(least[k], _mm_loadu_pd(&squares[i + 2 * k]));
+    for (unsigned k = 1; k < NEIGHBOR_GROUPS / 2; k++)
+        least[0] = _mm_max_pd(least[0], least[k]);
+    return _mm_cvtsd_f64(_mm_max_sd(_mm_unpackhi_pd(least[0], least[0]), least[0]));
+#else
     double least[NEIGHBOR_GROUPS], bound = 0;
     memcpy(least, squares, sizeof least);
     for (unsigned i = NEIGHBOR_GROUPS; i + NEIGHBOR_GROUPS <= count; i += NEIGHBOR_GROUPS)
@@ -361,6 +394,7 @@ double greatest_group_minimum(const double squares[], unsigned count)
     for (unsigned k = 0; k < NEIGHBOR_GROUPS; k++)
         bound = least[k] > bound ? least[k] : bound;
     return bound;
+#endif
 }
 
 /* Sort by the distances themselves. In FAST mode squares may underflow or round to the same double, so the order of the
@@ -379,10 +413,12 @@ void neighbor_heap_sort(neighbor_heap *h)
     const bool is_fast = h->how->mode == OCTREE_FAST;
     bool ascend = true;
     double before = 0;
-    if (keeps_few_neighbors(h))
-        sort_few_neighbors(h);
-    else
+    if (h->count == 0)
+        return;
+    if (!keeps_few_neighbors(h))
         sort_heap(h);
+    else if (sort_few_neighbors(h))
+        return;
     for (size_t i = 0; i < h->count; i++) {
         const double distance = neighbor_distance(h, &h->items[i].point, h->items[i].distance);
         ascend &= distance >= before;

@@ -46,9 +46,6 @@ typedef struct neighbor_heap {
 /* Limit the distance of neighbours to a radius. neighbor_heap_begin() calls this function. */
 void neighbor_heap_limit(neighbor_heap *h, double radius);
 
-/* Prepare the slots of 2 to FEW_NEIGHBORS neighbours. neighbor_heap_begin() calls this function. */
-void neighbor_heap_begin_few(neighbor_heap *h);
-
 /* Start a search for the k nearest neighbours. The caller has set h->metric and h->node_error. If `radius` is negative,
  * the distance is not limited. `room` is the caller's array of k neighbours. */
 static inline void neighbor_heap_begin(neighbor_heap *h, const octree_search *how, double radius, octree_neighbor *room,
@@ -64,8 +61,8 @@ static inline void neighbor_heap_begin(neighbor_heap *h, const octree_search *ho
     h->k = k;
     if (radius >= 0)
         neighbor_heap_limit(h, radius);
-    if (k > 1 && k <= FEW_NEIGHBORS)
-        neighbor_heap_begin_few(h);
+    for (int i = 0; k > 1 && i < FEW_FIRST; i++)
+        h->few.keys[i] = -1;
 }
 
 /* Divide the squares into NEIGHBOR_GROUPS groups and return the greatest of the groups' minima. At least
@@ -89,13 +86,29 @@ static inline double neighbor_heap_reach(const neighbor_heap *h, const double sq
  * skipped. */
 void neighbor_heap_add(neighbor_heap *h, const octree_point *points, const double squares[], uint64_t within);
 
-/* Returns the distance of a neighbour whose scaled squared distance is `square`. The root of the square is used if it
- * is accurate: without scaling, and far from overflow and underflow. */
+/* Returns whether the root of a square that was computed without scaling is accurate: the square is far from overflow
+ * and underflow. */
+static inline bool is_root_accurate(double square)
+{
+    return 0x1p-900 < square && square < 0x1p900;
+}
+
+/* Returns the root of a positive number. sqrt() would also check for a negative number, to set errno. */
+static inline double positive_root(double square)
+{
+#ifdef OCTREE_SSE2
+    const __m128d both = _mm_set_sd(square);
+    return _mm_cvtsd_f64(_mm_sqrt_sd(both, both));
+#else
+    return sqrt(square);
+#endif
+}
+
+/* Returns the distance of a neighbour whose scaled squared distance is `square`. */
 static inline double neighbor_distance(const neighbor_heap *h, const octree_point *point, double square)
 {
-    return h->metric.scale == 1 && 0x1p-900 < square && square < 0x1p900
-               ? sqrt(square)
-               : metric_distance(h->metric.target, point->position);
+    return h->metric.scale == 1 && is_root_accurate(square) ? positive_root(square)
+                                                            : metric_distance(h->metric.target, point->position);
 }
 
 /* Sort the neighbours by distance, id and position. Replace their squares by distances. */
