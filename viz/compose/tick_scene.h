@@ -26,8 +26,8 @@ typedef struct tick_history {
     heat heat; /* number of visits and points of leaves so far; empty if the view shows no heat layer */
     closeup_course closeup;
     node_changes changes; /* empty unless changes.tracked is set at tick 0 */
-    /* results for the tick `built`, whose scene may be built for many cameras; `state` is a name of the state of its
-     * tree, 0 if its scene is not built yet */
+    /* Results that are kept because the scene of one tick may be built for many cameras. `built` is this tick, and
+     * `state` names the state of its tree; 0: no scene was built yet. */
     uint64_t built, state;
     tick_check check;
     arrow_counts arrows;

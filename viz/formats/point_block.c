@@ -34,9 +34,9 @@ typedef enum column_name {
     COLUMN_VZ,
     COLUMN_HAS, /* the kinds of values that the point has, as bits; this and the next columns only if there are values
                  */
-    COLUMN_RED, /* minus green, as blue: the channels of most colours are alike */
+    COLUMN_RED, /* red - green: the channels of most colours are alike, so differences need fewer bits */
     COLUMN_GREEN,
-    COLUMN_BLUE,
+    COLUMN_BLUE, /* blue - green */
     COLUMN_INTENSITY,
     COLUMN_CLASS,
     COLUMNS
@@ -53,12 +53,12 @@ static bool has_column(const point_block *b, column_name column)
 /* ---- The code of a number -------------------------------------------------------------------------------------- */
 
 typedef enum form_kind {
-    FORM_QUOTIENT, /* k / 10^digits, as a text with `digits` decimals is read */
-    FORM_PRODUCT,  /* k * 10^-digits, as LAS files without an offset are read */
-    FORM_SHORT,    /* k / 10^digits, rounded to single precision */
-    FORM_SINGLE,   /* single precision */
-    FORM_DOUBLE,   /* all 64 bits */
-    FORM_WHOLE,    /* an integer; it is its own code */
+    FORM_QUOTIENT, /* the code is an integer k, the number is k / 10^digits: a text with `digits` decimals */
+    FORM_PRODUCT,  /* the number is k * 10^-digits, as in LAS files without an offset */
+    FORM_SHORT,    /* the number is k / 10^digits, rounded to single precision */
+    FORM_SINGLE,   /* the code is the bits of the number in single precision */
+    FORM_DOUBLE,   /* the code is all 64 bits of the number */
+    FORM_WHOLE,    /* the number is an integer and its own code */
     FORMS
 } form_kind;
 
