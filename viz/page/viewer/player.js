@@ -8,6 +8,9 @@ const SLICE = 12;         /* ms of playing before control returns to the browser
 /* Maximum size of a state in bytes for which there is a scout, because the scout needs as much memory again. */
 const MOST_AHEAD = 64 << 20;
 
+/* Maximum size of a state in bytes that is kept before the first picture. Copying a larger state would delay it. */
+const MOST_AT_ONCE = 16 << 20;
+
 const MAX_TICKS = 100000; /* maximum number of ticks to play, because a session may have a billion ticks */
 
 const nextTask = () => new Promise(done => setTimeout(done));
@@ -28,9 +31,10 @@ class Player {
         this.engine.open(session, view, points);
         this.given = this.length; /* number of ticks of the session itself, without the user's ticks */
         this.branch = this.given - 1;
-        if (!this.isCloud) /* a cloud has one tick: its state is kept before the first query */
-            this.states.keep(this.engine, false);
-        this.playsAhead = this.engine.used().length <= MOST_AHEAD;
+        const size = this.engine.used().length;
+        if (!this.isCloud && size <= MOST_AT_ONCE) /* a cloud has one tick: its state is kept before the first query */
+            this.keepFirst();
+        this.playsAhead = size <= MOST_AHEAD;
         this.scout = null; /* the engine that plays ahead; created after the first picture is drawn */
     }
 
@@ -88,8 +92,16 @@ class Player {
             progress(this.length - 1, this.length - 1);
     }
 
+    /* Keep the state of tick 0, unless it was kept before. */
+    keepFirst()
+    {
+        if (this.states.list.length === 0)
+            this.states.keep(this.engine, false);
+    }
+
     makeScout()
     {
+        this.keepFirst();
         if (this.playsAhead) {
             this.scout = new Engine(this.module);
             this.restore(this.scout, this.states.before(0));
@@ -107,6 +119,8 @@ class Player {
     async goTo(tick)
     {
         const going = this.going = {};
+        if (tick !== this.engine.tick)
+            this.keepFirst();
         const state = this.states.before(tick), engine = this.engine;
         if (engine.tick > tick || state?.tick > engine.tick)
             this.restore(engine, state);
@@ -126,8 +140,7 @@ class Player {
     replay()
     {
         const {engine, states} = this, {tick} = engine;
-        if (states.list.length === 0)
-            states.keep(engine, false);
+        this.keepFirst();
         for (this.restore(engine, this.states.before(tick)); engine.tick < tick;)
             this.step(engine);
     }
@@ -143,6 +156,7 @@ class Player {
     press(key)
     {
         const {engine, scout} = this;
+        this.keepFirst();
         if (!this.isBranched || engine.tick < this.branch) {
             this.branch = engine.tick;
             this.keys = "";
@@ -188,6 +202,7 @@ class Player {
             this.engine.look(view);
             return;
         }
+        this.keepFirst();
         this.keys = "";
         this.branch = this.given - 1;
         this.going = {};
