@@ -8,9 +8,6 @@ const SLICE = 12;         /* ms of playing before control returns to the browser
 /* Maximum size of a state in bytes for which there is a scout, because the scout needs as much memory again. */
 const MOST_AHEAD = 64 << 20;
 
-/* Maximum size of a state in bytes that is kept before the first picture. Copying a larger state would delay it. */
-const MOST_AT_ONCE = 16 << 20;
-
 const MAX_TICKS = 100000; /* maximum number of ticks to play, because a session may have a billion ticks */
 
 const nextTask = () => new Promise(done => setTimeout(done));
@@ -31,10 +28,9 @@ class Player {
         this.engine.open(session, view, points);
         this.given = this.length; /* number of ticks of the session itself, without the user's ticks */
         this.branch = this.given - 1;
-        const size = this.engine.used().length;
-        if (!this.isCloud && size <= MOST_AT_ONCE) /* a cloud has one tick: its state is kept before the first query */
-            this.keepFirst();
-        this.playsAhead = size <= MOST_AHEAD;
+        if (!this.isCloud) /* a cloud has one tick: its state is kept before the first query */
+            this.states.keep(this.engine, false);
+        this.playsAhead = this.engine.used().length <= MOST_AHEAD;
         this.scout = null; /* the engine that plays ahead; created after the first picture is drawn */
     }
 
@@ -92,16 +88,8 @@ class Player {
             progress(this.length - 1, this.length - 1);
     }
 
-    /* Keep the state of tick 0, unless it was kept before. */
-    keepFirst()
-    {
-        if (this.states.list.length === 0)
-            this.states.keep(this.engine, false);
-    }
-
     makeScout()
     {
-        this.keepFirst();
         if (this.playsAhead) {
             this.scout = new Engine(this.module);
             this.restore(this.scout, this.states.before(0));
@@ -119,8 +107,6 @@ class Player {
     async goTo(tick)
     {
         const going = this.going = {};
-        if (tick !== this.engine.tick)
-            this.keepFirst();
         const state = this.states.before(tick), engine = this.engine;
         if (engine.tick > tick || state?.tick > engine.tick)
             this.restore(engine, state);
@@ -140,7 +126,8 @@ class Player {
     replay()
     {
         const {engine, states} = this, {tick} = engine;
-        this.keepFirst();
+        if (states.list.length === 0)
+            states.keep(engine, false);
         for (this.restore(engine, this.states.before(tick)); engine.tick < tick;)
             this.step(engine);
     }
@@ -156,7 +143,6 @@ class Player {
     press(key)
     {
         const {engine, scout} = this;
-        this.keepFirst();
         if (!this.isBranched || engine.tick < this.branch) {
             this.branch = engine.tick;
             this.keys = "";
@@ -202,7 +188,6 @@ class Player {
             this.engine.look(view);
             return;
         }
-        this.keepFirst();
         this.keys = "";
         this.branch = this.given - 1;
         this.going = {};
