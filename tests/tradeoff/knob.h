@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* knob.h - what trades speed for accuracy: one table of knobs, one file each. */
+/* knob.h - what trades speed for accuracy: one table of knobs, one file for each. */
 #ifndef TRADEOFF_KNOB_H
 #define TRADEOFF_KNOB_H
 
@@ -14,6 +14,17 @@ typedef struct run {
     workloads *loads;
 } run;
 
+/* A chart of the page. Its series are the scenes of the table, or the variants; the page asks which of the others to
+ * show. */
+typedef struct chart {
+    const char *title;
+    const char *x, *y;             /* columns */
+    const char *x_label, *y_label; /* with units; null: the meaning of the column */
+    const char *bound;             /* the column of the proven bound of y; null: none */
+    bool x_log, y_log, by_variant;
+    bool matrix; /* instead of a chart: scenes by variants, a verdict in each cell */
+} chart;
+
 typedef struct knob {
     const char *name; /* of its files, and for --knob */
     const char *title;
@@ -23,12 +34,14 @@ typedef struct knob {
     const char *truth;  /* what is compared with */
     const column *columns;
     size_t column_count;
+    const chart *charts;
+    size_t chart_count;
     void (*measure)(const run *r, table *t);
     void (*tell)(const table *t, FILE *out);   /* the headline: one sentence, computed from the data */
-    void (*defend)(const table *t, FILE *out); /* why the default is kept: the like */
+    void (*defend)(const table *t, FILE *out); /* why the default is kept, computed from the data */
 } knob;
 
-extern const knob knob_mode, knob_nearest_epsilon, knob_range_epsilon, knob_leaf, knob_float, knob_sweep, knob_tick,
-    knob_picture, knob_png, knob_shade;
+extern const knob knob_index, knob_breaks, knob_mode, knob_nearest_epsilon, knob_range_epsilon, knob_leaf, knob_float,
+    knob_sweep, knob_tick, knob_picture, knob_png, knob_shade;
 
 #endif

@@ -25,6 +25,11 @@ static const column columns[] = {
     {"bytes", "of the three coordinates of a point", NULL},
 };
 
+static const chart charts[] = {
+    {.title = "Worst answer", .x = "setting", .y = "worst_error", .bound = "bound_error", .x_log = true, .y_log = true},
+    {.title = "Wrong answers", .x = "setting", .y = "wrong_per_million", .x_log = true},
+};
+
 /* Through a volatile one: gcc 12 is known to drop the rounding of floats that lie side by side. */
 static double rounded(double value)
 {
@@ -217,6 +222,8 @@ const knob knob_float = {
              "exact).",
     .columns = columns,
     .column_count = sizeof columns / sizeof columns[0],
+    .charts = charts,
+    .chart_count = sizeof charts / sizeof charts[0],
     .measure = measure,
     .tell = tell,
     .defend = defend,

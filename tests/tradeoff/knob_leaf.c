@@ -23,6 +23,11 @@ static const column columns[] = {
     {"unlike", "answers that differ from those of the default", "0"},
 };
 
+static const chart charts[] = {
+    {.title = "Time of an operation", .x = "setting", .y = "mix_ns", .x_log = true, .y_log = true},
+    {.title = "Memory", .x = "setting", .y = "bytes", .x_log = true},
+};
+
 static const size_t capacities[] = {64, 1, 2, 4, 8, 16, 32, 128, 256}; /* the default first: the others must agree */
 static const size_t depths[] = {4, 5, 6, 7, 8, 10, 14, 21};
 enum {
@@ -269,6 +274,8 @@ const knob knob_leaf = {
     .truth = "The answers of the tree with the default capacity.",
     .columns = columns,
     .column_count = sizeof columns / sizeof columns[0],
+    .charts = charts,
+    .chart_count = sizeof charts / sizeof charts[0],
     .measure = measure,
     .tell = tell,
     .defend = defend,

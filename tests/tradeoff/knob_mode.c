@@ -23,6 +23,11 @@ static const column columns[] = {
     {"points", "points compared a search", NULL},
 };
 
+static const chart charts[] = {
+    {.title = "Worst answer", .x = "setting", .y = "worst_excess", .bound = "bound_excess", .y_log = true},
+    {.title = "Time of a search", .x = "setting", .y = "ns"},
+};
+
 static const char *const names[] = {"exact", "fast"};
 
 static void add_row(table *t, const char *scene, const octree_search *how, const findings *f, double ns)
@@ -140,6 +145,8 @@ const knob knob_mode = {
              "that bound cannot tell; ties to the lowest id.",
     .columns = columns,
     .column_count = sizeof columns / sizeof columns[0],
+    .charts = charts,
+    .chart_count = sizeof charts / sizeof charts[0],
     .measure = measure,
     .tell = tell,
     .defend = defend,

@@ -20,6 +20,12 @@ static const column columns[] = {
     {"points", "points compared a search", NULL},
 };
 
+static const chart charts[] = {
+    {.title = "Worst answer", .x = "setting", .y = "worst_ratio", .bound = "bound_ratio"},
+    {.title = "Neighbours that are the true ones", .x = "setting", .y = "recall"},
+    {.title = "Time of a search", .x = "setting", .y = "ns", .y_log = true},
+};
+
 static const double epsilons[] = {0, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2};
 enum { EPSILONS = sizeof epsilons / sizeof epsilons[0] };
 
@@ -136,6 +142,8 @@ const knob knob_nearest_epsilon = {
              "that bound cannot tell. Whether a ratio is within its bound is decided the same way.",
     .columns = columns,
     .column_count = sizeof columns / sizeof columns[0],
+    .charts = charts,
+    .chart_count = sizeof charts / sizeof charts[0],
     .measure = measure,
     .tell = tell,
     .defend = defend,

@@ -24,6 +24,11 @@ static const column columns[] = {
     {"samples", "of a frame", NULL},
 };
 
+static const chart charts[] = {
+    {.title = "Quality against time", .x = "ms", .y = "psnr", .x_log = true},
+    {.title = "The largest box that is left out", .x = "setting", .y = "largest_left_out", .bound = "bound_left_out"},
+};
+
 static const double lods[] = {0, 1, 2, 4, 8};
 static const int samples[] = {1, 2, 4};
 static const char *const names[] = {"aa1", "aa2", "aa4"};
@@ -265,6 +270,8 @@ const knob knob_picture = {
              "their eight corners.",
     .columns = columns,
     .column_count = sizeof columns / sizeof columns[0],
+    .charts = charts,
+    .chart_count = sizeof charts / sizeof charts[0],
     .measure = measure,
     .tell = tell,
     .defend = defend,

@@ -21,6 +21,10 @@ static const column columns[] = {
     {"ms", "processor milliseconds of the encoder", NULL},
 };
 
+static const chart charts[] = {
+    {.title = "Size against time", .x = "ms", .y = "bytes", .x_log = true, .y_log = true},
+};
+
 /* One way to write a frame. */
 typedef struct encoding {
     const char *name;
@@ -245,6 +249,8 @@ const knob knob_png = {
     .truth = "The pixels before encoding, and those that libpng's simplified reader decodes.",
     .columns = columns,
     .column_count = sizeof columns / sizeof columns[0],
+    .charts = charts,
+    .chart_count = sizeof charts / sizeof charts[0],
     .measure = measure,
     .tell = tell,
     .defend = defend,

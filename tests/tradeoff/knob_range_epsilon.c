@@ -22,6 +22,12 @@ static const column columns[] = {
     {"points", "points compared one by one a range", NULL},
 };
 
+static const chart charts[] = {
+    {.title = "Farthest point outside", .x = "setting", .y = "worst_outside", .bound = "bound_outside"},
+    {.title = "Points outside", .x = "setting", .y = "extra"},
+    {.title = "Time of a range", .x = "setting", .y = "ns", .y_log = true},
+};
+
 static const double settings[] = {0, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1};
 enum { SETTINGS = sizeof settings / sizeof settings[0], HITS = 1000 };
 
@@ -247,6 +253,8 @@ const knob knob_range_epsilon = {
              "(GMP) for balls and for epsilon.",
     .columns = columns,
     .column_count = sizeof columns / sizeof columns[0],
+    .charts = charts,
+    .chart_count = sizeof charts / sizeof charts[0],
     .measure = measure,
     .tell = tell,
     .defend = defend,

@@ -24,6 +24,11 @@ static const column columns[] = {
     {"false", "neighbouring pixels of one leaf whose colours differ so: of all such, %", NULL},
 };
 
+static const chart charts[] = {
+    {.title = "Change of a pixel", .x = "setting", .y = "worst_levels", .bound = "bound_levels", .x_log = true},
+    {.title = "Edges of leaves that are seen", .x = "ms", .y = "seen"},
+};
+
 enum { VISIBLE = 24 };
 
 static const double errors[] = {0.125, 0.25, 0.5, 1, 2};
@@ -280,6 +285,8 @@ const knob knob_shade = {
              "of each pixel.",
     .columns = columns,
     .column_count = sizeof columns / sizeof columns[0],
+    .charts = charts,
+    .chart_count = sizeof charts / sizeof charts[0],
     .measure = measure,
     .tell = tell,
     .defend = defend,

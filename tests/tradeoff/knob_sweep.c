@@ -23,6 +23,11 @@ static const column columns[] = {
     {"points", "points compared one by one a step", NULL},
 };
 
+static const chart charts[] = {
+    {.title = "Collisions missed", .x = "setting", .y = "missed_share", .bound = "bound_share", .x_log = true},
+    {.title = "Time of a step", .x = "setting", .y = "ns", .x_log = true, .y_log = true},
+};
+
 static const double speeds[] = {0.25, 0.5, 1, 1.5, 2, 3, 4, 8, 16};
 enum { SPEEDS = sizeof speeds / sizeof speeds[0] };
 static const double half = 32; /* of the player's box: dyadic, as are its places, so that steps are not rounded */
@@ -228,6 +233,8 @@ const knob knob_sweep = {
              "exact) where that bound cannot tell.",
     .columns = columns,
     .column_count = sizeof columns / sizeof columns[0],
+    .charts = charts,
+    .chart_count = sizeof charts / sizeof charts[0],
     .measure = measure,
     .tell = tell,
     .defend = defend,

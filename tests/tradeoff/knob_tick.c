@@ -24,6 +24,16 @@ static const column columns[] = {
     {"points", "points compared by them", NULL},
 };
 
+static const chart charts[] = {
+    {.title = "Error of the place where a flight ends",
+     .x = "setting",
+     .y = "worst_error",
+     .bound = "bound_error",
+     .x_log = true,
+     .y_log = true},
+    {.title = "Time of a flight", .x = "setting", .y = "ns", .x_log = true, .y_log = true},
+};
+
 enum { LENGTH = 1024, BODIES = 1200, TICKS_AT_MOST = 64 };
 static const double half = 32; /* of the player's box */
 
@@ -230,6 +240,8 @@ const knob knob_tick = {
         "exact, to 2^-40 of the flight; whether a stop is before it is decided by that test itself.",
     .columns = columns,
     .column_count = sizeof columns / sizeof columns[0],
+    .charts = charts,
+    .chart_count = sizeof charts / sizeof charts[0],
     .measure = measure,
     .tell = tell,
     .defend = defend,

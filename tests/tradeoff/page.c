@@ -1,162 +1,238 @@
 /* SPDX-License-Identifier: MIT */
-/* page.c - see page.h. */
+/* page.c - see page.h. The page holds a JSON object that says what was measured, a CSV table for each chapter, and a
+ * script that draws charts of both. */
 #include "page.h"
 
+#include <errno.h>
+#include <jansson.h>
 #include <math.h>
 #include <string.h>
+#include <time.h>
 
+#include "index_list.h"
 #include "program.h"
 
-static const char style[] =
-    "body{font:16px/1.5 system-ui,sans-serif;max-width:74rem;margin:2rem auto;padding:0 1rem;color:#1b2430;"
-    "background:#fdfdfc}h1{margin-bottom:0}h2{margin:3rem 0 .5rem;border-top:1px solid #d8dce2;padding-top:1.5rem}"
-    "img{max-width:100%;height:auto;display:block;margin:1rem 0}.headline{font-size:1.15rem;font-weight:600;"
-    "border-left:4px solid #2a7f9e;padding-left:.8rem}dl{display:grid;grid-template-columns:7rem 1fr;gap:.2rem 1rem}"
-    "dt{color:#5a6675}dd{margin:0}.holds{color:#17693a}.broken{color:#b3261e;font-weight:700}"
-    ".scroll{overflow-x:auto;max-height:32rem;overflow-y:auto}table{border-collapse:collapse;font-size:.8rem;"
-    "font-variant-numeric:tabular-nums}th,td{padding:.15rem .6rem;text-align:right;white-space:nowrap}"
-    "th{position:sticky;top:0;background:#eef1f4}td:first-child,td:nth-child(2){text-align:left}"
-    "tr:nth-child(even){background:#f6f7f8}summary{cursor:pointer;color:#2a5f86}";
-
-static void write_escaped(const char *text, FILE *out)
+static char *copy_text(const char *text)
 {
-    for (; *text; text++) {
-        const char *entity = *text == '<' ? "&lt;" : *text == '>' ? "&gt;" : *text == '&' ? "&amp;" : NULL;
-        if (entity)
-            fputs(entity, out);
+    char *copy = resize_memory(NULL, strlen(text) + 1);
+    return strcpy(copy, text);
+}
+
+/* ---- Where and when ----------------------------------------------------------------------------------------- */
+
+/* The name of the processor, as Linux reports it. */
+static char *read_machine(void)
+{
+    char line[256], *name = NULL;
+    FILE *file = fopen("/proc/cpuinfo", "r");
+    while (!name && file && fgets(line, sizeof line, file))
+        if (strncmp(line, "model name", 10) == 0 && strchr(line, ':')) {
+            line[strcspn(line, "\n")] = '\0';
+            name = copy_text(strchr(line, ':') + 2);
+        }
+    if (file)
+        fclose(file);
+    return name ? name : copy_text("unknown processor");
+}
+
+measured_where where_now(const run *r)
+{
+    char date[16], points[128];
+    const time_t now = time(NULL);
+    strftime(date, sizeof date, "%Y-%m-%d", gmtime(&now));
+    snprintf(points, sizeof points, "%zu points and %zu targets in each scene", r->loads->of[0].count,
+             r->loads->of[0].target_count);
+    return (measured_where){.date = copy_text(date),
+                            .machine = read_machine(),
+                            .compiler = copy_text(OCTREEL_COMPILER),
+                            .libraries = list_libraries(),
+                            .points = copy_text(points),
+                            .quick = r->quick,
+                            .rounds = r->rounds};
+}
+
+void where_free(measured_where *where)
+{
+    free(where->date);
+    free(where->machine);
+    free(where->compiler);
+    free(where->libraries);
+    free(where->points);
+    *where = (measured_where){0};
+}
+
+/* ---- Writing ------------------------------------------------------------------------------------------------ */
+
+char *read_text(const char *path)
+{
+    FILE *file = fopen(path, "rb");
+    char *text = NULL;
+    size_t size = 0, room = 0;
+    if (!file)
+        stop_with_error("%s: %s", path, strerror(errno));
+    do {
+        room = room ? 2 * room : 1 << 16;
+        text = resize_memory(text, room + 1);
+        size += fread(text + size, 1, room - size, file);
+    } while (size == room);
+    if (ferror(file))
+        stop_with_error("%s cannot be read", path);
+    fclose(file);
+    text[size] = '\0';
+    return text;
+}
+
+static void write_part(const char *name, FILE *out)
+{
+    char path[4200];
+    snprintf(path, sizeof path, "%s/%s", OCTREEL_TRADE_PAGE, name);
+    char *text = read_text(path);
+    fputs(text, out);
+    free(text);
+}
+
+/* Null for null. */
+static const char *meaning_of(const knob *k, const char *name)
+{
+    if (!name)
+        return NULL;
+    for (size_t i = 0; i < k->column_count; i++)
+        if (strcmp(k->columns[i].name, name) == 0)
+            return k->columns[i].meaning;
+    stop_with_error("%s has no column \"%s\"", k->name, name);
+}
+
+static json_t *describe_chart(const knob *k, const chart *c)
+{
+    return json_pack("{s:s, s:s?, s:s?, s:s?, s:s?, s:s?, s:b, s:b, s:b, s:b}", "title", c->title, "x", c->x, "y", c->y,
+                     "bound", c->bound, "xLabel", c->x_label ? c->x_label : meaning_of(k, c->x), "yLabel",
+                     c->y_label ? c->y_label : meaning_of(k, c->y), "xLog", c->x_log, "yLog", c->y_log, "byVariant",
+                     c->by_variant, "matrix", c->matrix);
+}
+
+static json_t *describe_chapter(const chapter *c)
+{
+    const knob *k = c->knob;
+    json_t *charts = json_array(), *columns = json_array();
+    for (size_t i = 0; i < k->chart_count; i++)
+        json_array_append_new(charts, describe_chart(k, &k->charts[i]));
+    for (size_t i = 0; i < k->column_count; i++)
+        json_array_append_new(columns,
+                              json_pack("{s:s, s:s}", "name", k->columns[i].name, "meaning", k->columns[i].meaning));
+    return json_pack("{s:s, s:s, s:s, s:s, s:s, s:s, s:s, s:s, s:i, s:o, s:o}", "name", k->name, "title", k->title,
+                     "trades", k->trades, "preset", k->preset, "proven", k->proven, "truth", k->truth, "headline",
+                     c->headline, "defence", c->defence, "beyond", (int)c->beyond, "charts", charts, "columns",
+                     columns);
+}
+
+/* Write JSON into a page, where "<" might begin a tag. */
+static void write_json(json_t *json, FILE *out)
+{
+    char *text = json ? json_dumps(json, JSON_COMPACT) : NULL;
+    if (!text)
+        stop_with_error("out of memory");
+    for (const char *c = text; *c; c++)
+        if (*c == '<')
+            fputs("\\u003c", out);
         else
-            fputc(*text, out);
-    }
+            fputc(*c, out);
+    free(text);
+    json_decref(json);
 }
 
-static void write_base64(FILE *from, FILE *out)
+static void write_about(const chapter *chapters, size_t count, const measured_where *where, FILE *out)
 {
-    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    unsigned char three[3];
-    size_t size;
-    while ((size = fread(three, 1, 3, from)) > 0) {
-        const unsigned bits =
-            (unsigned)three[0] << 16 | (size > 1 ? (unsigned)three[1] << 8 : 0) | (size > 2 ? (unsigned)three[2] : 0);
-        for (size_t i = 0; i < 4; i++)
-            fputc(i <= size ? digits[bits >> (18 - 6 * i) & 63] : '=', out);
-    }
+    json_t *all = json_array();
+    for (size_t i = 0; i < count; i++)
+        json_array_append_new(all, describe_chapter(&chapters[i]));
+    write_json(json_pack("{s:s, s:s, s:s, s:s, s:s, s:b, s:i, s:o}", "date", where->date, "machine", where->machine,
+                         "compiler", where->compiler, "libraries", where->libraries, "points", where->points, "quick",
+                         where->quick, "rounds", where->rounds, "chapters", all),
+               out);
 }
 
-static void write_plot(const knob *k, const char *folder, FILE *out)
-{
-    char path[4200];
-    snprintf(path, sizeof path, "%s/%s.png", folder, k->name);
-    FILE *plot = fopen(path, "rb");
-    if (!plot)
-        stop_with_error("cannot read %s", path);
-    fprintf(out,
-            "<img alt=\"%s: what is measured against what is proven, and what it costs\" "
-            "src=\"data:image/png;base64,",
-            k->title);
-    write_base64(plot, out);
-    fputs("\">\n", out);
-    fclose(plot);
-}
+#define ABOUT_TAG "<script type=\"application/json\" id=\"about\">"
+#define TABLE_TAG "<script type=\"text/csv\" id=\"csv-%s\">\n"
+#define NOTES_TAG "<script type=\"application/json\" id=\"notes-%s\">\n"
 
-static void write_facts(const chapter *c, FILE *out)
+void page_write(const char *path, const chapter *chapters, size_t count, const measured_where *where)
 {
-    const struct {
-        const char *name, *text;
-    } facts[] = {{"Trades", c->knob->trades},
-                 {"Default", c->knob->preset},
-                 {"Why", c->defence},
-                 {"Proven", c->knob->proven},
-                 {"Truth", c->knob->truth}};
-    fputs("<dl>", out);
-    for (size_t i = 0; i < sizeof facts / sizeof facts[0]; i++) {
-        fprintf(out, "<dt>%s</dt><dd>", facts[i].name);
-        write_escaped(facts[i].text, out);
-        fputs("</dd>", out);
-    }
-    fputs("<dt>Bounds</dt>", out);
-    if (c->beyond)
-        fprintf(out, "<dd class=\"broken\">%zu values are beyond their bound</dd></dl>\n", c->beyond);
-    else
-        fputs("<dd class=\"holds\">every measured value is within its bound</dd></dl>\n", out);
-}
-
-static void write_number(double value, FILE *out)
-{
-    if (isnan(value))
-        fputs("<td>&ndash;</td>", out);
-    else if (value == floor(value) && fabs(value) < 1e9)
-        fprintf(out, "<td>%.0f</td>", value);
-    else
-        fprintf(out, "<td>%.5g</td>", value);
-}
-
-static void write_table(const chapter *c, FILE *out)
-{
-    const table *t = &c->table;
-    fprintf(out, "<details><summary>All %zu rows (also in %s.csv)</summary><ul>", t->count, c->knob->name);
-    for (size_t i = 0; i < t->column_count; i++) {
-        fprintf(out, "<li><b>%s</b>: ", t->columns[i].name);
-        write_escaped(t->columns[i].meaning, out);
-        fputs("</li>", out);
-    }
-    fputs("</ul><div class=\"scroll\"><table><tr><th>scene</th><th>variant</th>", out);
-    for (size_t i = 0; i < t->column_count; i++)
-        fprintf(out, "<th>%s</th>", t->columns[i].name);
-    fputs("</tr>\n", out);
-    for (size_t i = 0; i < t->count; i++) {
-        fprintf(out, "<tr><td>%s</td><td>%s</td>", t->rows[i].scene, t->rows[i].variant);
-        for (size_t j = 0; j < t->column_count; j++)
-            write_number(t->rows[i].values[j], out);
-        fputs("</tr>\n", out);
-    }
-    fputs("</table></div></details>\n", out);
-}
-
-static void write_chapter(const chapter *c, const run *r, bool plotted, FILE *out)
-{
-    fprintf(out, "<h2 id=\"%s\">", c->knob->name);
-    write_escaped(c->knob->title, out);
-    fputs("</h2>\n<p class=\"headline\">", out);
-    write_escaped(c->headline, out);
-    fputs("</p>\n", out);
-    if (plotted)
-        write_plot(c->knob, r->folder, out);
-    write_facts(c, out);
-    write_table(c, out);
-}
-
-static void write_head(const run *r, bool plotted, FILE *out)
-{
-    fprintf(
-        out,
-        "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
-        "content=\"width=device-width\"><title>Octreel: the trade</title><style>%s</style></head><body>\n"
-        "<h1>What speed costs in accuracy, and accuracy in speed</h1>\n<p>Every knob of Octreel that trades the two, "
-        "measured against a truth that is exact: lines are proven bounds, points the worst that was measured. Times "
-        "are processor time of this machine, medians of %d rounds in turn; counts are the same on every machine."
-        "%s%s</p>\n",
-        style, r->rounds, r->quick ? " This is the small version: its times mean little." : "",
-        plotted ? "" : " There are no plots on this page, because gnuplot was not found.");
-}
-
-void page_write(const chapter *chapters, size_t count, const run *r, bool plotted)
-{
-    char path[4200];
-    snprintf(path, sizeof path, "%s/tradeoff.html", r->folder);
     FILE *out = fopen(path, "w");
     if (!out)
-        stop_with_error("cannot write %s", path);
-    write_head(r, plotted, out);
-    fputs("<ul>\n", out);
+        stop_with_error("%s: %s", path, strerror(errno));
+    fputs("<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
+          "content=\"width=device-width\"><meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
+          "script-src 'unsafe-inline'; style-src 'unsafe-inline'\"><title>Octreel: what speed costs in "
+          "accuracy</title>\n<style>\n",
+          out);
+    write_part("page.css", out);
+    fputs("</style></head><body>\n<noscript>This page draws its charts with a script, which this browser does not run. "
+          "The tables are in the text of the page.</noscript>\n" ABOUT_TAG "\n",
+          out);
+    write_about(chapters, count, where, out);
+    fputs("\n</script>\n", out);
     for (size_t i = 0; i < count; i++) {
-        fprintf(out, "<li><a href=\"#%s\">", chapters[i].knob->name);
-        write_escaped(chapters[i].knob->title, out);
-        fputs("</a></li>\n", out);
+        fprintf(out, TABLE_TAG, chapters[i].knob->name);
+        table_write_csv(&chapters[i].table, out);
+        fputs("</script>\n", out);
+        if (chapters[i].table.notes) {
+            fprintf(out, NOTES_TAG, chapters[i].knob->name);
+            write_json(json_incref(chapters[i].table.notes), out);
+            fputs("\n</script>\n", out);
+        }
     }
-    fputs("</ul>\n", out);
-    for (size_t i = 0; i < count; i++)
-        write_chapter(&chapters[i], r, plotted, out);
-    fputs("</body></html>\n", out);
+    fputs("<script>\n", out);
+    write_part("page.js", out);
+    fputs("</script></body></html>\n", out);
     if (fclose(out) != 0)
-        stop_with_error("cannot write %s", path);
+        stop_with_error("%s cannot be written", path);
+}
+
+/* ---- Reading again ------------------------------------------------------------------------------------------ */
+
+static char *member(const char *path, const json_t *about, const char *name)
+{
+    const char *text = json_string_value(json_object_get(about, name));
+    if (!text)
+        stop_with_error("%s: the description of the figures lacks \"%s\"", path, name);
+    return copy_text(text);
+}
+
+measured_where page_read_where(const char *path, const char *text)
+{
+    const char *const start = strstr(text, ABOUT_TAG);
+    json_t *about = start ? json_loads(start + strlen(ABOUT_TAG), JSON_DISABLE_EOF_CHECK, NULL) : NULL;
+    if (!about)
+        stop_with_error("%s is not a page of octree-tradeoff", path);
+    const measured_where where = {.date = member(path, about, "date"),
+                                  .machine = member(path, about, "machine"),
+                                  .compiler = member(path, about, "compiler"),
+                                  .libraries = member(path, about, "libraries"),
+                                  .points = member(path, about, "points"),
+                                  .quick = json_is_true(json_object_get(about, "quick")),
+                                  .rounds = (int)json_integer_value(json_object_get(about, "rounds"))};
+    json_decref(about);
+    return where;
+}
+
+/* The notes of a chapter; null if there are none. */
+static json_t *read_notes(const char *text, const char *name)
+{
+    char tag[96];
+    snprintf(tag, sizeof tag, NOTES_TAG, name);
+    const char *const start = strstr(text, tag);
+    return start ? json_loads(start + strlen(tag), JSON_DISABLE_EOF_CHECK, NULL) : NULL;
+}
+
+bool page_read_table(const char *path, const char *text, const knob *k, table *t)
+{
+    char tag[96];
+    snprintf(tag, sizeof tag, TABLE_TAG, k->name);
+    const char *const start = strstr(text, tag);
+    *t = (table){.columns = k->columns, .column_count = k->column_count};
+    if (start && !table_read_csv(t, start + strlen(tag)))
+        stop_with_error("%s: the table of %s is cut off, or has other columns than this program", path, k->name);
+    if (start)
+        t->notes = read_notes(text, k->name);
+    return start != NULL;
 }

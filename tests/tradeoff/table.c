@@ -2,7 +2,9 @@
 /* table.c - see table.h. */
 #include "table.h"
 
+#include <jansson.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "measuring.h"
@@ -15,15 +17,39 @@ void table_add(table *t, const char *scene, const char *variant, const double *v
         t->rows = resize_memory(t->rows, t->room * sizeof *t->rows);
     }
     row *r = &t->rows[t->count++];
-    *r = (row){.variant = variant};
     snprintf(r->scene, sizeof r->scene, "%s", scene);
+    snprintf(r->variant, sizeof r->variant, "%s", variant);
     memcpy(r->values, values, t->column_count * sizeof *values);
 }
 
 void table_free(table *t)
 {
     free(t->rows);
+    json_decref(t->notes);
     *t = (table){0};
+}
+
+static json_t *find_note(const table *t, const char *scene, const char *text)
+{
+    size_t i;
+    json_t *note;
+    json_array_foreach(t->notes, i,
+                       note) if (strcmp(json_string_value(json_object_get(note, "scene")), scene) == 0 &&
+                                 strcmp(json_string_value(json_object_get(note, "text")), text) == 0) return note;
+    return NULL;
+}
+
+void table_note(table *t, const char *scene, const char *variant, const char *text)
+{
+    if (!t->notes)
+        t->notes = json_array();
+    json_t *note = find_note(t, scene, text);
+    if (!note) {
+        note = json_pack("{s:s, s:[], s:s}", "scene", scene, "variants", "text", text);
+        json_array_append_new(t->notes, note);
+    }
+    if (json_array_append_new(json_object_get(note, "variants"), json_string(variant)) != 0)
+        stop_with_error("out of memory");
 }
 
 static size_t index_of(const table *t, const char *name)
@@ -115,12 +141,27 @@ double table_ratio(const table *t, pick a, pick b, const char *column)
     return table_ratios(t, a, b, column).median;
 }
 
+/* The text of a number in a CSV file. */
+static void print_number(double value, char text[32])
+{
+    snprintf(text, 32, isnan(value) ? "nan" : "%.5g", value);
+}
+
 static void write_number(double value, FILE *out)
 {
-    if (isnan(value))
-        fputs("nan", out);
-    else
-        fprintf(out, "%.10g", value);
+    char text[32];
+    print_number(value, text);
+    fputs(text, out);
+}
+
+void table_round(table *t)
+{
+    char text[32];
+    for (size_t i = 0; i < t->count; i++)
+        for (size_t c = 0; c < t->column_count; c++) {
+            print_number(t->rows[i].values[c], text);
+            t->rows[i].values[c] = strtod(text, NULL);
+        }
 }
 
 void table_write_csv(const table *t, FILE *out)
@@ -137,6 +178,47 @@ void table_write_csv(const table *t, FILE *out)
         }
         fputc('\n', out);
     }
+}
+
+/* Copy the text before the next comma or end of line. Returns what follows the comma, or the end of the line. */
+static const char *read_field(const char *text, char field[TABLE_NAME])
+{
+    const size_t size = strcspn(text, ",\n");
+    snprintf(field, TABLE_NAME, "%.*s", (int)(size < TABLE_NAME ? size : TABLE_NAME - 1), text);
+    return text + size + (text[size] == ',');
+}
+
+static bool read_head(const table *t, const char **text)
+{
+    char field[TABLE_NAME];
+    *text = read_field(read_field(*text, field), field); /* scene and variant */
+    for (size_t i = 0; i < t->column_count; i++) {
+        *text = read_field(*text, field);
+        if (strcmp(field, t->columns[i].name) != 0)
+            return false;
+    }
+    return *(*text)++ == '\n';
+}
+
+bool table_read_csv(table *t, const char *text)
+{
+    char scene[TABLE_NAME], variant[TABLE_NAME], field[TABLE_NAME], *end;
+    double values[TABLE_COLUMNS_AT_MOST];
+    if (!read_head(t, &text))
+        return false;
+    while (*text && *text != '<') {
+        text = read_field(read_field(text, scene), variant);
+        for (size_t i = 0; i < t->column_count; i++) {
+            text = read_field(text, field);
+            values[i] = strtod(field, &end);
+            if (end == field || *end)
+                return false;
+        }
+        if (*text++ != '\n')
+            return false;
+        table_add(t, scene, variant, values);
+    }
+    return true;
 }
 
 void table_write_json(const table *t, const char *knob, FILE *out)

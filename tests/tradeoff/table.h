@@ -7,7 +7,7 @@
 #include <stddef.h>
 #include <stdio.h>
 
-enum { TABLE_COLUMNS_AT_MOST = 16, TABLE_NAME = 32 };
+enum { TABLE_COLUMNS_AT_MOST = 16, TABLE_NAME = 48 };
 
 typedef struct column {
     const char *name;    /* as in the CSV file */
@@ -18,7 +18,7 @@ typedef struct column {
 /* NaN stands for what was not measured, and as a bound for none. */
 typedef struct row {
     char scene[TABLE_NAME];
-    const char *variant; /* static */
+    char variant[TABLE_NAME];
     double values[TABLE_COLUMNS_AT_MOST];
 } row;
 
@@ -27,11 +27,15 @@ typedef struct table {
     size_t column_count;
     row *rows;
     size_t count, room;
+    struct json_t *notes; /* null, or an array of {"scene", "variants": [...], "text"} */
 } table;
 
 /* Append a row: one value a column, in their order. */
 void table_add(table *t, const char *scene, const char *variant, const double *values);
 void table_free(table *t);
+
+/* Attach a text, such as a session, to the row of a scene and a variant. Equal texts of a scene are kept once. */
+void table_note(table *t, const char *scene, const char *variant, const char *text);
 
 double table_value(const table *t, const row *r, const char *column);
 
@@ -56,8 +60,16 @@ typedef struct ratio {
 ratio table_ratios(const table *t, pick a, pick b, const char *column);
 double table_ratio(const table *t, pick a, pick b, const char *column); /* the median alone */
 
+/* Round all values to the five digits that a CSV file has, so that the sentences about a table and about its file are
+ * the same. Judge first: a value may exceed its bound by less. */
+void table_round(table *t);
+
 /* "scene,variant,<columns>" and a line a row. */
 void table_write_csv(const table *t, FILE *out);
+
+/* Append the rows of a table that table_write_csv wrote; a line "<" or the end of the text ends it. False if the
+ * columns are others, or a row is damaged. */
+bool table_read_csv(table *t, const char *text);
 
 /* A line a row, a JSON object; what is not finite is null. */
 void table_write_json(const table *t, const char *knob, FILE *out);

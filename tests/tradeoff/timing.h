@@ -5,12 +5,16 @@
 
 #include <stddef.h>
 
-enum { CONTESTANTS_AT_MOST = 32, ROUNDS_AT_MOST = 32 };
+enum { CONTESTANTS_AT_MOST = 96, ROUNDS_AT_MOST = 32 };
 
 /* Do the work of one contestant once. */
 typedef void timed_work(void *contestant);
 
 /* ns[i] receives the nanoseconds of contestant i, of `size` bytes each. */
 void time_in_turn(timed_work *work, void *contestants, size_t size, size_t count, int rounds, double *ns);
+
+/* spread[i] also receives the spread of contestant i: the range of the middle half of its rounds / the median. */
+void time_with_spread(timed_work *work, void *contestants, size_t size, size_t count, int rounds, double *ns,
+                      double *spread);
 
 #endif

@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: MIT */
+/* judge_answer.h - how wrong an answer is, compared with all points by real numbers. It shares no code with the
+ * library. */
+#ifndef JUDGE_ANSWER_H
+#define JUDGE_ANSWER_H
+
+#include "octree/query.h"
+
+/* The difference between an answer and the truth. All zero, and a ratio of 1: the answer is right. */
+typedef struct answer_error {
+    size_t expected;  /* points of the right answer */
+    size_t missing;   /* regions: points of the right answer that are not in this one; neighbours: ranks at which the
+                         neighbour is farther than the true one, or does not exist */
+    size_t extra;     /* regions: points that are not in the region; neighbours: more than k */
+    size_t unknown;   /* ids that no point has, and points that occur again */
+    bool boundary;    /* regions: missing points exist, and all of them lie exactly on the boundary */
+    double ratio;     /* neighbours: the largest distance / true distance of a rank; infinite if the true one is 0 */
+    double ratio_sum; /* the sum of the ratios over all ranks that were answered */
+} answer_error;
+
+/* Judge the answer `ids` to a query about points whose ids are their places. Points with a NaN are in no right answer.
+ * At most QUICK_NEAREST_MOST neighbours. `nearest`: the true neighbours, or null if they are to be found here. */
+answer_error judge_answer(const octree_query *query, const octree_point *points, size_t count, const uint64_t *ids,
+                          size_t id_count, const octree_point *const *nearest);
+
+/* Whether an answer is right by real numbers; among points at equal distances, any is right. */
+bool is_right(const answer_error *error);
+
+/* The distance from target to a, divided by that to b. Exactly 1 if both are equal as real numbers; above 1 if the
+ * first is greater. */
+double distance_ratio(const double target[3], const double a[3], const double b[3]);
+
+#endif
