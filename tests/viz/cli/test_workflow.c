@@ -13,17 +13,19 @@
 
 #define WORKFLOW OCTREEL_ROOT "/.github/workflows/ci.yml"
 #define HUNT OCTREEL_ROOT "/.github/workflows/hunt.yml"
+#define SITE OCTREEL_ROOT "/.github/workflows/site.yml"
 #define ACTIONS OCTREEL_ROOT "/.github/actions"
 
 typedef struct machine {
     void *folder; /* a temp_folder */
-    json_t *jobs; /* the jobs of both workflows */
+    json_t *jobs; /* the jobs of all workflows */
     char *done;   /* one line for each program call */
 } machine;
 
 /* Fake programs. octreel is one of them, wherever something is built. */
 static const char fakes[] =
-    "for name in apt-cache apt-get cmake ctest dpkg-query hunt lintian octreel octreel-failure-campaign setup; do\n"
+    "for name in apt-cache apt-get cmake ctest dpkg-query hunt lintian octreel octreel-failure-campaign setup site; "
+    "do\n"
     "    printf '#!/bin/sh\\necho \"%s $*\" >>\"%s/done\"\\n' $name \"$PWD\" >bin/$name\n"
     "    chmod +x bin/$name\n"
     "done\n"
@@ -37,11 +39,13 @@ static int prepare_machine(void **state)
     *state = m;
     if (m == NULL || temp_folder_make(&m->folder) != 0)
         return -1;
-    json_t *workflow = yaml_read_file(WORKFLOW), *hunt = yaml_read_file(HUNT);
+    json_t *workflow = yaml_read_file(WORKFLOW), *hunt = yaml_read_file(HUNT), *site = yaml_read_file(SITE);
     m->jobs = json_incref(json_object_get(workflow, "jobs"));
     assert_int_equal(json_object_update_missing(m->jobs, json_object_get(hunt, "jobs")), 0);
+    assert_int_equal(json_object_update_missing(m->jobs, json_object_get(site, "jobs")), 0);
     json_decref(workflow);
     json_decref(hunt);
+    json_decref(site);
     const shell_word root = shell_quote(OCTREEL_ROOT);
     file_write_text(place_in(m->folder, "fakes").path, fakes);
     command_result result =
@@ -219,7 +223,26 @@ static void hunt_runs_each_fuzzer_and_the_failure_campaign(void **state)
     assert_called(m, "octreel-failure-campaign");
 }
 
-/* User input reaches a shell only in environment variables, and jobs have only read permissions. */
+/* The site is made from a whole build, and only the job that publishes it may write pages. */
+static void the_site_is_built_and_published(void **state)
+{
+    machine *m = *state;
+    fake_setup(m);
+    command_result made =
+        run_script("cd %s && mkdir -p tests/tradeoff && mv bin/site tests/tradeoff", ((temp_folder *)m->folder)->name);
+    assert_done(&made);
+    command_release(&made);
+    run_job(m, "build", "none", "");
+    assert_called(m, "setup all build");
+    assert_called(m, "site build site");
+    const json_t *permissions = json_object_get(json_object_get(m->jobs, "publish"), "permissions");
+    assert_int_equal(json_object_size(permissions), 2);
+    assert_string_equal(json_string_value(json_object_get(permissions, "pages")), "write");
+    assert_string_equal(json_string_value(json_object_get(permissions, "id-token")), "write");
+    assert_null(json_object_get(json_object_get(m->jobs, "build"), "permissions"));
+}
+
+/* User input reaches a shell only in environment variables, and workflows have only read permissions. */
 static void workflow_commands_contain_no_expressions(void **state)
 {
     const machine *m = *state;
@@ -237,8 +260,9 @@ static void workflow_commands_contain_no_expressions(void **state)
         }
     }
     json_decref(action);
-    for (int hunt = 0; hunt < 2; hunt++) {
-        json_t *workflow = yaml_read_file(hunt ? HUNT : WORKFLOW);
+    static const char *const files[] = {WORKFLOW, HUNT, SITE};
+    for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
+        json_t *workflow = yaml_read_file(files[i]);
         const json_t *permissions = json_object_get(workflow, "permissions");
         assert_int_equal(json_object_size(permissions), 1);
         assert_string_equal(json_string_value(json_object_get(permissions, "contents")), "read");
@@ -274,6 +298,7 @@ int main(void)
         ON_MACHINE(job_action_compares_frames),
         ON_MACHINE(job_packages_builds_checks_and_installs_packages),
         ON_MACHINE(hunt_runs_each_fuzzer_and_the_failure_campaign),
+        ON_MACHINE(the_site_is_built_and_published),
         ON_MACHINE(workflow_commands_contain_no_expressions),
         cmocka_unit_test(actions_of_others_are_pinned_by_commit),
     };
