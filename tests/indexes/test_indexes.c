@@ -2,7 +2,7 @@
 /* test_indexes.c - each index answers as its library promises, and a planted fault is found in each. */
 #include "fixture.h"
 #include "index.h"
-#include "judge_answer.h"
+#include "answer_error.h"
 #include "point_sets.h"
 #include "quick_oracle.h"
 
@@ -64,7 +64,7 @@ static size_t count_faults(const spatial_index *index, const octree_point *point
         const octree_query query = make_query(random, kind);
         const size_t found = index->ask(self, &query, ids, POINT_SET_MOST);
         assert_in_range(found, 0, POINT_SET_MOST);
-        const answer_error error = judge_answer(&query, points, count, ids, found, NULL);
+        const answer_error error = find_answer_error(&query, points, count, ids, found, NULL);
         faults += is_fault(index, &error, kind);
     }
     index->destroy(self);
@@ -106,25 +106,25 @@ static void the_judge_counts_every_kind_of_error(void **state)
     (void)state;
     const octree_point points[] = {{{0, 0, 0}, 0}, {{1, 0, 0}, 1}, {{3, 0, 0}, 2}, {{4, 0, 0}, 3}};
     octree_query query = {.kind = OCTREE_QUERY_KNEAREST, .k = 2};
-    answer_error error = judge_answer(&query, points, 4, (uint64_t[]){1, 0}, 2, NULL);
+    answer_error error = find_answer_error(&query, points, 4, (uint64_t[]){1, 0}, 2, NULL);
     assert_true(is_right(&error));
-    error = judge_answer(&query, points, 4, (uint64_t[]){2, 0}, 2, NULL);
+    error = find_answer_error(&query, points, 4, (uint64_t[]){2, 0}, 2, NULL);
     assert_int_equal(error.missing, 1);
     assert_true(error.ratio == 3);
-    error = judge_answer(&query, points, 4, (uint64_t[]){0, 0}, 2, NULL);
+    error = find_answer_error(&query, points, 4, (uint64_t[]){0, 0}, 2, NULL);
     assert_int_equal(error.unknown, 1);
     assert_int_equal(error.missing, 1);
     query = (octree_query){.kind = OCTREE_QUERY_RADIUS, .radius = 3};
-    error = judge_answer(&query, points, 4, (uint64_t[]){0, 1}, 2, NULL);
+    error = find_answer_error(&query, points, 4, (uint64_t[]){0, 1}, 2, NULL);
     assert_int_equal(error.missing, 1);
     assert_true(error.boundary);
-    error = judge_answer(&query, points, 4, (uint64_t[]){0, 2, 3, 9}, 4, NULL);
+    error = find_answer_error(&query, points, 4, (uint64_t[]){0, 2, 3, 9}, 4, NULL);
     assert_int_equal(error.missing, 1);
     assert_false(error.boundary);
     assert_int_equal(error.extra, 1);
     assert_int_equal(error.unknown, 1);
     query = (octree_query){.kind = OCTREE_QUERY_RANGE, .box = {{0, 0, 0}, {3, 1, 1}}};
-    error = judge_answer(&query, points, 4, (uint64_t[]){0, 1, 2}, 3, NULL);
+    error = find_answer_error(&query, points, 4, (uint64_t[]){0, 1, 2}, 3, NULL);
     assert_true(is_right(&error));
     assert_int_equal(error.expected, 3);
 }

@@ -8,7 +8,7 @@
 
 #include "apart.h"
 #include "index.h"
-#include "judge_answer.h"
+#include "answer_error.h"
 #include "knob.h"
 #include "octree/octree.h"
 #include "program.h"
@@ -67,8 +67,8 @@ static outcome ask(cell *c, const octree_query *queries, size_t count)
     outcome o = {.verdict = verdicts[result]};
     for (size_t i = 0; result == APART_ANSWERED && i < count; i++) {
         const apart_answer *a = &c->answers[i];
-        const answer_error e = judge_answer(&queries[i], c->set.points, c->set.count, a->ids,
-                                            a->count < APART_IDS ? a->count : APART_IDS, NULL);
+        const answer_error e = find_answer_error(&queries[i], c->set.points, c->set.count, a->ids,
+                                                 a->count < APART_IDS ? a->count : APART_IDS, NULL);
         add_error(&o, &e, i);
     }
     return o;
@@ -181,21 +181,13 @@ static size_t count_verdict(const table *t, const char *variant, int verdict)
 
 static void tell(const table *t, FILE *out)
 {
-    const size_t right = count_verdict(t, "octreel", RIGHT), refused = count_verdict(t, "octreel", REFUSED);
-    const size_t all = table_count(t, (pick){.variant = "octreel", .setting = NAN});
+    const size_t octreel = table_count(t, (pick){.variant = "octreel", .setting = NAN});
     fprintf(out,
-            "Under %zu stresses, Octreel answers %zu of %zu combinations of a stress and a kind of query rightly and "
-            "refuses the other %zu, whose points have coordinates that are not finite",
-            stress_count, right, all, refused);
-    size_t others = 0, other_right = 0, other_refused = 0;
-    for (size_t i = 0; i < t->count; i++)
-        if (strcmp(t->rows[i].variant, "octreel") != 0) {
-            others++;
-            other_right += t->rows[i].values[0] == RIGHT;
-            other_refused += t->rows[i].values[0] == REFUSED;
-        }
-    fprintf(out, "; of the %zu combinations of the other indexes %zu are right, and %zu are refused.", others,
-            other_right, other_refused);
+            "Of %zu combinations of a stress, such as coordinates of 1e300 or NaN, and a kind of query, Octreel "
+            "answers %zu rightly and refuses %zu, whose "
+            "points are not finite; the other indexes are right in %zu of their %zu.",
+            octreel, count_verdict(t, "octreel", RIGHT), count_verdict(t, "octreel", REFUSED),
+            count_verdict(t, NULL, RIGHT) - count_verdict(t, "octreel", RIGHT), t->count - octreel);
 }
 
 static void defend(const table *t, FILE *out)

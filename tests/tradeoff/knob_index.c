@@ -9,7 +9,7 @@
 
 #include "index.h"
 #include "index_list.h"
-#include "judge_answer.h"
+#include "answer_error.h"
 #include "knob.h"
 #include "measuring.h"
 #include "program.h"
@@ -170,8 +170,8 @@ static findings judge(const workload *w, const contestant *c, const ordered_targ
         const size_t found = c->built->index->ask(c->built->self, &c->queries[i], ids, IDS);
         if (found > IDS)
             stop_with_error("%s found %zu points", c->built->name, found);
-        const answer_error e =
-            judge_answer(&c->queries[i], w->points, w->count, ids, found, neighbors ? w->truth[order[i].target] : NULL);
+        const answer_error e = find_answer_error(&c->queries[i], w->points, w->count, ids, found,
+                                                 neighbors ? w->truth[order[i].target] : NULL);
         f.expected += e.expected;
         f.missing += e.missing;
         f.extra += e.extra + e.unknown;
@@ -293,7 +293,7 @@ static double best_other(const table *t, const char *scene)
 }
 
 /* Compare exact answers with the best of the others, in all scenes of a kind of query. */
-static void tell_lead(const table *t, const char *kind, FILE *out)
+static void tell_lead(const table *t, const char *kind, bool first, FILE *out)
 {
     double ratios[64], least = INFINITY, most = 0;
     size_t count = 0;
@@ -309,23 +309,23 @@ static void tell_lead(const table *t, const char *kind, FILE *out)
         most = fmax(most, ratios[count++]);
     }
     if (count > 0)
-        fprintf(out, "%.2f times for %s (%.2f to %.2f), ", median(ratios, count), kind + 2, least, most);
+        fprintf(out, "%s %s %.2f (%.2f to %.2f)", first ? "" : ",", kind + 2, median(ratios, count), least, most);
 }
 
 static void tell(const table *t, FILE *out)
 {
     const pick exact = {.variant = "octreel", .setting = 0}, near = {.variant = "octreel", .setting = 1};
-    fputs("Queries a second of exact answers, against the fastest other index of the same scene: ", out);
+    fputs("Octreel's exact answers a second, as a multiple of those of the fastest other index (median of the scenes, "
+          "least and most):",
+          out);
     for (size_t i = 0; i < sizeof asking_kinds / sizeof asking_kinds[0]; i++) {
         char kind[32];
         snprintf(kind, sizeof kind, "/ %s", asking_kinds[i].name);
-        tell_lead(t, kind, out);
+        tell_lead(t, kind, i == 0, out);
     }
-    fprintf(out,
-            "medians of the scenes. With epsilon = 1 Octreel is %.2f times as fast, and %.1f %% of the neighbours are "
-            "still the true ones.",
-            table_ratio(t, near, exact, "per_second"),
-            100 * table_sum(t, near, "recall") / (double)table_count(t, near));
+    fprintf(
+        out, ". With epsilon = 1 Octreel is %.2f times as fast, and %.1f %% of its neighbours are still the true ones.",
+        table_ratio(t, near, exact, "per_second"), 100 * table_sum(t, near, "recall") / (double)table_count(t, near));
 }
 
 static void defend(const table *t, FILE *out)

@@ -160,7 +160,8 @@ void page_write(const char *path, const chapter *chapters, size_t count, const m
     FILE *out = fopen(path, "w");
     if (!out)
         stop_with_error("%s: %s", path, strerror(errno));
-    fputs("<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
+    fputs("<!doctype html>\n<!-- SPDX-License-Identifier: MIT -->\n<html lang=\"en\"><head><meta "
+          "charset=\"utf-8\"><meta name=\"viewport\" "
           "content=\"width=device-width\"><meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
           "script-src 'unsafe-inline'; style-src 'unsafe-inline'\"><title>Octreel: what speed costs in "
           "accuracy</title>\n<style>\n",

@@ -399,8 +399,9 @@ async function overlay(file, chapters, said)
 function showPicture(chapter)
 {
     chapter.lists[1].value = "8 nearest";
-    chapter.draw();
-    document.body.replaceChildren(chapter.element.querySelector(".legend"), chapter.element.querySelector(".charts"));
+    chapter.toggle("octreel leaves", make("button"));
+    chapter.element.querySelector(".legend").lastChild.remove();
+    document.body.replaceChildren(make("h3", {}, "The 8 nearest of 100,000 uniform points; each line is an index from epsilon 0 to 4"), chapter.element.querySelector(".legend"), chapter.element.querySelector(".charts"));
     chapter.charts.slice(2).forEach(chart => chart.element.remove());
     chapter.charts.forEach(chart => chart.said.remove());
 }

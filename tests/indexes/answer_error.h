@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* judge_answer.h - how wrong an answer is, compared with all points by real numbers. It shares no code with the
+/* answer_error.h - how wrong an answer is, compared with all points by real numbers. It shares no code with the
  * library. */
-#ifndef JUDGE_ANSWER_H
-#define JUDGE_ANSWER_H
+#ifndef ANSWER_ERROR_H
+#define ANSWER_ERROR_H
 
 #include "octree/query.h"
 
@@ -20,8 +20,8 @@ typedef struct answer_error {
 
 /* Judge the answer `ids` to a query about points whose ids are their places. Points with a NaN are in no right answer.
  * At most QUICK_NEAREST_MOST neighbours. `nearest`: the true neighbours, or null if they are to be found here. */
-answer_error judge_answer(const octree_query *query, const octree_point *points, size_t count, const uint64_t *ids,
-                          size_t id_count, const octree_point *const *nearest);
+answer_error find_answer_error(const octree_query *query, const octree_point *points, size_t count, const uint64_t *ids,
+                               size_t id_count, const octree_point *const *nearest);
 
 /* Whether an answer is right by real numbers; among points at equal distances, any is right. */
 bool is_right(const answer_error *error);

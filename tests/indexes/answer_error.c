@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* judge_answer.c - see judge_answer.h. */
-#include "judge_answer.h"
+/* answer_error.c - see answer_error.h. */
+#include "answer_error.h"
 
 #include "quick_oracle.h"
 
@@ -129,8 +129,8 @@ static void judge_region(const octree_query *query, const octree_point *points, 
     error->boundary = error->missing > 0 && error->missing == missing_on_boundary;
 }
 
-answer_error judge_answer(const octree_query *query, const octree_point *points, size_t count, const uint64_t *ids,
-                          size_t id_count, const octree_point *const *nearest)
+answer_error find_answer_error(const octree_query *query, const octree_point *points, size_t count, const uint64_t *ids,
+                               size_t id_count, const octree_point *const *nearest)
 {
     const octree_point *found[QUICK_NEAREST_MOST];
     answer_error error = {0};
