@@ -8,6 +8,7 @@
 #include "film.h"
 #include "film_report.h"
 #include "inspect.h"
+#include "inspect_advice.h"
 #include "inspect_answers.h"
 #include "inspect_view.h"
 #include "layer.h"
@@ -35,7 +36,7 @@ typedef struct arguments {
     const char *node; /* the address of the node to print, or null */
     query_options queries;
     octree_def def;
-    bool has_world, json, force;
+    bool has_world, advise, json, force;
     view_options view_options;
     view view;
     renderer_choice renderer;
@@ -114,6 +115,10 @@ static const command_option options[] = {
      .read = read_node, OPTION_VALUE(arguments, node)},
     {"nodes", "FILE.csv", "write all nodes as CSV; - is standard output, and the report then goes to standard error",
      .read = read_file, OPTION_VALUE(arguments, outputs[NODES].path)},
+    {"advise", NULL,
+     "measure on these points which --capacity and which epsilon (octree_search.epsilon of the library) save time, and "
+     "what errors an epsilon causes; this takes some seconds for a million points",
+     .read = read_flag, OPTION_VALUE(arguments, advise)},
     FORCE_OPTION(arguments, force, FORCE_FILES),
     SHARED_OPTIONS(query_option_row, arguments, queries),
     JSON_OPTION(arguments, json, "print JSON; it lists every point of an answer"),
@@ -134,6 +139,7 @@ typedef struct report {
     const inspection *made;
     octree_node node;
     inspect_answers answers;
+    inspect_advice advice;       /* measured if a->advise is true */
     view view;                   /* the view of the picture */
     char chosen[INSPECT_CHOICE]; /* a sentence about the view options that the program chose by itself, or "" */
 } report;
@@ -217,8 +223,8 @@ static void print_picture_size(const report *r, FILE *out)
         fprintf(out, "%d x %d pixels%s%s\n", r->a->view.width, r->a->view.height, more, r->chosen);
 }
 
-/* Prints the node of --node and the answers to queries. If neither was asked for, prints the statistics. With --json,
- * does not mention the written files, because the output must be JSON only. */
+/* Prints the node of --node, the answers to queries and the advice. If none was asked for, prints the statistics. With
+ * --json, does not mention the written files, because the output must be JSON only. */
 static void print_report(const report *r)
 {
     const arguments *a = r->a;
@@ -228,7 +234,9 @@ static void print_report(const report *r)
         inspect_print_node(&r->node, r->name, a->json, out);
     if (a->queries.count)
         inspect_print_answers(&r->answers, r->name, a->json, out);
-    if (!a->node && !a->queries.count)
+    if (a->advise)
+        inspect_print_advice(&r->advice, r->made, r->name, a->json, out);
+    if (!a->node && !a->queries.count && !a->advise)
         inspect_print(r->made, r->name, a->json, out);
     if (picture && !a->json && !is_quiet())
         print_picture_size(r, print_wrote(picture, out));
@@ -236,11 +244,21 @@ static void print_report(const report *r)
         fputs("all nodes\n", print_wrote(nodes, out));
 }
 
+static bool measure_advice(report *r, octreel_error *error)
+{
+    progress bar = progress_start("leaf capacities measured");
+    const bool ok = inspect_advise(r->made, &(watcher){progress_show, NULL, &bar}, &r->advice, error);
+    progress_end(&bar);
+    return ok;
+}
+
 /* Makes the report. Before the first file is written, checks everything else that can fail. */
 static bool make_report(report *r, octreel_error *error)
 {
     const arguments *a = r->a;
     if (a->node && !inspect_find_node(r->made, a->node, &r->node, error))
+        return false;
+    if (a->advise && !measure_advice(r, error))
         return false;
     if (!inspect_ask(r->made->tree, a->queries.items, a->queries.count, &r->answers, error))
         return false;
@@ -374,6 +392,8 @@ const command command_inspect = {
                 "octreel inspect scan.pcd -o scan.html\n"
                 "# print one node, its box and its points, as JSON\n"
                 "octreel inspect points.txt --node 0/3 --json\n"
+                "# print which leaf capacity and which epsilon suit these points\n"
+                "octreel inspect scan.ply --advise\n"
                 "# print and draw the 8 nearest neighbours of a place in each of many clouds\n"
                 "for f in *.ply; do octreel inspect \"$f\" -o \"$f.png\" --nearest 1,2,3,8; done\n"
                 "# print the statistics of a cloud that pdal converts\n"
