@@ -9,7 +9,7 @@
 #ifndef INDEX_H
 #define INDEX_H
 
-#include "more_indexes.h" /* INDEX_MORE, which CMake writes */
+#include "more_indexes.h" /* INDEX_MORE and INDEX_LEFT_OUT, which CMake writes */
 #include "octree/query.h"
 
 #ifdef __cplusplus

@@ -36,7 +36,7 @@ async function layOver(name, text)
 
 async function run()
 {
-    say("chapters", document.querySelectorAll("main section").length);
+    say("chapters and gains", document.querySelectorAll("main section").length);
     say("title", document.querySelector("h1").textContent);
     const all = marks();
     say("has marks", all > 10);

@@ -25,6 +25,13 @@ typedef struct chart {
     bool matrix; /* instead of a chart: scenes by variants, a verdict in each cell */
 } chart;
 
+/* What a knob buys: the cost of an accurate setting, divided by the cost of a fast one. */
+typedef struct gain {
+    const char *what;
+    pick slow, fast;  /* if the setting of `fast` is NaN, the one with the largest gain */
+    const char *cost; /* a column */
+} gain;
+
 typedef struct knob {
     const char *name; /* of its files, and for --knob */
     const char *title;
@@ -36,6 +43,8 @@ typedef struct knob {
     size_t column_count;
     const chart *charts;
     size_t chart_count;
+    const gain *gains;
+    size_t gain_count;
     void (*measure)(const run *r, table *t);
     void (*tell)(const table *t, FILE *out);   /* the headline: one sentence, computed from the data */
     void (*defend)(const table *t, FILE *out); /* why the default is kept, computed from the data */

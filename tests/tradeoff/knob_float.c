@@ -30,6 +30,10 @@ static const chart charts[] = {
     {.title = "Wrong answers", .x = "setting", .y = "wrong_per_million", .x_log = true},
 };
 
+static const gain gains[] = {
+    {"coordinates in floats", {.variant = "doubles", .setting = NAN}, {.variant = "floats", .setting = NAN}, "ns"},
+};
+
 /* Through a volatile one: gcc 12 is known to drop the rounding of floats that lie side by side. */
 static double rounded(double value)
 {
@@ -224,6 +228,8 @@ const knob knob_float = {
     .column_count = sizeof columns / sizeof columns[0],
     .charts = charts,
     .chart_count = sizeof charts / sizeof charts[0],
+    .gains = gains,
+    .gain_count = sizeof gains / sizeof gains[0],
     .measure = measure,
     .tell = tell,
     .defend = defend,

@@ -275,6 +275,8 @@ char *list_libraries(void)
         stop_with_error("out of memory");
     for (size_t i = 0; all_indexes[i]; i++)
         fprintf(out, "%s%s %s", i == 0 ? "" : ", ", all_indexes[i]->name, all_indexes[i]->version);
+    if (*INDEX_LEFT_OUT)
+        fprintf(out, "; not installed and left out:%s", INDEX_LEFT_OUT);
     fclose(out);
     return text;
 }

@@ -28,6 +28,17 @@ static const chart charts[] = {
     {.title = "Memory", .x = "setting", .y = "bytes", .x_log = true},
 };
 
+static const gain gains[] = {
+    {"leaf capacity instead of 64",
+     {.variant = "capacity", .setting = 64},
+     {.variant = "capacity", .setting = NAN},
+     "mix_ns"},
+    {"a lower greatest depth",
+     {.variant = "depth", .setting = OCTREE_MAX_DEPTH},
+     {.variant = "depth", .setting = NAN},
+     "mix_ns"},
+};
+
 static const size_t capacities[] = {64, 1, 2, 4, 8, 16, 32, 128, 256}; /* the default first: the others must agree */
 static const size_t depths[] = {4, 5, 6, 7, 8, 10, 14, 21};
 enum {
@@ -276,6 +287,8 @@ const knob knob_leaf = {
     .column_count = sizeof columns / sizeof columns[0],
     .charts = charts,
     .chart_count = sizeof charts / sizeof charts[0],
+    .gains = gains,
+    .gain_count = sizeof gains / sizeof gains[0],
     .measure = measure,
     .tell = tell,
     .defend = defend,

@@ -28,6 +28,10 @@ static const chart charts[] = {
     {.title = "Time of a search", .x = "setting", .y = "ns"},
 };
 
+static const gain gains[] = {
+    {"OCTREE_FAST, one neighbour", {.variant = "exact", .setting = 0}, {.variant = "fast", .setting = 1}, "ns"},
+};
+
 static const char *const names[] = {"exact", "fast"};
 
 static void add_row(table *t, const char *scene, const octree_search *how, const findings *f, double ns)
@@ -147,6 +151,8 @@ const knob knob_mode = {
     .column_count = sizeof columns / sizeof columns[0],
     .charts = charts,
     .chart_count = sizeof charts / sizeof charts[0],
+    .gains = gains,
+    .gain_count = sizeof gains / sizeof gains[0],
     .measure = measure,
     .tell = tell,
     .defend = defend,

@@ -26,6 +26,11 @@ static const chart charts[] = {
     {.title = "Time of a search", .x = "setting", .y = "ns", .y_log = true},
 };
 
+static const gain gains[] = {
+    {"epsilon up to 2, one neighbour", {.variant = "k1", .setting = 0}, {.variant = "k1", .setting = NAN}, "ns"},
+    {"epsilon up to 2, 8 neighbours", {.variant = "k8", .setting = 0}, {.variant = "k8", .setting = NAN}, "ns"},
+};
+
 static const double epsilons[] = {0, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2};
 enum { EPSILONS = sizeof epsilons / sizeof epsilons[0] };
 
@@ -144,6 +149,8 @@ const knob knob_nearest_epsilon = {
     .column_count = sizeof columns / sizeof columns[0],
     .charts = charts,
     .chart_count = sizeof charts / sizeof charts[0],
+    .gains = gains,
+    .gain_count = sizeof gains / sizeof gains[0],
     .measure = measure,
     .tell = tell,
     .defend = defend,

@@ -29,6 +29,11 @@ static const chart charts[] = {
     {.title = "The largest box that is left out", .x = "setting", .y = "largest_left_out", .bound = "bound_left_out"},
 };
 
+static const gain gains[] = {
+    {"one sample a pixel instead of --aa 2", {.variant = "aa2", .setting = 2}, {.variant = "aa1", .setting = 2}, "ms"},
+    {"--lod instead of 0", {.variant = "aa1", .setting = 0}, {.variant = "aa1", .setting = NAN}, "ms"},
+};
+
 static const double lods[] = {0, 1, 2, 4, 8};
 static const int samples[] = {1, 2, 4};
 static const char *const names[] = {"aa1", "aa2", "aa4"};
@@ -272,6 +277,8 @@ const knob knob_picture = {
     .column_count = sizeof columns / sizeof columns[0],
     .charts = charts,
     .chart_count = sizeof charts / sizeof charts[0],
+    .gains = gains,
+    .gain_count = sizeof gains / sizeof gains[0],
     .measure = measure,
     .tell = tell,
     .defend = defend,

@@ -25,6 +25,13 @@ static const chart charts[] = {
     {.title = "Size against time", .x = "ms", .y = "bytes", .x_log = true, .y_log = true},
 };
 
+static const gain gains[] = {
+    {"indexed level 1 instead of level 9",
+     {.variant = "indexed", .setting = 9},
+     {.variant = "indexed-rle", .setting = 1},
+     "ms"},
+};
+
 /* One way to write a frame. */
 typedef struct encoding {
     const char *name;
@@ -251,6 +258,8 @@ const knob knob_png = {
     .column_count = sizeof columns / sizeof columns[0],
     .charts = charts,
     .chart_count = sizeof charts / sizeof charts[0],
+    .gains = gains,
+    .gain_count = sizeof gains / sizeof gains[0],
     .measure = measure,
     .tell = tell,
     .defend = defend,

@@ -28,6 +28,11 @@ static const chart charts[] = {
     {.title = "Time of a range", .x = "setting", .y = "ns", .y_log = true},
 };
 
+static const gain gains[] = {
+    {"epsilon of boxes", {.variant = "box", .setting = 0}, {.variant = "box", .setting = NAN}, "ns"},
+    {"epsilon of balls", {.variant = "ball", .setting = 0}, {.variant = "ball", .setting = NAN}, "ns"},
+};
+
 static const double settings[] = {0, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1};
 enum { SETTINGS = sizeof settings / sizeof settings[0], HITS = 1000 };
 
@@ -255,6 +260,8 @@ const knob knob_range_epsilon = {
     .column_count = sizeof columns / sizeof columns[0],
     .charts = charts,
     .chart_count = sizeof charts / sizeof charts[0],
+    .gains = gains,
+    .gain_count = sizeof gains / sizeof gains[0],
     .measure = measure,
     .tell = tell,
     .defend = defend,

@@ -29,6 +29,10 @@ static const chart charts[] = {
     {.title = "Edges of leaves that are seen", .x = "ms", .y = "seen"},
 };
 
+static const gain gains[] = {
+    {"bands instead of eye-dome lighting", {.variant = "edl", .setting = 0}, {.variant = "bands", .setting = 0}, "ms"},
+};
+
 enum { VISIBLE = 24 };
 
 static const double errors[] = {0.125, 0.25, 0.5, 1, 2};
@@ -287,6 +291,8 @@ const knob knob_shade = {
     .column_count = sizeof columns / sizeof columns[0],
     .charts = charts,
     .chart_count = sizeof charts / sizeof charts[0],
+    .gains = gains,
+    .gain_count = sizeof gains / sizeof gains[0],
     .measure = measure,
     .tell = tell,
     .defend = defend,

@@ -28,6 +28,13 @@ static const chart charts[] = {
     {.title = "Time of a step", .x = "setting", .y = "ns", .x_log = true, .y_log = true},
 };
 
+static const gain gains[] = {
+    {"ends of a step instead of sweep",
+     {.variant = "swept-on-axis", .setting = 1},
+     {.variant = "ends-on-axis", .setting = 1},
+     "ns"},
+};
+
 static const double speeds[] = {0.25, 0.5, 1, 1.5, 2, 3, 4, 8, 16};
 enum { SPEEDS = sizeof speeds / sizeof speeds[0] };
 static const double half = 32; /* of the player's box: dyadic, as are its places, so that steps are not rounded */
@@ -235,6 +242,8 @@ const knob knob_sweep = {
     .column_count = sizeof columns / sizeof columns[0],
     .charts = charts,
     .chart_count = sizeof charts / sizeof charts[0],
+    .gains = gains,
+    .gain_count = sizeof gains / sizeof gains[0],
     .measure = measure,
     .tell = tell,
     .defend = defend,

@@ -34,6 +34,10 @@ static const chart charts[] = {
     {.title = "Time of a flight", .x = "setting", .y = "ns", .x_log = true, .y_log = true},
 };
 
+static const gain gains[] = {
+    {"4 ticks instead of 64", {.variant = "ends", .setting = 64}, {.variant = "ends", .setting = 4}, "ns"},
+};
+
 enum { LENGTH = 1024, BODIES = 1200, TICKS_AT_MOST = 64 };
 static const double half = 32; /* of the player's box */
 
@@ -242,6 +246,8 @@ const knob knob_tick = {
     .column_count = sizeof columns / sizeof columns[0],
     .charts = charts,
     .chart_count = sizeof charts / sizeof charts[0],
+    .gains = gains,
+    .gain_count = sizeof gains / sizeof gains[0],
     .measure = measure,
     .tell = tell,
     .defend = defend,

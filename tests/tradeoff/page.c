@@ -40,7 +40,7 @@ measured_where where_now(const run *r)
     char date[16], points[128];
     const time_t now = time(NULL);
     strftime(date, sizeof date, "%Y-%m-%d", gmtime(&now));
-    snprintf(points, sizeof points, "%zu points and %zu targets in each scene", r->loads->of[0].count,
+    snprintf(points, sizeof points, "%zu points and %zu targets in each scene, seed 7", r->loads->of[0].count,
              r->loads->of[0].target_count);
     return (measured_where){.date = copy_text(date),
                             .machine = read_machine(),
@@ -110,19 +110,43 @@ static json_t *describe_chart(const knob *k, const chart *c)
                      c->by_variant, "matrix", c->matrix);
 }
 
+/* The largest gain, and the row that has it: "k8 at 2". */
+static json_t *describe_gain(const gain *g, const table *t)
+{
+    double most = 0, at = NAN;
+    char where[96];
+    for (size_t i = 0; i < t->count; i++) {
+        const row *r = &t->rows[i];
+        pick fast = g->fast;
+        if (strcmp(r->variant, fast.variant) != 0 || (!isnan(fast.setting) && r->values[0] != fast.setting))
+            continue;
+        if (!isnan(g->slow.setting))
+            fast.setting = r->values[0];
+        const double times = table_ratio(t, g->slow, fast, g->cost);
+        if (times > most) {
+            most = times;
+            at = fast.setting;
+        }
+    }
+    snprintf(where, sizeof where, isnan(at) ? "%s" : "%s at %g", g->fast.variant, at);
+    return json_pack("{s:s, s:f, s:s}", "what", g->what, "times", most, "where", where);
+}
+
 static json_t *describe_chapter(const chapter *c)
 {
     const knob *k = c->knob;
-    json_t *charts = json_array(), *columns = json_array();
+    json_t *charts = json_array(), *columns = json_array(), *gains = json_array();
     for (size_t i = 0; i < k->chart_count; i++)
         json_array_append_new(charts, describe_chart(k, &k->charts[i]));
     for (size_t i = 0; i < k->column_count; i++)
         json_array_append_new(columns,
                               json_pack("{s:s, s:s}", "name", k->columns[i].name, "meaning", k->columns[i].meaning));
-    return json_pack("{s:s, s:s, s:s, s:s, s:s, s:s, s:s, s:s, s:i, s:o, s:o}", "name", k->name, "title", k->title,
+    for (size_t i = 0; i < k->gain_count; i++)
+        json_array_append_new(gains, describe_gain(&k->gains[i], &c->table));
+    return json_pack("{s:s, s:s, s:s, s:s, s:s, s:s, s:s, s:s, s:i, s:o, s:o, s:o}", "name", k->name, "title", k->title,
                      "trades", k->trades, "preset", k->preset, "proven", k->proven, "truth", k->truth, "headline",
-                     c->headline, "defence", c->defence, "beyond", (int)c->beyond, "charts", charts, "columns",
-                     columns);
+                     c->headline, "defence", c->defence, "beyond", (int)c->beyond, "charts", charts, "columns", columns,
+                     "gains", gains);
 }
 
 /* Write JSON into a page, where "<" might begin a tag. */

@@ -395,6 +395,20 @@ async function overlay(file, chapters, said)
     }
 }
 
+/* What each knob buys, with those that never make anything a tenth faster last. */
+function makeGains(chapters)
+{
+    const gains = chapters.flatMap(chapter => chapter.gains.map(gain => ({...gain, chapter}))).sort((a, b) => b.times - a.times);
+    if (!gains.length)
+        return null;
+    return make("section", {}, make("h2", {id: "gains"}, "What each knob of Octreel buys"),
+        make("div", {class: "scroll", tabindex: 0, role: "region", "aria-label": "What each knob buys"}, make("table", {class: "gains"},
+            make("tr", {}, ...["knob", "times as fast", "where", "remark"].map(name => make("th", {scope: "col"}, name))),
+            ...gains.map(gain => make("tr", {}, make("td", {}, make("a", {href: `#${gain.chapter.name}`}, gain.what)), make("td", {}, gain.times.toFixed(2)),
+                make("td", {}, gain.where), make("td", {class: gain.times < 1.1 ? "broken" : ""}, gain.times < 1.1 ? "never buys a tenth" : ""))))),
+        make("p", {}, "Medians of the scenes, at the setting with the largest gain. What is lost is in the chapter."));
+}
+
 /* Only the legend and the first two charts: for the README's picture. */
 function showPicture(chapter)
 {
@@ -418,7 +432,7 @@ function build()
              about.quick ? make("p", {class: "broken"}, "This is the small version: its times mean little.") : null,
              make("p", {}, make("label", {for: "other"}, "Compare with a page of another machine: "), input), said),
         make("nav", {"aria-label": "Chapters"}, make("ul", {}, ...about.chapters.map(chapter => make("li", {}, make("a", {href: `#${chapter.name}`}, chapter.title))))),
-        make("main", {}, ...chapters.map(chapter => chapter.element)));
+        make("main", {}, makeGains(about.chapters), ...chapters.map(chapter => chapter.element)));
     if (location.hash === "#picture")
         showPicture(chapters[0]);
 }
