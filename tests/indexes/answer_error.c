@@ -31,13 +31,14 @@ static bool is_finite(const octree_point *point)
     return isfinite(point->position[0]) && isfinite(point->position[1]) && isfinite(point->position[2]);
 }
 
-/* Drop unknown ids and points that occur again. The points that remain are marked in `named`. Returns their number. */
+/* Drop unknown ids, points that occur again, and points that are not finite. The points that remain are marked in
+ * `named`. Returns their number. */
 static size_t take_known(const octree_point *points, size_t count, const uint64_t *ids, size_t id_count, bool *named,
                          const octree_point **known)
 {
     size_t kept = 0;
     for (size_t i = 0; i < id_count; i++)
-        if (ids[i] < count && !named[ids[i]]) {
+        if (ids[i] < count && !named[ids[i]] && is_finite(&points[ids[i]])) {
             named[ids[i]] = true;
             known[kept++] = &points[ids[i]];
         }

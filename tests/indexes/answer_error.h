@@ -12,7 +12,7 @@ typedef struct answer_error {
     size_t missing;   /* regions: points of the right answer that are not in this one; neighbours: ranks at which the
                          neighbour is farther than the true one, or does not exist */
     size_t extra;     /* regions: points that are not in the region; neighbours: more than k */
-    size_t unknown;   /* ids that no point has, and points that occur again */
+    size_t unknown;   /* ids of no point, points that occur again, points that are not finite */
     bool boundary;    /* regions: missing points exist, and all of them lie exactly on the boundary */
     double ratio;     /* neighbours: the largest distance / true distance of a rank; infinite if the true one is 0 */
     double ratio_sum; /* the sum of the ratios over all ranks that were answered */

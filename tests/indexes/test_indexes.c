@@ -6,6 +6,7 @@
 #include "point_sets.h"
 #include "quick_oracle.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -123,6 +124,13 @@ static void the_judge_counts_every_kind_of_error(void **state)
     assert_false(error.boundary);
     assert_int_equal(error.extra, 1);
     assert_int_equal(error.unknown, 1);
+    const octree_point odd[] = {{{0, 0, 0}, 0}, {{NAN, 0, 0}, 1}, {{INFINITY, 0, 0}, 2}};
+    error = find_answer_error(&query, odd, 3, (uint64_t[]){0, 1, 2}, 3, NULL);
+    assert_int_equal(error.unknown, 2);
+    query = (octree_query){.kind = OCTREE_QUERY_NEAREST};
+    error = find_answer_error(&query, odd, 3, (uint64_t[]){1}, 1, NULL);
+    assert_int_equal(error.unknown, 1);
+    assert_int_equal(error.missing, 1);
     query = (octree_query){.kind = OCTREE_QUERY_RANGE, .box = {{0, 0, 0}, {3, 1, 1}}};
     error = find_answer_error(&query, points, 4, (uint64_t[]){0, 1, 2}, 3, NULL);
     assert_true(is_right(&error));
