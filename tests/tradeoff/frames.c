@@ -2,8 +2,13 @@
 /* frames.c - see frames.h. */
 #include "frames.h"
 
+#include <jansson.h>
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
 
+#include "png_write.h"
 #include "renderer.h"
 #include "fixture.h"
 #include "tick_scene.h"
@@ -86,6 +91,61 @@ image draw_reference(const scene *picture)
         stop_with_error("there is no memory for a picture");
     image_release(&drawn);
     return small;
+}
+
+/* A part of a frame around its middle. */
+static image crop(const image *frame, int width, int height)
+{
+    const size_t pixel = image_pixel_size(frame);
+    image part;
+    if (!image_create(&part, width, height, frame->channels))
+        stop_with_error("there is no memory for a picture");
+    part.palette = frame->palette;
+    for (int y = 0; y < height; y++) {
+        const int row = (frame->height - height) / 2 + y, column = (frame->width - width) / 2;
+        memcpy(part.pixels + (size_t)y * (size_t)width * pixel,
+               frame->pixels + ((size_t)row * (size_t)frame->width + (size_t)column) * pixel, (size_t)width * pixel);
+    }
+    return part;
+}
+
+/* A file in base64. The text must be freed. */
+static char *read_base64(const char *path)
+{
+    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    FILE *file = fopen(path, "rb");
+    char *text = NULL;
+    unsigned char three[3];
+    size_t size, length = 0;
+    if (!file)
+        stop_with_error("%s cannot be read", path);
+    while ((size = fread(three, 1, 3, file)) > 0) {
+        const unsigned bits =
+            (unsigned)three[0] << 16 | (size > 1 ? (unsigned)three[1] << 8 : 0) | (size > 2 ? (unsigned)three[2] : 0);
+        text = resize_memory(text, length + 5);
+        for (size_t i = 0; i < 4; i++)
+            text[length++] = i <= size ? digits[bits >> (18 - 6 * i) & 63] : '=';
+        text[length] = '\0';
+    }
+    fclose(file);
+    return text;
+}
+
+void attach_picture(const run *r, table *t, const image *frame, int width, int height, const char *caption)
+{
+    char path[4200];
+    octreel_error why;
+    image part = crop(frame, width, height);
+    snprintf(path, sizeof path, "%s/part.png", r->folder);
+    if (!image_write_png(&part, path, NULL, 0, &why))
+        stop_with_error("%s", why.text);
+    char *text = read_base64(path);
+    if (!t->pictures)
+        t->pictures = json_array();
+    json_array_append_new(t->pictures, json_pack("{s:s, s:s}", "caption", caption, "png", text));
+    free(text);
+    unlink(path);
+    image_release(&part);
 }
 
 double peak_signal_to_noise(const image *a, const image *b)

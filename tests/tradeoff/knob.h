@@ -51,6 +51,6 @@ typedef struct knob {
 } knob;
 
 extern const knob knob_index, knob_breaks, knob_mode, knob_nearest_epsilon, knob_range_epsilon, knob_leaf, knob_float,
-    knob_sweep, knob_tick, knob_picture, knob_png, knob_shade;
+    knob_sweep, knob_tick, knob_fill, knob_picture, knob_png, knob_shade, knob_diff;
 
 #endif

@@ -169,6 +169,8 @@ static void measure_samples(const run *r, table *t, const char *name, const subj
     time_in_turn(draw, drawings, sizeof drawings[0], LODS, r->rounds, ns);
     for (int i = 0; i < LODS; i++)
         add_row(t, name, names[aa], &drawings[i], &drawings[0], reference, ns[i]);
+    if (strcmp(name, "session") == 0)
+        attach_picture(r, t, &drawings[2].picture.frame, 96, 54, names[aa]);
     for (int i = 0; i < LODS; i++) {
         picture_close(&drawings[i].picture);
         scene_release(&drawings[i].scene);

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "image.h"
+#include "frames.h"
 #include "knob.h"
 #include "layer.h"
 #include "must.h"
@@ -233,6 +234,9 @@ static void measure_cloud(const run *r, table *t, const char *name, size_t point
         look_for_leaves(&all[i], owners, parts);
         table_add(t, name, ways[i].name, (double[]){0, NAN, NAN, NAN, ns[i] / 1e6, parts[1], parts[0]});
     }
+    for (int i = 0; i < WAYS; i++)
+        if (height > 90 && strcmp(name, "sparse") != 0 && (i == EDL || i < 2))
+            attach_picture(r, t, &all[i].picture.frame, 96, 54, ways[i].name);
     free(owners);
     measure_errors(t, name, &all[EDL]);
     for (int i = 0; i < WAYS; i++)

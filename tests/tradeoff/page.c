@@ -177,7 +177,18 @@ static void write_about(const chapter *chapters, size_t count, const measured_wh
 
 #define ABOUT_TAG "<script type=\"application/json\" id=\"about\">"
 #define TABLE_TAG "<script type=\"text/csv\" id=\"csv-%s\">\n"
-#define NOTES_TAG "<script type=\"application/json\" id=\"notes-%s\">\n"
+#define NOTES_TAG "<script type=\"application/json\" id=\"notes-"
+#define PICTURES_TAG "<script type=\"application/json\" id=\"pictures-"
+
+/* Write a JSON array that belongs to a chapter, if it is not null. */
+static void write_block(const char *tag, const char *name, json_t *array, FILE *out)
+{
+    if (!array)
+        return;
+    fprintf(out, "%s%s\">\n", tag, name);
+    write_json(json_incref(array), out);
+    fputs("\n</script>\n", out);
+}
 
 void page_write(const char *path, const chapter *chapters, size_t count, const measured_where *where)
 {
@@ -187,7 +198,7 @@ void page_write(const char *path, const chapter *chapters, size_t count, const m
     fputs("<!doctype html>\n<!-- SPDX-License-Identifier: MIT -->\n<html lang=\"en\"><head><meta "
           "charset=\"utf-8\"><meta name=\"viewport\" "
           "content=\"width=device-width\"><meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
-          "script-src 'unsafe-inline'; style-src 'unsafe-inline'\"><title>Octreel: what speed costs in "
+          "script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:\"><title>Octreel: what speed costs in "
           "accuracy</title>\n<style>\n",
           out);
     write_part("page.css", out);
@@ -198,13 +209,10 @@ void page_write(const char *path, const chapter *chapters, size_t count, const m
     fputs("\n</script>\n", out);
     for (size_t i = 0; i < count; i++) {
         fprintf(out, TABLE_TAG, chapters[i].knob->name);
-        table_write_csv(&chapters[i].table, out);
+        table_write_csv(&chapters[i].table, true, out);
         fputs("</script>\n", out);
-        if (chapters[i].table.notes) {
-            fprintf(out, NOTES_TAG, chapters[i].knob->name);
-            write_json(json_incref(chapters[i].table.notes), out);
-            fputs("\n</script>\n", out);
-        }
+        write_block(NOTES_TAG, chapters[i].knob->name, chapters[i].table.notes, out);
+        write_block(PICTURES_TAG, chapters[i].knob->name, chapters[i].table.pictures, out);
     }
     fputs("<script>\n", out);
     write_part("page.js", out);
@@ -240,13 +248,13 @@ measured_where page_read_where(const char *path, const char *text)
     return where;
 }
 
-/* The notes of a chapter; null if there are none. */
-static json_t *read_notes(const char *text, const char *name)
+/* A JSON array of a chapter; null if there is none. */
+static json_t *read_block(const char *text, const char *tag, const char *name)
 {
-    char tag[96];
-    snprintf(tag, sizeof tag, NOTES_TAG, name);
-    const char *const start = strstr(text, tag);
-    return start ? json_loads(start + strlen(tag), JSON_DISABLE_EOF_CHECK, NULL) : NULL;
+    char whole[96];
+    snprintf(whole, sizeof whole, "%s%s\">\n", tag, name);
+    const char *const start = strstr(text, whole);
+    return start ? json_loads(start + strlen(whole), JSON_DISABLE_EOF_CHECK, NULL) : NULL;
 }
 
 bool page_read_table(const char *path, const char *text, const knob *k, table *t)
@@ -257,7 +265,7 @@ bool page_read_table(const char *path, const char *text, const knob *k, table *t
     *t = (table){.columns = k->columns, .column_count = k->column_count};
     if (start && !table_read_csv(t, start + strlen(tag)))
         stop_with_error("%s: the table of %s is cut off, or has other columns than this program", path, k->name);
-    if (start)
-        t->notes = read_notes(text, k->name);
+    t->notes = read_block(text, NOTES_TAG, k->name);
+    t->pictures = read_block(text, PICTURES_TAG, k->name);
     return start != NULL;
 }

@@ -32,13 +32,14 @@ function readTable(page, name)
     if (!block)
         return [];
     const [head, ...lines] = block.textContent.trim().split("\n").map(line => line.split(","));
-    return lines.map(line => Object.fromEntries(head.map((key, i) => [key, i < 2 ? line[i] : line[i] === "inf" ? Infinity : Number(line[i])])));
+    const names = ["", ""]; /* an empty name is that of the row before */
+    return lines.map(line => Object.fromEntries(head.map((key, i) => [key, i < 2 ? names[i] = line[i] || names[i] : line[i] === "inf" ? Infinity : Number(line[i])])));
 }
 
-/* The noted rows of a chapter: lists of {scene, variants, text}. */
-function readNotes(name)
+/* The notes of a chapter, {scene, variants, text}, or its pictures, {caption, png}. */
+function readBlock(kind, name)
 {
-    return JSON.parse(document.getElementById(`notes-${name}`)?.textContent ?? "[]");
+    return JSON.parse(document.getElementById(`${kind}-${name}`)?.textContent ?? "[]");
 }
 
 function readAbout(page)
@@ -175,7 +176,7 @@ class Chart {
         }
         const short = label => label.length > 62 ? label.slice(0, 60) + "…" : label;
         parts.push(make("text", {x: (LEFT + WIDTH - RIGHT) / 2, y: HEIGHT - 14, "text-anchor": "middle"}, short(this.about.xLabel)),
-                   make("text", {transform: `translate(13,${(TOP + bottom) / 2}) rotate(-90)`, "text-anchor": "middle"}, this.about.yLabel.slice(0, 48)));
+                   make("text", {transform: `translate(13,${(TOP + bottom) / 2}) rotate(-90)`, "text-anchor": "middle"}, this.about.yLabel.length > 48 ? this.about.yLabel.slice(0, 46) + "…" : this.about.yLabel));
         return parts;
     }
 
@@ -300,7 +301,7 @@ class Chapter {
         this.series = sortByLibrary(unique(this.rows.map(row => row[this.seriesKey])));
         this.hidden = new Set();
         this.matrix = about.charts.some(chart => chart.matrix);
-        this.charts = about.charts.map(chart => chart.matrix ? new Matrix(about, chart, this.rows, readNotes(about.name)) : new Chart(about, chart));
+        this.charts = about.charts.map(chart => chart.matrix ? new Matrix(about, chart, this.rows, readBlock("notes", about.name)) : new Chart(about, chart));
         this.lists = this.matrix ? [] : this.makeLists();
         this.element = this.makeElement();
         this.draw();
@@ -341,7 +342,13 @@ class Chapter {
             this.matrix ? null : this.makeLegend(), make("div", {class: "charts"}, ...this.charts.map(chart => chart.element)),
             make("dl", {}, ...facts.flatMap(([name, text]) => [make("dt", {}, name), make("dd", {}, text)]),
                  make("dt", {}, "Bounds"), a.beyond ? make("dd", {class: "broken"}, `${a.beyond} values are beyond their bound`) : make("dd", {class: "holds"}, "every measured value is within its bound")),
-            this.makeTable());
+            this.makePictures(), this.makeTable());
+    }
+
+    makePictures()
+    {
+        return make("div", {class: "pictures"}, ...readBlock("pictures", this.about.name).map(({caption, png}) =>
+            make("figure", {}, make("img", {src: `data:image/png;base64,${png}`, alt: caption, onload: event => { event.target.width = 2 * event.target.naturalWidth; }}), make("figcaption", {}, caption))));
     }
 
     /* The table is made when it is opened. */
@@ -359,7 +366,8 @@ class Chapter {
 
     save()
     {
-        saveText(document.getElementById(`csv-${this.about.name}`).textContent.trimStart(), `${this.about.name}.csv`);
+        const columns = ["scene", "variant", ...this.about.columns.map(column => column.name)];
+        saveText([columns, ...this.rows.map(row => columns.map(column => row[column]))].map(line => `${line.join(",")}\n`).join(""), `${this.about.name}.csv`);
     }
 
     draw()

@@ -26,6 +26,7 @@ void table_free(table *t)
 {
     free(t->rows);
     json_decref(t->notes);
+    json_decref(t->pictures);
     *t = (table){0};
 }
 
@@ -164,14 +165,22 @@ void table_round(table *t)
         }
 }
 
-void table_write_csv(const table *t, FILE *out)
+/* The name of row i in one of the two first columns, or nothing if it may be omitted. */
+static const char *name_in_csv(const table *t, size_t i, bool variant, bool compact)
+{
+    const char *name = variant ? t->rows[i].variant : t->rows[i].scene;
+    const char *before = i == 0 ? "" : variant ? t->rows[i - 1].variant : t->rows[i - 1].scene;
+    return compact && strcmp(name, before) == 0 ? "" : name;
+}
+
+void table_write_csv(const table *t, bool compact, FILE *out)
 {
     fputs("scene,variant", out);
     for (size_t c = 0; c < t->column_count; c++)
         fprintf(out, ",%s", t->columns[c].name);
     fputc('\n', out);
     for (size_t i = 0; i < t->count; i++) {
-        fprintf(out, "%s,%s", t->rows[i].scene, t->rows[i].variant);
+        fprintf(out, "%s,%s", name_in_csv(t, i, false, compact), name_in_csv(t, i, true, compact));
         for (size_t c = 0; c < t->column_count; c++) {
             fputc(',', out);
             write_number(t->rows[i].values[c], out);
@@ -188,6 +197,12 @@ static const char *read_field(const char *text, char field[TABLE_NAME])
     return text + size + (text[size] == ',');
 }
 
+/* Read a name; an empty field keeps the name of the row before. */
+static const char *read_name(const char *text, char name[TABLE_NAME])
+{
+    return *text == ',' ? text + 1 : read_field(text, name);
+}
+
 static bool read_head(const table *t, const char **text)
 {
     char field[TABLE_NAME];
@@ -202,12 +217,12 @@ static bool read_head(const table *t, const char **text)
 
 bool table_read_csv(table *t, const char *text)
 {
-    char scene[TABLE_NAME], variant[TABLE_NAME], field[TABLE_NAME], *end;
+    char scene[TABLE_NAME] = "", variant[TABLE_NAME] = "", field[TABLE_NAME], *end;
     double values[TABLE_COLUMNS_AT_MOST];
     if (!read_head(t, &text))
         return false;
     while (*text && *text != '<') {
-        text = read_field(read_field(text, scene), variant);
+        text = read_name(read_name(text, scene), variant);
         for (size_t i = 0; i < t->column_count; i++) {
             text = read_field(text, field);
             values[i] = strtod(field, &end);

@@ -27,7 +27,8 @@ typedef struct table {
     size_t column_count;
     row *rows;
     size_t count, room;
-    struct json_t *notes; /* null, or an array of {"scene", "variants": [...], "text"} */
+    struct json_t *notes;    /* null, or an array of {"scene", "variants": [...], "text"} */
+    struct json_t *pictures; /* null, or an array of {"caption", "png": base64} */
 } table;
 
 /* Append a row: one value a column, in their order. */
@@ -64,8 +65,8 @@ double table_ratio(const table *t, pick a, pick b, const char *column); /* the m
  * the same. Judge first: a value may exceed its bound by less. */
 void table_round(table *t);
 
-/* "scene,variant,<columns>" and a line a row. */
-void table_write_csv(const table *t, FILE *out);
+/* "scene,variant,<columns>" and a line a row. Compact: a scene or variant that is that of the row before is empty. */
+void table_write_csv(const table *t, bool compact, FILE *out);
 
 /* Append the rows of a table that table_write_csv wrote; a line "<" or the end of the text ends it. False if the
  * columns are others, or a row is damaged. */

@@ -13,9 +13,9 @@
 
 const char program_name[] = "octree-tradeoff";
 
-static const knob *const all_knobs[] = {&knob_index,         &knob_breaks,  &knob_mode,  &knob_nearest_epsilon,
-                                        &knob_range_epsilon, &knob_leaf,    &knob_float, &knob_sweep,
-                                        &knob_tick,          &knob_picture, &knob_png,   &knob_shade};
+static const knob *const all_knobs[] = {
+    &knob_index, &knob_breaks, &knob_mode, &knob_nearest_epsilon, &knob_range_epsilon, &knob_leaf,  &knob_float,
+    &knob_sweep, &knob_tick,   &knob_fill, &knob_picture,         &knob_png,           &knob_shade, &knob_diff};
 enum { KNOBS = sizeof all_knobs / sizeof all_knobs[0] };
 
 typedef struct options {
@@ -171,7 +171,7 @@ static void write_csv(const chapter *c, const char *folder)
     FILE *csv = fopen(path, "w");
     if (!csv)
         stop_with_error("%s: %s", path, strerror(errno));
-    table_write_csv(&c->table, csv);
+    table_write_csv(&c->table, false, csv);
     if (fclose(csv) != 0)
         stop_with_error("%s cannot be written", path);
 }
