@@ -35,6 +35,8 @@ struct kd_tree : index_base {
         std::vector<ANNidx> found(k);
         std::vector<ANNdist> squares(k);
         k = std::min(k, places.size());
+        if (k == 0)
+            return 0;
         const_cast<ANNkd_tree &>(tree).annkSearch(const_cast<ANNpoint>(at), int(k), found.data(), squares.data(),
                                                   epsilon);
         size_t count = 0;

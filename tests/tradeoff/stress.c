@@ -21,6 +21,7 @@ const stress stresses[] = {
     {"near ties", "a grid of 0.1, which doubles round", STRESS_TENTHS, 0, 0.7, 0.1, APART_PLAIN, false},
     {"boundaries", "whole numbers; regions end exactly at points", STRESS_WHOLE, 0, 3, 1, APART_PLAIN, false},
     {"coincident", "three places for all points", STRESS_FEW, 0, 1, 0, APART_PLAIN, false},
+    {"no points", "an index of nothing", STRESS_EMPTY, 0, 1, 0, APART_PLAIN, false},
     {"NaN", "one coordinate is not a number", STRESS_NAN, 0, 1000, 0, APART_PLAIN, false},
     {"infinity", "one coordinate is infinite", STRESS_INFINITY, 0, 1000, 0, APART_PLAIN, false},
     {"flush to zero", "subnormal coordinates; the processor flushes them to zero", STRESS_CUBE, 0, 1e-310, 0,
@@ -78,7 +79,7 @@ void stress_make(const stress *s, octree_query_kind kind, stress_set *set)
 {
     uint64_t random = 11;
     memset(set, 0, sizeof *set);
-    set->count = STRESS_POINTS;
+    set->count = s->kind == STRESS_EMPTY ? 0 : STRESS_POINTS;
     set->finite = s->kind != STRESS_NAN && s->kind != STRESS_INFINITY;
     for (size_t i = 0; i < set->count; i++) {
         set->points[i].id = i;

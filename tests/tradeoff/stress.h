@@ -14,6 +14,7 @@ typedef enum stress_kind {
     STRESS_TENTHS,   /* multiples of 0.1, which doubles round; targets halfway between them */
     STRESS_WHOLE,    /* whole numbers; targets on them, and regions that end on them */
     STRESS_FEW,      /* three places for all points */
+    STRESS_EMPTY,    /* no points */
     STRESS_NAN,      /* a coordinate of one point is NaN */
     STRESS_INFINITY, /* a coordinate of one point is infinite */
 } stress_kind;

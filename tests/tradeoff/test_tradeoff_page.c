@@ -56,7 +56,7 @@ static void a_reader_finds_charts_tables_and_examples(void **state)
         {"lists", "3"},
         {"nothing about distances of a box", "There is nothing to draw with these choices."},
         {"marks of a box", "true"},
-        {"rows of the matrix", "77"},
+        {"rows of the matrix", "81"},
         {"octreel is never wrong", "true"},
         {"rows of the table", "true"},
         {"not a page", "other.html is not a page of octree-tradeoff."},
