@@ -71,7 +71,7 @@ static bool read_format(ply_reader *reader, cloud_span rest)
     if (reader->encoding == PLY_NO_ENCODING)
         return cloud_fail_at_word(reader->file, name,
                                   "is not a PLY format: ascii, binary_little_endian or binary_big_endian");
-    return cloud_word_equals(version, "1.0") || cloud_fail_at_word(reader->file, version, "is not the PLY version 1.0");
+    return cloud_word_equals(version, "1.0") || cloud_fail_at_word(reader->file, version, "is not PLY version 1.0");
 }
 
 static bool read_element(ply_reader *reader, cloud_span rest)

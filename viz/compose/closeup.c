@@ -116,7 +116,7 @@ static void add_enlarged_area(scene *s, const double frame[4])
         {{left, bottom}, {right, bottom}},
         {{left, top}, {left, bottom}},
         {{right, top}, {right, bottom}},
-        /* the pointer has the id POINTER_ID */
+        /* the short line from the outline towards the close-up; its id is POINTER_ID */
         {{beside ? right : x, beside ? y : bottom},
          {beside ? fmin(right + POINTER * s->unit, frame[0]) : x,
           beside ? y : fmin(bottom + POINTER * s->unit, frame[1])}},

@@ -19,7 +19,7 @@ typedef struct capacity_row {
 typedef struct epsilon_row {
     double epsilon;
     double eight_ns;    /* nanoseconds of a search for the 8 nearest points */
-    double true_share;  /* the share of the true 8 nearest points that were found; equal distances are equally true */
+    double true_share;  /* the share of neighbours whose distance is that of the true neighbour of the same rank */
     double mean_ratio;  /* the mean of the distance found / the true distance of the same rank */
     double worst_ratio; /* the largest of them */
 } epsilon_row;

@@ -253,7 +253,8 @@ static unsigned count_nodes_out_of_reach(const search *s, const uint32_t keys[3]
     const double reach = sqrt(s->found.node_reach);
     uint32_t differ = 1;
     for (int i = 0; i < 3; i++) {
-        /* 3 covers the error of the keys, less than a half, and the roundings of both keys to integers */
+        /* The 3 covers the error of the target's key (below 1/2), and the rounding of the key and of the width to
+         * integers (below 1 each). */
         const double width = reach * s->tree->axes[i].keys_per_unit + 3;
         if (!(width < PLANE_GRID) || !s->is_in_keys)
             return 0;

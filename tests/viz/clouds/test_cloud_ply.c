@@ -165,7 +165,7 @@ static void invalid_ply_headers_are_refused(void **state)
         {"ply 1\n", "a.ply:1: is not a PLY file: its first line is not \"ply\""},
         {"ply\n\n \n", "a.ply:3: the file ends in its header"},
         {"ply\n", "a.ply:1: the file ends in its header"},
-        {"ply\nformat ascii 1.1\n", "a.ply:2: '1.1' is not the PLY version 1.0"},
+        {"ply\nformat ascii 1.1\n", "a.ply:2: '1.1' is not PLY version 1.0"},
         {"ply\nformat text 1.0\n",
          "a.ply:2: 'text' is not a PLY format: ascii, binary_little_endian or binary_big_endian"},
         {ASCII "format ascii 1.0\n", "a.ply:3: 'ascii' is the second format in this header; a PLY header has one"},

@@ -395,7 +395,8 @@ class Inspector {
         this.showRaw();
     }
 
-    /* A line of another program may have members of other types than octreel writes; it is shown as rows. */
+    /* The tick in sentences. If another program wrote the tick's line, with members that sentences cannot be made of, the
+     * line's members are shown as rows. */
     tell(tick)
     {
         try {

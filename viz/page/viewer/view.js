@@ -155,7 +155,7 @@ function optionsOf(view, recorded, all = false)
     }).filter(option => option).join(" ");
 }
 
-/* The view that the options of a text make of the recorded view. The module checks the values. */
+/* Apply the options in a text, such as "--zoom 2", to a copy of the recorded view. The module checks the values. */
 function viewOf(text, recorded)
 {
     const view = {...recorded}, words = text.split(/\s+/).filter(word => word);
