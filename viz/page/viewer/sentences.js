@@ -29,9 +29,9 @@ const WRONG_NODES = {
     pruned_point: "a query pruned it, so the answer lacks a point in it",
 };
 
-/* What is known of the session from the beginning of its text: octreel writes the objects about the tree and the player
- * before the points. The whole text may have many megabytes. Without an argument, it is the text of the last call, or
- * that of the page. */
+/* The objects "tree" and "player" of a session's header. Only the beginning of the text is searched, because the text may
+ * have many megabytes, and octreel writes both objects before the points. Without an argument, the text is that of the
+ * last call, or the session of the page. */
 function sessionHead(text = sessionHead.text ?? byId("session")?.textContent.trim() ?? "")
 {
     if (text === sessionHead.text)
@@ -179,7 +179,7 @@ function describeMerge({capacity})
                      (capacity ? `; capacity ${grouped(capacity)}` : "")];
 }
 
-/* The points that the tree refused. A tick may list many; the first ones are told. */
+/* Sentences about the points that the tree refused. A tick may list many; only the first ones get a sentence. */
 function describeRefusals(tick, look)
 {
     const refusals = tick.refusals ?? [], own = refusalOfStep(tick, look);
