@@ -2,6 +2,7 @@
 /* measure.c - times one operation on several trees in turn, and compares their answers. */
 #include "measure.h"
 #include "measuring.h"
+#include "program.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -101,6 +102,17 @@ outcome measure_changes(lineup *l, const workload *w, const changes *asked, int 
     return MEASURED;
 }
 
+/* Write more memory than the processor's caches hold. */
+static void empty_caches(void)
+{
+    enum { BYTES = 1 << 27, LINE = 64 };
+    static volatile unsigned char *memory;
+    if (!memory && !(memory = malloc(BYTES)))
+        stop_with_error("out of memory");
+    for (size_t i = 0; i < BYTES; i += LINE)
+        memory[i]++;
+}
+
 static outcome ask_in_rounds(lineup *l, const workload *w, const questions *asked, int rounds, peer_answer *expected,
                              peer_answer *given)
 {
@@ -108,6 +120,8 @@ static outcome ask_in_rounds(lineup *l, const workload *w, const questions *aske
         for (int i = 0; i < l->count; i++) {
             contender *c = &l->of[i];
             peer_answer *answers = i == 0 ? expected : given;
+            if (asked->cold)
+                empty_caches();
             const double start = processor_time();
             c->ask(c->self, asked->queries, asked->count, answers);
             c->round_ns[round] = (processor_time() - start) / (double)asked->count;

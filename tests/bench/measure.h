@@ -39,6 +39,7 @@ typedef struct questions {
     const char *op;
     const peer_query *queries;
     size_t count;
+    bool cold; /* empty the caches before each tree is asked */
 } questions;
 
 /* Compare answers with those of the first contender. UNLIKE: stderr says what differs. */

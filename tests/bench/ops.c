@@ -25,6 +25,8 @@ const op all_ops[OPS] = {
     {"knn8", STAGE_STATIC, .ask = PEER_KNN, .most = 50000, .goal = {AT_LEAST, 1}},
     {"nearest_sorted", STAGE_STATIC, .ask = PEER_NEAREST, .most = 100000, .sorted = true, .goal = {AT_LEAST, 1}},
     {"knn8_sorted", STAGE_STATIC, .ask = PEER_KNN, .most = 50000, .sorted = true, .goal = {AT_LEAST, 1}},
+    {"nearest_first", STAGE_STATIC, .ask = PEER_NEAREST, .most = 100, .cold = true, .goal = {AT_LEAST, 1}},
+    {"knn8_first", STAGE_STATIC, .ask = PEER_KNN, .most = 100, .cold = true, .goal = {AT_LEAST, 1}},
     {"nearest_batch", STAGE_STATIC, .ask = PEER_NEAREST_BATCH, .most = 100000, .rival = "octree-singly",
      .rival_ask = PEER_NEAREST, .note = SINGLE_SEARCHES},
     {"nearest_all", STAGE_STATIC, .ask = PEER_NEAREST_ALL, .most = 100000, .rival = "octree-singly",
@@ -176,7 +178,8 @@ static outcome run_asks(const op *o, lineup *l, workload *w, int rounds)
                              .queries = o->stored   ? w->stored
                                         : o->sorted ? w->sorted
                                                     : w->targets,
-                             .count = w->query_count < o->most ? w->query_count : o->most};
+                             .count = w->query_count < o->most ? w->query_count : o->most,
+                             .cold = o->cold};
     return measure_asks(l, w, &asked, rounds);
 }
 

@@ -30,6 +30,7 @@ typedef struct op {
     size_t hits;             /* > 0: targets are sized to find this many */
     bool stored;             /* query positions of points instead of targets */
     bool sorted;             /* query the targets in Morton order, as neighbours are queried in a batch */
+    bool cold;               /* empty the caches before each tree is asked */
     bool far;                /* move to a far place */
     const char *rival;       /* not null: the octree is compared with itself, under this name and ... */
     peer_ask_kind rival_ask; /* ... with this query */
@@ -40,7 +41,7 @@ typedef struct op {
     const char *note; /* why there is no goal, or when another choice is better; may be null */
 } op;
 
-enum { OPS = 37 };
+enum { OPS = 39 };
 
 extern const op all_ops[OPS];
 
