@@ -171,6 +171,10 @@ static void measure_samples(const run *r, table *t, const char *name, const subj
         add_row(t, name, names[aa], &drawings[i], &drawings[0], reference, ns[i]);
     if (strcmp(name, "session") == 0)
         attach_picture(r, t, &drawings[2].picture.frame, 96, 54, names[aa]);
+    else if (aa == 0 && strcmp(name, "clusters-50000") == 0) {
+        attach_picture(r, t, &drawings[0].picture.frame, 96, 54, "--lod 0");
+        attach_picture(r, t, &drawings[LODS - 1].picture.frame, 96, 54, "--lod 8");
+    }
     for (int i = 0; i < LODS; i++) {
         picture_close(&drawings[i].picture);
         scene_release(&drawings[i].scene);

@@ -4,7 +4,12 @@
 #include <string.h>
 
 #include "fixture.h"
+#include "frames.h"
 #include "knob.h"
+#include "layer.h"
+#include "picture.h"
+#include "recording_file.h"
+#include "tick_scene.h"
 #include "quick_oracle.h"
 #include "timing.h"
 #include "must.h"
@@ -178,6 +183,32 @@ static void measure_scene(const run *r, table *t, const workload *w)
     octree_destroy(tree);
 }
 
+/* A player whose step of six boxes passes a point: the collision test at the ends misses it. */
+static void attach_step(const run *r, table *t, bool sweep, const char *caption)
+{
+    const octree_body bodies[] = {{.id = 1, .position = {0, 0, 0}}, {.id = 2, .position = {60, 40, -30}}};
+    octree_session session = {.tree = define(cube(-100, 100), 1, 5, OCTREE_GROW), .bodies = bodies, .body_count = 2};
+    octree_game *game;
+    scene shown = {0};
+    picture p;
+    octreel_error why;
+    view v = view_make_default();
+    session.player = (octree_player){.position = {-60, 0, 0}, .step = 120, .box_size = 10, .sweep = sweep};
+    session.keys = "d";
+    v.width = 240;
+    v.height = 136;
+    v.layers &= ~(1u << LAYER_TEXT);
+    must(octree_game_create(&session, &game));
+    must(octree_game_advance(game));
+    if (!tick_scene_build(&shown, &v, game, NULL, NULL) || !picture_open(&p, &v, &(renderer_choice){0}, &why) ||
+        !picture_draw(&p, &shown, &why))
+        stop_with_error("the picture of a step cannot be drawn");
+    attach_picture(r, t, &p.frame, v.width, v.height, caption);
+    picture_close(&p);
+    scene_release(&shown);
+    octree_game_destroy(game);
+}
+
 static void measure(const run *r, table *t)
 {
     static const octree_sample_kind kinds[] = {OCTREE_SAMPLE_UNIFORM, OCTREE_SAMPLE_CLUSTERED, OCTREE_SAMPLE_LATTICE};
@@ -187,6 +218,8 @@ static void measure(const run *r, table *t)
         measure_scene(r, t, &w);
         workload_free(&w);
     }
+    attach_step(r, t, false, "the ends of the step: the point in between is missed");
+    attach_step(r, t, true, "swept: the point is hit, and the step is taken back");
 }
 
 static void tell(const table *t, FILE *out)

@@ -84,7 +84,8 @@ bool file_read_with_progress(const char *path, file_progress *progress, void *co
 bool file_read_whole(const char *path, char **bytes, size_t *size, octreel_error *error);
 
 /* A file that is written as "<path>.part" and then renamed to the path, so that the path never holds an incomplete
- * file. Standard output is neither closed nor flushed; main() reports its errors. */
+ * file. If the path is that of standard
+ * output, the writer writes there, and neither flushes nor closes it; main() does, and reports errors. */
 typedef struct file_writer {
     FILE *stream;
     const char *path;

@@ -235,7 +235,7 @@ static void write_choice(json_writer *w, const void *from)
 
 const json_codec json_choice = {json_read_choice, write_choice};
 
-static bool read_set_name(json_reader *r, json_t *value, const json_place *at, void *into)
+static bool read_name_of_set(json_reader *r, json_t *value, const json_place *at, void *into)
 {
     const int found = json_find_name(r->row->names, json_string_value(value));
     if (found >= 0)
@@ -246,7 +246,7 @@ static bool read_set_name(json_reader *r, json_t *value, const json_place *at, v
 static bool read_set(json_reader *r, json_t *value, const json_place *at, void *into)
 {
     *(unsigned *)into = 0;
-    return json_read_elements(r, value, at, r->row->about, read_set_name, into);
+    return json_read_elements(r, value, at, r->row->about, read_name_of_set, into);
 }
 
 static void write_set(json_writer *w, const void *from)

@@ -147,7 +147,7 @@ static bool is_word_character(char c)
 
 /* An underscore inside a word needs no escape. Other characters that Markdown treats specially become character
  * references. */
-const char *escape_markdown(const char *text, const char *at, char room[ESCAPE_ROOM])
+const char *escape_markdown_character(const char *text, const char *at, char room[ESCAPE_ROOM])
 {
     if (*at == '_' && at > text && is_word_character(at[-1]) && is_word_character(at[1]))
         return NULL;

@@ -51,10 +51,10 @@ void print_remaining_count(FILE *out, uint64_t count, uint64_t shown, const char
 #define ESCAPE_ROOM 16
 typedef const char *escape(const char *text, const char *at, char room[ESCAPE_ROOM]);
 
-escape escape_nothing;       /* for plain text, such as a line on a terminal */
-escape escape_xml_character; /* for text in an XML attribute or element */
-escape escape_xml_text;      /* for text in an XML element that may contain line ends */
-escape escape_markdown;      /* for text in a Markdown line, a table cell or an HTML element */
+escape escape_nothing;            /* for plain text, such as a line on a terminal */
+escape escape_xml_character;      /* for text in an XML attribute or element */
+escape escape_xml_text;           /* for text in an XML element that may contain line ends */
+escape escape_markdown_character; /* for text in a Markdown line, a table cell or an HTML element */
 
 /* Writes UTF-8 text. `how` escapes its ASCII characters. Invalid bytes, unprintable characters, and control characters
  * that `how` does not escape become U+FFFD. */

@@ -34,8 +34,8 @@ static const command_option options[] = {
      .read = read_name, OPTION_VALUE(arguments, from)},
     FLAT_OPTION(arguments, flat),
     {"store", "DIR",
-     "also save the pictures in DIR, each under the digest of its pixels, so that octreel diff --store can show what "
-     "was expected and allow a tolerance",
+     "also save the pictures in DIR, each named by the digest of its pixels; with them, octreel diff --store can show "
+     "the expected picture and compare within a tolerance",
      .read = read_folder, OPTION_VALUE(arguments, store)},
     FORCE_OPTION(arguments, force, "save pictures in DIR even if it is or contains the current folder"),
     JSON_OPTION(arguments, json, "print a summary as JSON, with the names of all changed frames"),

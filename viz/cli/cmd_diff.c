@@ -141,8 +141,8 @@ static const command_option options[] = {
     {"junit", "FILE", "write JUnit XML, one test case for each frame, for GitLab, Jenkins and GitHub",
      .read = read_file, OPTION_VALUE(arguments, outputs[JUNIT].path)},
     {"markdown", "FILE",
-     "write a summary for the page of a CI job: the verdict and a table of differences. One of --markdown FILE, "
-     "--junit FILE and --json may write to standard output; FILE is then -",
+     "write a summary for the page of a CI job: the verdict and a table of differences. FILE may be -, standard "
+     "output, but only one of --markdown, --junit and --json may write there",
      .read = read_file, OPTION_VALUE(arguments, outputs[MARKDOWN].path)},
     {"annotate", NULL,
      "print GitHub annotations, which show differences beside a pull request, to standard error (default when the "

@@ -206,7 +206,7 @@ static bool draw_picture(const report *r, octreel_error *error)
 }
 
 /* Prints "wrote ", the path and ": ". Returns `out`. */
-static FILE *print_wrote(const char *path, FILE *out)
+static FILE *begin_wrote_line(const char *path, FILE *out)
 {
     fputs("wrote ", out);
     write_escaped(out, file_output_display_name(path), escape_nothing);
@@ -239,9 +239,9 @@ static void print_report(const report *r)
     if (!a->node && !a->queries.count && !a->advise)
         inspect_print(r->made, r->name, a->json, out);
     if (picture && !a->json && !is_quiet())
-        print_picture_size(r, print_wrote(picture, out));
+        print_picture_size(r, begin_wrote_line(picture, out));
     if (nodes && !a->json && !is_quiet())
-        fputs("all nodes\n", print_wrote(nodes, out));
+        fputs("all nodes\n", begin_wrote_line(nodes, out));
 }
 
 static bool measure_advice(report *r, octreel_error *error)

@@ -156,7 +156,8 @@ const command command_play = {
     .line = "make a web page that plays a session, without recording frames",
     .usage = "[SESSION] [-o FILE.html] [OPTION ...]",
     .about = "Write one HTML file that plays a session in a browser and needs no other file. The page draws any tick, "
-             "turns and zooms, names what is under the mouse, and the keys of the game play on. Without SESSION, the "
+             "turns and zooms, names what is under the mouse, and with the keys of the game you play on from any tick. "
+             "Without SESSION, the "
              "example that octreel record films is used. SESSION may be -, standard input; octreel help session "
              "describes the file.\n",
     .statuses = {"the page is written", NULL, "error or stopped; no page is written"},

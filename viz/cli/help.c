@@ -75,7 +75,7 @@ const char *command_status(const command *c, int status)
     return c->statuses[status] ? c->statuses[status] : usual[status];
 }
 
-static void print_statuses(FILE *out, const command *c)
+static void print_exit_statuses(FILE *out, const command *c)
 {
     fputs("\nExit status:\n", out);
     for (int i = EXIT_DONE; i <= EXIT_TROUBLE; i++)
@@ -114,7 +114,7 @@ int help_print(FILE *out, const command *c)
         putc('\n', out);
         prose_print(out, c->more);
     }
-    print_statuses(out, c);
+    print_exit_statuses(out, c);
     return EXIT_DONE;
 }
 

@@ -75,7 +75,7 @@ static bool read_version(las_reader *reader)
     const unsigned major = file->bytes[AT_VERSION];
     reader->minor = file->bytes[AT_VERSION + 1];
     if (major != 1 || reader->minor >= VERSIONS)
-        return cloud_fail_byte(file, AT_VERSION, "LAS %u.%u is not a supported version: 1.0 to 1.%d", major,
+        return cloud_fail_byte(file, AT_VERSION, "LAS %u.%u is not supported; versions 1.0 to 1.%d are", major,
                                reader->minor, VERSIONS - 1);
     reader->header_size = (unsigned)read_unsigned(reader, AT_HEADER_SIZE, 2);
     if (reader->header_size < header_sizes[reader->minor])
@@ -254,7 +254,8 @@ static bool read_compressed(las_reader *reader)
     reader->first = read_unsigned(reader, AT_POINTS, 4);
     if (reader->count / MOST_A_BYTE > file->size)
         return cloud_fail_byte(file, reader->minor >= 4 ? AT_WIDE_COUNT : AT_COUNT,
-                               "%" PRIu64 " compressed points should follow, but %zu bytes hold at most %d each",
+                               "%" PRIu64
+                               " compressed points should follow, but each of the %zu bytes holds at most %d",
                                reader->count, file->size, MOST_A_BYTE);
     return laz_read_records(reader->file, reader->format, reader->count, add_decompressed_record, reader);
 }

@@ -30,10 +30,11 @@ static bool check_new_name(const accept_options *o, diff_kind kind, octreel_erro
                                              "use NAME.png",
                                              o->reference, o->frames);
     return name == NAME_OPEN ||
-           error_set(error,
-                     "%s: cannot create a folder of references under the name of a file; use another name, or add "
-                     "--reason TEXT to create a baseline",
-                     o->reference);
+           error_set(
+               error,
+               "%s: this is the name of a file, but the references are a folder; use the name of a folder, or add "
+               "--reason TEXT to create a baseline, which is a file",
+               o->reference);
 }
 
 /* Check that the options fit the kind of the reference. A baseline must be given a reason. A picture, a folder or a
@@ -80,8 +81,8 @@ static bool open_sides(accepting *a, octreel_error *error)
     if (a->reference.kind == DIFF_RECORDING && a->frames.kind == DIFF_FOLDER)
         return error_set(
             error,
-            "%s is a recording and %s is not, so the ticks of the recording would not match the new frames; "
-            "record the session again and accept the new recording",
+            "the reference %s is a recording, but %s holds only frames, which its ticks would not match; record the "
+            "session again and accept that recording",
             o->reference, o->frames);
     if (a->reference.kind == DIFF_FOLDER && a->reference.count == 0 && a->frames.kind == DIFF_RECORDING)
         a->reference = empty_side(o->reference, DIFF_RECORDING, a->frames.no_frames);

@@ -69,7 +69,7 @@ static octreel_status film_first_tick(session_filmer *f, const batch *first, con
         return OCTREEL_CANNOT_DRAW;
     if (!live_begin(f->live, &f->error))
         return OCTREEL_BAD_FOLDER;
-    return live_film_first(f->live, &f->error) ? OCTREEL_OK : OCTREEL_BROKEN;
+    return live_film_first_tick(f->live, &f->error) ? OCTREEL_OK : OCTREEL_BROKEN;
 }
 
 static octreel_status film_input(session_filmer *f, const octree_input *input)

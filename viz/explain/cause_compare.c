@@ -33,7 +33,7 @@ static void add_fact(const cause_place *place, cause_change change, uint64_t id,
                    (cause_fact){place->tick, id, json_incref(a), json_incref(b)});
 }
 
-bool cause_is_equal(const json_t *a, const json_t *b, bool exact)
+bool cause_values_are_equal(const json_t *a, const json_t *b, bool exact)
 {
     if (!a || !b || !exact)
         return a && b ? json_equal(a, b) : a == b;
@@ -47,7 +47,7 @@ bool cause_is_equal(const json_t *a, const json_t *b, bool exact)
 
 static bool are_values_equal(const cause_place *place, const json_t *a, const json_t *b)
 {
-    return cause_is_equal(a, b, place->exact);
+    return cause_values_are_equal(a, b, place->exact);
 }
 
 /* ---- Lists whose elements have a key ------------------------------------------------------------------------- */
@@ -163,7 +163,7 @@ static json_t *query_without_answer(json_t *query)
 }
 
 /* Return the list of keys by which the elements of a list are paired. For answers, the keys are their queries. For
- * queries, the keys are the queries without the answers of the foreign index. */
+ * queries, the keys are the queries without the answers that the audited index gave. */
 static json_t *make_pairing_keys(cause_rule rule, json_t *list)
 {
     json_t *keys = json_array(), *element;

@@ -23,7 +23,7 @@ typedef struct cause_place {
 
 /* Return whether two values are equal. A null pointer stands for a missing value. With `exact`, 0 and -0 differ;
  * json_equal() treats them as equal. */
-bool cause_is_equal(const json_t *a, const json_t *b, bool exact);
+bool cause_values_are_equal(const json_t *a, const json_t *b, bool exact);
 
 /* Compare two objects member by member; a null pointer stands for an empty object. Nested objects are also compared
  * member by member, but a box is compared as one value. The elements of two lists are paired by key if they have a

@@ -122,7 +122,8 @@ static unsigned count_common_members(json_t *a, json_t *b)
     return common;
 }
 
-/* Return the index of the first candidate for the j-th remaining element. */
+/* Element j of one list is compared only with the PAIR_CANDIDATES elements around index j of the other list. Return the
+ * index of the first of these. */
 static size_t find_first_candidate(size_t j)
 {
     return j < PAIR_CANDIDATES / 2 ? 0 : j - PAIR_CANDIDATES / 2;

@@ -16,7 +16,8 @@
 #define VERB_LESS .verbs[CAUSE_LESS]
 #define WHOLE .rule = CAUSE_WHOLE
 
-/* Values at a place without a row are compared by their type, and the place is printed as its path. */
+/* How values at each place are compared, and what the place is called. For a place that is not in the table, the type
+ * of the values decides how they are compared, and the place's path is printed. */
 static const cause_row rows[] = {
     /* places in sessions */
     {"world", "world", OPTION},
@@ -87,7 +88,7 @@ static const cause_row rows[] = {
     {"foreign_nodes.depth", "depth of the foreign nodes", MINOR},
     {"foreign_nodes.digest", "digest of the foreign nodes", MINOR},
     {"foreign_nodes.visited", "number of foreign nodes visited", MINOR},
-    {"foreign_nodes.pruned", "number of foreign nodes pruned", MINOR},
+    {"foreign_nodes.pruned", "number of nodes that the foreign index pruned", MINOR},
     {"foreign_nodes.hit", "number of foreign nodes hit", MINOR},
     {"foreign_nodes.wrong.count", "number of wrong foreign nodes", MINOR},
     {"foreign_nodes.wrong.first", "wrong foreign node", .plural = "wrong foreign nodes"},

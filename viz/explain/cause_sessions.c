@@ -292,7 +292,7 @@ static void compare_option(const cause_place *place, const view_option *option, 
 {
     const char *name = option->member.name;
     json_t *x = json_object_get(a, name), *y = json_object_get(b, name);
-    if (cause_is_equal(x, y, place->exact))
+    if (cause_values_are_equal(x, y, place->exact))
         return;
     if (!option->by_element) {
         cause_add_whole(place->facts, name, CAUSE_OTHER, json_incref(x), json_incref(y));

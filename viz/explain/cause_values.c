@@ -37,7 +37,7 @@ static void compare_value(cause_facts *facts, uint64_t id, const point_value *a,
         [POINT_COLOR] = "points.color", [POINT_INTENSITY] = "points.intensity", [POINT_CLASS] = "points.class"};
     for (int kind = 0; kind < POINT_VALUE_KINDS; kind++) {
         json_t *const x = value_of(a, (point_value_kind)kind), *const y = value_of(b, (point_value_kind)kind);
-        if (!cause_is_equal(x, y, true))
+        if (!cause_values_are_equal(x, y, true))
             cause_add_fact(facts, where[kind], "", CAUSE_OTHER,
                            (cause_fact){CAUSE_NO_TICK, id, json_incref(x), json_incref(y)});
         json_decref(x);

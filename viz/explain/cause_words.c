@@ -97,7 +97,7 @@ static void print_change(FILE *out, const json_t *a, const json_t *b, bool is_me
     {
         const json_t *before = json_object_get(a, key);
         fprintf(out, "%s%s ", first ? "" : ", ", key);
-        if (cause_is_equal(before, value, true))
+        if (cause_values_are_equal(before, value, true))
             print_value(out, value, true);
         else
             print_change(out, before, value, true);

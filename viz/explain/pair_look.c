@@ -244,7 +244,8 @@ static void print_tally(FILE *out, const diff_pair *pair)
             t->largest_channel, t->min_x, t->min_y, t->max_x, t->max_y);
 }
 
-/* Print a key from the text chunks of two frames, for frames that are not from recordings. */
+/* Print a text that is equal for pairs with the same cause, made of the texts inside of two PNG files. For frames that
+ * are not from recordings. */
 static void print_origins_key(FILE *out, const pair_look *l)
 {
     const frame_origin *a = &l->origins[0], *b = &l->origins[1];

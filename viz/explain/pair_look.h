@@ -23,7 +23,8 @@ typedef struct pair_look {
  * pixels. Thread-safe. */
 pair_look pair_examine(const explanation *e, const diff_pair *pair);
 
-/* Find the cause of a pair that differs. cause->text is null if neither recordings nor text chunks show a cause. */
+/* Find the cause of a pair that differs. cause->text is null if neither the recordings nor the
+ * texts inside of the PNG files show a cause. */
 bool pair_find_cause(const explanation *e, const diff_pair *pair, const pair_look *look, pair_cause *cause,
                      octreel_error *error);
 

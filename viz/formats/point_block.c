@@ -336,7 +336,7 @@ static bool read_head(block_reader *r, point_block *b)
     return title != NULL;
 }
 
-static void set_code(point_block *b, column_name column, number_form form, size_t i, uint64_t code)
+static void set_value_by_code(point_block *b, column_name column, number_form form, size_t i, uint64_t code)
 {
     point_value *value = b->values.rows + i;
     if (column == COLUMN_ID)
@@ -374,7 +374,7 @@ static bool read_column(block_reader *r, point_block *b, column_name column, uin
     last = base;
     for (size_t i = 0; i < b->count; i++) {
         last = head[2] ? last + unfold_difference(codes[i]) : base + codes[i];
-        set_code(b, column, (number_form){head[0], head[1]}, i, last);
+        set_value_by_code(b, column, (number_form){head[0], head[1]}, i, last);
     }
     return true;
 }

@@ -94,7 +94,7 @@ static bool read_player_is_body(json_reader *r, json_t *value, const json_place 
     return json_is_boolean(value) || json_fail_expected(r, value, at, "true or false");
 }
 
-static void write_player_is_body(json_writer *w, const void *from)
+static void write_body_member(json_writer *w, const void *from)
 {
     (void)from;
     json_write_bool(w, true);
@@ -102,8 +102,8 @@ static void write_player_is_body(json_writer *w, const void *from)
 
 #define ID "id", &json_uint64, offsetof(octree_player, id), .max = JSON_LARGEST_WHOLE
 #define BODY                                                                                                           \
-    "body", JSON_CODEC(read_player_is_body, write_player_is_body), .offset = offsetof(octree_player, kind),            \
-                                                                   JSON_IF(octree_player, kind)
+    "body", JSON_CODEC(read_player_is_body, write_body_member), .offset = offsetof(octree_player, kind),               \
+                                                                JSON_IF(octree_player, kind)
 #define BOX_SIZE "box_size", &json_nonnegative, .offset = offsetof(octree_player, box_size)
 #define SWEEP "sweep", &json_bool, .offset = offsetof(octree_player, sweep), JSON_IF(octree_player, sweep)
 

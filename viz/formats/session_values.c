@@ -177,7 +177,7 @@ const json_member session_body_members[] = {
     {0},
 };
 
-static bool read_body_with_values(json_reader *r, json_t *value, const json_place *at, bool inserted, octree_body *body)
+static bool read_body_and_values(json_reader *r, json_t *value, const json_place *at, bool inserted, octree_body *body)
 {
     valued_body valued = {.body = *body};
     if (!json_read_members(r, value, at, session_body_members, &valued))
@@ -190,12 +190,12 @@ static bool read_body_with_values(json_reader *r, json_t *value, const json_plac
 
 static bool read_body(json_reader *r, json_t *value, const json_place *at, void *into)
 {
-    return read_body_with_values(r, value, at, false, into);
+    return read_body_and_values(r, value, at, false, into);
 }
 
 static bool read_inserted_body(json_reader *r, json_t *value, const json_place *at, void *into)
 {
-    return read_body_with_values(r, value, at, true, into);
+    return read_body_and_values(r, value, at, true, into);
 }
 
 static void write_body(json_writer *w, const void *from)
@@ -237,7 +237,7 @@ static bool read_columns(json_reader *r, json_t *list, const json_place *at, voi
     return true;
 }
 
-static void write_columns(json_writer *w, const void *from)
+static void write_point_columns(json_writer *w, const void *from)
 {
     (void)from;
     json_write_begin_array(w);
@@ -252,7 +252,7 @@ bool session_has_columns(const void *header)
     return point_values_kinds(((const session_header *)header)->values) != 0;
 }
 
-const json_codec session_columns_codec = {read_columns, write_columns};
+const json_codec session_columns_codec = {read_columns, write_point_columns};
 
 bool session_read_column_value(json_reader *r, json_t *value, const json_place *at, point_value_kind kind,
                                point_value *into)

@@ -264,7 +264,7 @@ static void close_kept_subtree(tree_walk *w)
  * store the subtree, unless it has too many points or lies inside a subtree that is already being stored. */
 static bool reuse_kept_subtree(tree_walk *w, const octree_node *node)
 {
-    if (kept_tree_is_collecting(w->kept, node))
+    if (kept_tree_collects(w->kept, node))
         return false;
     close_kept_subtree(w);
     if (node->count > KEPT_POINTS && !node->leaf)

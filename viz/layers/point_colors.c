@@ -45,7 +45,7 @@ typedef struct painting {
 } painting;
 
 /* Return the axis whose coordinate decides the colour: x, y, z or height. */
-static int axis_of(view_point_color by)
+static int axis_of_coloring(view_point_color by)
 {
     return by == POINTS_BY_X ? 0 : by == POINTS_BY_Y ? 1 : 2;
 }
@@ -53,7 +53,7 @@ static int axis_of(view_point_color by)
 static theme_color color_of_marker(const painting *p, const scene_marker *m)
 {
     const point_scale *scale = p->scale;
-    const int axis = axis_of(p->by);
+    const int axis = axis_of_coloring(p->by);
     point_value value;
     switch (p->by) {
     case POINTS_BY_FILE:
@@ -112,7 +112,7 @@ static void add_class_legend(legend *l, const point_values *values)
 
 static legend_scale make_color_scale(const point_scale *s, view_point_color by)
 {
-    const int axis = axis_of(by);
+    const int axis = axis_of_coloring(by);
     switch (by) {
     case POINTS_BY_ID:
         return (legend_scale){s->ids[0], s->ids[1], .pointed = false};

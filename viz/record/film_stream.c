@@ -102,7 +102,7 @@ film_stream_end film_stream(session_stream *from, const char *keys, const film_o
     s.live = live_open(start, &with_values, error);
     if (!s.live)
         return FILM_STREAM_BROKEN;
-    const bool begun = live_begin(s.live, error) && live_film_first(s.live, error);
+    const bool begun = live_begin(s.live, error) && live_film_first_tick(s.live, error);
     film_stream_end how = begun ? film_ticks(&s) : FILM_STREAM_BROKEN;
     if (!live_close(s.live, session_stream_tick_count(from), summary, how == FILM_STREAM_BROKEN ? &late : error))
         how = FILM_STREAM_BROKEN;

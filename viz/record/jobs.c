@@ -154,7 +154,7 @@ static void begin_watch(job *self)
 static bool write_step(void *context, const film_step *step, octreel_error *error)
 {
     job *self = context;
-    /* The digest must have arrived first: the starter reads no message before it has sent the digest. */
+    /* Wait for the session's digest: the process that started this one sends it, and reads no messages before. */
     wait_for_session(self);
     return write_message(self->pipe, (message){.step = *step}, step->line, step->size) ||
            error_set(error, "the process that collects the ticks has ended");

@@ -274,7 +274,7 @@ bool live_begin(live_recording *live, octreel_error *error)
     return false;
 }
 
-bool live_film_first(live_recording *live, octreel_error *error)
+bool live_film_first_tick(live_recording *live, octreel_error *error)
 {
     live->begun = begin_session(live, error) && film_tick(live, error);
     if (!live->begun)
@@ -282,7 +282,7 @@ bool live_film_first(live_recording *live, octreel_error *error)
     return live->begun;
 }
 
-static char find_next_key(const live_recording *live)
+static char find_next_key_press(const live_recording *live)
 {
     const char *keys = live->start.session.keys;
     return live->ticks < live->key_count ? keys[live->ticks] : '.';
@@ -292,7 +292,7 @@ bool live_film_tick(live_recording *live, const octree_input *input, octreel_err
 {
     octree_input played = *input;
     if (!played.key)
-        played.key = find_next_key(live);
+        played.key = find_next_key_press(live);
     live->broken = live->broken || !add_to_session(live, live->ticks + 1, input, error);
     live->ticks += !live->broken;
     live->broken = live->broken || !playback_play_input(&live->playback, &played, error) || !film_tick(live, error);

@@ -21,7 +21,7 @@ bool live_begin(live_recording *live, octreel_error *error);
 
 /* Record tick 0. If this fails, all files of the recording are removed, and only live_close() may be called
  * afterwards. */
-bool live_film_first(live_recording *live, octreel_error *error);
+bool live_film_first_tick(live_recording *live, octreel_error *error);
 
 /* Record the next tick. If input->key is 0, the key press that the session has for this tick is used. If this fails,
  * only live_close() may be called afterwards. */

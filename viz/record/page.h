@@ -52,9 +52,9 @@ bool page_end_with_packed_session(page_writer *w, const octree_session *session,
 void page_release(page_writer *w);
 
 /* Write the file index.html of a recording, from the other files in its folder. `session` is the session of
- * session.json, and null if it is not in memory: then the page has the text of session.json, also if its points could
- * be packed. An incomplete last line of ticks.jsonl is ignored. An existing index.html is replaced; if writing fails,
- * it stays unchanged. */
+ * session.json, or null if it is not in memory. If it is null, the page holds the text of session.json, even if its
+ * points could be stored as a compressed block. An incomplete last line of ticks.jsonl is ignored. An existing
+ * index.html is replaced; if writing fails, it stays unchanged. */
 bool page_write(const char *folder, const octree_session *session, const point_values *values, octreel_error *error);
 
 #endif

@@ -104,7 +104,7 @@ static uint64_t find_session_digest(playback *p)
 
 /* Returns true if a frame is to be checked: the first and the last frame of a share, and every CHECK_EVERY-th frame.
  * `frame` is a number of a frame: its tick divided by `every`. */
-static bool is_checked(const film_share *share, uint64_t frame, uint64_t every)
+static bool must_check_frame(const film_share *share, uint64_t frame, uint64_t every)
 {
     return frame % CHECK_EVERY == 0 || frame == (share->first + every - 1) / every ||
            (share->last && frame == (share->last - 1) / every);
@@ -125,7 +125,7 @@ static bool claim_frame(playback *p, uint64_t frame)
     if (p->claimed == frame + 1)
         return p->owns_claimed;
     p->claimed = frame + 1;
-    p->owns_claimed = is_checked(share, frame, every)
+    p->owns_claimed = must_check_frame(share, frame, every)
                           ? share->index == 0
                           : atomic_exchange(&share->claims[frame - share->first / every], 1) == 0;
     return p->owns_claimed;
@@ -146,7 +146,7 @@ bool playback_check_last(playback *p, octreel_error *error)
     return same;
 }
 
-/* Check the last drawn frame if is_checked() selects this frame. The first frame that a process draws is always
+/* Check the last drawn frame if must_check_frame() selects this frame. The first frame that a process draws is always
  * checked. */
 static bool check_frame(playback *p, uint64_t tick, octreel_error *error)
 {
@@ -155,7 +155,7 @@ static bool check_frame(playback *p, uint64_t tick, octreel_error *error)
     if (renderer->fill != DRAW_FILL_CHECKED || renderer->any_renderer || share->index != 0 || *p->checks.reason.text)
         return true;
     frame_print_name(tick, p->unchecked);
-    return (p->checks.count > 0 && !is_checked(share, tick / p->target.every, p->target.every)) ||
+    return (p->checks.count > 0 && !must_check_frame(share, tick / p->target.every, p->target.every)) ||
            playback_check_last(p, error);
 }
 

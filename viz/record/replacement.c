@@ -194,8 +194,8 @@ static void release_replacement(replacement *r)
     *r = (replacement){0};
 }
 
-/* Returns true if the folder FOLDER_ASIDE that was opened still exists under its name. The process that held the lock
- * before may have removed the folder. */
+/* Returns true if the name FOLDER_ASIDE still belongs to the folder that was opened. While this process waited for the
+ * lock, the process that held it may have removed the folder. */
 static bool is_aside_folder_unchanged(const replacement *r)
 {
     struct stat open, named;

@@ -238,8 +238,9 @@ static bool play_session(const char *path, const octree_session *session, const 
         if (report->kinds[kind].ratio_count > 1)
             qsort(report->kinds[kind].ratios, report->kinds[kind].ratio_count, sizeof(double), compare_numbers);
     if (done && report->asked == 0 && !report->nodes.given)
-        return error_set(error, "%s: nothing to audit: no played tick has a query with an \"answer\" or foreign nodes",
-                         file_display_name(path));
+        return error_set(
+            error, "%s: nothing to audit: the played ticks have neither foreign nodes nor a query with an \"answer\"",
+            file_display_name(path));
     return done;
 }
 

@@ -36,7 +36,8 @@ typedef struct portions {
     /* spread[k]: the bits of cell coordinate k, with two zero bits between neighbouring bits. */
     unsigned spread[SIDE];
     size_t points[CELLS];                 /* number of points in each cell */
-    unsigned char portion_of_cell[CELLS]; /* portion_of_cell[c]: index of the portion to which cell c belongs */
+    unsigned char portion_of_cell[CELLS]; /* portion_of_cell[c]: the portion, a group of cells that is inserted at once,
+                                             of cell c */
     size_t ends[MOST_PORTIONS];           /* ends[i]: index of the first point after portion i */
     unsigned count;
 } portions;

@@ -96,7 +96,7 @@ void inspect_print_values(const inspection *i, FILE *out)
         fprintf(out, "  but       %s\n", beyond);
 }
 
-static void write_classes(const size_t *classes, json_writer *w)
+static void write_class_counts(const size_t *classes, json_writer *w)
 {
     json_begin_array_member(w, "classes");
     for (int i = 0; i < CLASSES; i++) {
@@ -135,7 +135,7 @@ void inspect_write_values(const inspection *i, json_writer *w)
     if (s.counts[POINT_CLASS]) {
         json_begin_object_member(w, "class");
         json_write_integer_member(w, "points", s.counts[POINT_CLASS]);
-        write_classes(i->classes, w);
+        write_class_counts(i->classes, w);
         json_write_end_object(w);
     }
     if (*i->column_note)

@@ -284,7 +284,7 @@ static void print_element(FILE *out, const pick *p, const pick_element *e)
     fputs(e->touch.shown ? "  " : "    over ", out);
     if (e->touch.shown && p->samples > 1)
         fprintf(out, "%d of %d samples: ", e->touch.shown, p->samples);
-    fprintf(out, "%s%s%s\n", element_text(e), is_element_beside_pixel(e) ? " (between two of its dashes)" : "",
+    fprintf(out, "%s%s%s\n", element_text(e), is_element_beside_pixel(e) ? " (in a gap of its dashed line)" : "",
             closeup_words(e));
 }
 
@@ -415,7 +415,7 @@ void pick_print(FILE *out, const pick *p, bool json)
 /* ---- An element by its name ---------------------------------------------------------------------------------- */
 
 /* Returns the text behind `word` and a blank if the name begins with them, or null. */
-static const char *name_after(const char *name, const char *word)
+static const char *skip_word(const char *name, const char *word)
 {
     const size_t length = strlen(word);
     return strncmp(name, word, length) == 0 && name[length] == ' ' ? name + length + 1 : NULL;
@@ -432,15 +432,15 @@ static bool parse_id(const char *text, uint64_t *id)
 static void describe_named(element_subject *subject, const char *name, const playback *from)
 {
     description d = {from->game, octree_game_tick(from->game), &from->history.heat, subject, 0};
-    const char *node = name_after(name, "node");
+    const char *node = skip_word(name, "node");
     octree_address address;
     octree_point point;
     uint64_t id;
     if (node && octree_address_parse(node, &address))
         describe_node(&d, "", address);
-    else if (parse_id(name_after(name, "foreign"), &id) && id < OCTREE_NODE_ID_LIMIT)
+    else if (parse_id(skip_word(name, "foreign"), &id) && id < OCTREE_NODE_ID_LIMIT)
         describe_node(&d, "", foreign_element(id));
-    else if (parse_id(name_after(name, "point"), &id) && octree_game_find(from->game, id, &point))
+    else if (parse_id(skip_word(name, "point"), &id) && octree_game_find(from->game, id, &point))
         describe_point(&d, "", id, point.position);
 }
 

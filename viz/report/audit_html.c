@@ -285,9 +285,8 @@ static void write_head(const page *p)
               ? "<p>Each point of a chart stands for one or several ticks and shows the worst answer of them; a click "
                 "opens its "
                 "frame. Large points are wrong answers. The page of the frame can play the game on from there.</p>\n"
-              : "<p>This is a session without frames. To open the frame of a point with a click, record the session, "
-                "and audit "
-                "the recording.</p>\n",
+              : "<p>This session has no frames. Record the session and audit the recording; then a click on a point "
+                "of the chart opens the frame of its tick.</p>\n",
           p->out);
 }
 

@@ -80,7 +80,7 @@ static void write_case(FILE *out, const diff_report *report, size_t i)
 
 /* Write the test case for recordings that have no frames. It is the only test case of the report and says whether
  * their ticks are equal. */
-static void write_ticks_case(FILE *out, const diff_report *report)
+static void write_ticks_test_case(FILE *out, const diff_report *report)
 {
     const char *headline = report->why->headline ? report->why->headline : "";
     junit_begin_case(out, report->b->path, "ticks.jsonl");
@@ -116,7 +116,7 @@ void diff_report_junit(FILE *out, const diff_report *report)
     junit_begin(out, "octreel diff", report->a->path, result->count + result->by_ticks,
                 diff_count_different(result) + ticks_differ, result->found[FOUND_UNREADABLE]);
     if (result->by_ticks)
-        write_ticks_case(out, report);
+        write_ticks_test_case(out, report);
     for (size_t i = 0; i < result->count; i++)
         write_case(out, report, i);
     write_summary(out, report);

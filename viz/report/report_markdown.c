@@ -8,7 +8,7 @@
 
 static void write_text(FILE *out, const char *text)
 {
-    write_escaped(out, text, escape_markdown);
+    write_escaped(out, text, escape_markdown_character);
 }
 
 /* Write a name as an HTML code element. Between the backticks of Markdown no character can be escaped. */

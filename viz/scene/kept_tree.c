@@ -207,7 +207,7 @@ bool kept_tree_add_node(kept_tree *k, const scene_box *box)
     return true;
 }
 
-bool kept_tree_is_collecting(const kept_tree *k, const octree_node *node)
+bool kept_tree_collects(const kept_tree *k, const octree_node *node)
 {
     if (!k->open.address)
         return false;

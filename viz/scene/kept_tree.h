@@ -109,7 +109,7 @@ bool kept_tree_add_node(kept_tree *k, const scene_box *box);
 bool kept_tree_end_subtree(kept_tree *k, const scene *s);
 
 /* Returns whether a node belongs to the subtree that is being collected. */
-bool kept_tree_is_collecting(const kept_tree *k, const octree_node *node);
+bool kept_tree_collects(const kept_tree *k, const octree_node *node);
 
 /* Record the digest of a run of elements. The elements were copied to the scene, and the run begins at index
  * `first`. */

@@ -43,8 +43,8 @@
     X(PLAYER, "player", "the player", "the player, and a line down to the floor", ROLE_PLAYER, false, true)            \
     X(BOX, "box", "the collision box", "the player's collision box, and the points in it", ROLE_COLLISION, false,      \
       true)                                                                                                            \
-    X(SHAPES, "shapes", "shapes", "the session's boxes, segments, points and labels that are not in the tree",         \
-      ROLE_SHAPE, false, true)                                                                                         \
+    X(SHAPES, "shapes", "shapes",                                                                                      \
+      "the session's shapes, which are not in the tree: boxes, segments, points and labels", ROLE_SHAPE, false, true)  \
     X(WRONG, "wrong", "wrong answers",                                                                                 \
       "wrong answers and wrong nodes of a foreign index, and missing and extra points", ROLE_WRONG, false, true)       \
     X(BROKEN, "broken", "the broken node", "the node in which the validator finds a broken invariant", ROLE_WARNING,   \

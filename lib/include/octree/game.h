@@ -196,8 +196,8 @@ typedef struct octree_tick {
     uint64_t number;
     char key;        /* the key that was pressed in the tick; 0 at tick 0 */
     unsigned events; /* bit mask of octree_event values */
-    /* false: there is no player. `player`, `attempt` and `from` are then the player's last positions, or the center of
-     * the world */
+    /* false: there is no player. `player`, `attempt` and `from` are then those of the last tick with a player, or, if
+     * no tick had one, the center of the world */
     bool has_player;
     double player[3]; /* the player's position after the tick */
     /* the player's position in the collision test: the end of the step, even if the step was taken back */

@@ -166,7 +166,7 @@ octree_input session_input(const octree_session *s, uint64_t tick)
 
 /* Store the points of all bodies whose velocity is finite. A body with an infinite or NaN velocity is refused. Returns
  * the number of points. */
-static size_t collect_finite_bodies(octree_game *game, octree_point *points)
+static size_t collect_bodies_of_finite_velocity(octree_game *game, octree_point *points)
 {
     size_t count = 0;
     for (size_t i = 0; i < game->session->body_count; i++) {
@@ -208,7 +208,8 @@ octree_status game_load_bodies(octree_game *game)
     octree_status *statuses = arena_allocate(&game->memory, room * sizeof *statuses);
     octree_status status = OCTREE_NO_MEMORY;
     if (points && statuses)
-        status = octree_insert_many(game->tree, points, collect_finite_bodies(game, points), statuses, NULL);
+        status =
+            octree_insert_many(game->tree, points, collect_bodies_of_finite_velocity(game, points), statuses, NULL);
     if (status == OCTREE_OK)
         status = add_bodies(game, statuses);
     arena_free(&game->memory, points, room * sizeof *points);

@@ -332,8 +332,8 @@ static bool find_keys_from_planes(search *s, uint32_t keys[3])
     return !(squares > s->found.node_reach);
 }
 
-/* Compute the position in keys of a target in the world, and round it down. The results may be off by one, which does
- * no harm: the search may begin at any leaf near the target. */
+/* Convert a target in the world to keys, the integer coordinates of the finest cells, rounded down. A key may be off by
+ * one, which does no harm: the search may begin at any leaf near the target. */
 static inline void guess_keys(search *s, uint32_t keys[3])
 {
     for (int i = 0; i < 3; i++) {

@@ -70,8 +70,9 @@ static inline void neighbor_heap_begin(neighbor_heap *h, const octree_search *ho
 #define NEIGHBOR_GROUPS 8
 double greatest_group_minimum(const double squares[], unsigned count);
 
-/* Return a limit for the squares of some points: a point with a greater square is not among the k nearest. `least` is
- * the least of the squares. If no neighbour was found yet, the k nearest of these points already lower the limit. */
+/* Return a limit: a point with a greater squared distance is not among the k nearest. `squares` are the squared
+ * distances of `count` points that will be offered next, `least` is the least of them. Before the first neighbour is
+ * found, a bound of the k-th least of these squares is a limit too. */
 static inline double neighbor_heap_reach(const neighbor_heap *h, const double squares[], unsigned count, double least)
 {
     double reach = h->point_reach;

@@ -35,7 +35,8 @@ typedef struct hull_faces {
     double step_i, step_j;       /* the components of the step d on the axes i and j */
     double lowest;               /* the value of side() at the world's lowest corner */
     double per_key_i, per_key_j; /* the decrease of side() per key on axis i, and its increase per key on axis j */
-    double reach, whole;         /* R plus the error band, and R minus the error band; `whole` may be negative */
+    double reach, whole; /* points and cells farther than `reach`, R plus the error band, are not touched; those nearer
+                          * than `whole`, R minus the error band, are touched. `whole` may be negative */
 } hull_faces;
 
 typedef struct hull {

@@ -233,7 +233,7 @@ static bool any_has_zero_coordinate(const octree_point *points, size_t count)
 }
 
 /* Give each zero in the points' positions the sign that this zero has in the stored position. */
-static void copy_stored_signs(const octree *tree, octree_point *points, size_t count)
+static void copy_signs_of_zeros(const octree *tree, octree_point *points, size_t count)
 {
     found_point found;
     for (size_t i = 0; i < count; i++)
@@ -314,7 +314,7 @@ static octree_status apply_batch(batch b, octree_change_kind kind, size_t *done)
     if (copies)
         b.points = memcpy(copies, b.points, copies_size);
     if (copies && signs)
-        copy_stored_signs(b.tree, copies, b.count);
+        copy_signs_of_zeros(b.tree, copies, b.count);
     if (to)
         b.to = memcpy(to, b.to, to_size);
     if (statuses)

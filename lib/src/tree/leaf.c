@@ -226,7 +226,7 @@ void leaf_free_end(store *s, const node *old)
         pool_free(&s->points, leaf_points(old) + room, old->room - room);
 }
 
-void leaf_shrink_hashed(store *s, node *leaf)
+void leaf_shrink_hash_table(store *s, node *leaf)
 {
     node smaller;
     if (!is_hashed(leaf) || leaf->count >= hashed_header_of(leaf->below)->room / 4 ||
@@ -241,7 +241,7 @@ void leaf_remove(store *s, node *leaf, uint32_t index)
     const node old = *leaf;
     leaf_remove_keeping_block(leaf, index);
     leaf_free_end(s, &old);
-    leaf_shrink_hashed(s, leaf);
+    leaf_shrink_hash_table(s, leaf);
 }
 
 void leaf_replace(node *leaf, uint32_t index, const octree_point *point)

@@ -156,7 +156,7 @@ void leaf_free_end(store *s, const node *old);
 
 /* If a hashed leaf uses little of its block, move its points to a smaller block. If memory runs out, the leaf keeps its
  * block. */
-void leaf_shrink_hashed(store *s, node *leaf);
+void leaf_shrink_hash_table(store *s, node *leaf);
 
 /* Replace the point at an index. The leaf must not hold the new point yet. Cannot fail. */
 void leaf_replace(node *leaf, uint32_t index, const octree_point *point);

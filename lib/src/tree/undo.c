@@ -79,7 +79,7 @@ static void remove_or_shrink_leaf_at(octree *tree, const double position[3])
     node *leaf = path_end(&p);
     if (leaf->octants)
         return;
-    leaf_shrink_hashed(&tree->store, leaf);
+    leaf_shrink_hash_table(&tree->store, leaf);
     if (leaf->count == 0 && p.depth > 0)
         remove_empty_child(tree, p.nodes[p.depth - 1], leaf);
 }

@@ -84,7 +84,7 @@ static void each_language_is_escaped_by_its_own_rules(void **state)
                    "z");
     assert_escaped(escape_xml_character, "<a b=\"'&\n\">", "&#60;a b=&#34;&#39;&#38;&#10;&#34;&#62;");
     assert_escaped(escape_xml_text, "1 < 2\n\t", "1 &#60; 2\n&#9;");
-    assert_escaped(escape_markdown, "a_b _c_ \xc3\xa4_\xc3\xa4 1_2 3_ _4\n*",
+    assert_escaped(escape_markdown_character, "a_b _c_ \xc3\xa4_\xc3\xa4 1_2 3_ _4\n*",
                    "a_b &#95;c&#95; \xc3\xa4_\xc3\xa4 1_2 "
                    "3&#95; &#95;4 &#42;");
     assert_escaped(escape_xml_character, "", "");

@@ -346,7 +346,7 @@ static void page_of_a_session_has_no_links_and_says_so(void **state)
     assert_int_equal(result.status, 1);
     assert_null(strstr(result.out, "<a "));
     assert_null(strstr(result.out, "<b>"));
-    assert_non_null(strstr(result.out, "This is a session without frames"));
+    assert_non_null(strstr(result.out, "This session has no frames"));
     command_release(&result);
 }
 
@@ -487,7 +487,9 @@ static void session_without_answers_is_refused(void **state)
 {
     const place session = write_session_text(state, START "{\"tick\":1,\"queries\":[{\"nearest\":[0,0,0]}]}");
     command_result result = run_octreel(NULL, "audit %s", session.path);
-    assert_trouble(&result, "session.json: nothing to audit: no played tick has a query with an \"answer\"");
+    assert_trouble(
+        &result,
+        "session.json: nothing to audit: the played ticks have neither foreign nodes nor a query with an \"answer\"");
     result = run_octreel(NULL, "audit %s.none", session.path);
     assert_trouble(&result, "no such file");
 }

@@ -188,8 +188,8 @@ static void invalid_las_headers_are_refused(void **state)
         const char *sentence;
     } rows[] = {
         {2, 3, 0, 1, 'l', ":byte 0: is not a LAS file: its first bytes are not LASF"},
-        {2, 3, 24, 1, 2, ":byte 24: LAS 2.2 is not a supported version: 1.0 to 1.5"},
-        {2, 3, 25, 1, 6, ":byte 24: LAS 1.6 is not a supported version: 1.0 to 1.5"},
+        {2, 3, 24, 1, 2, ":byte 24: LAS 2.2 is not supported; versions 1.0 to 1.5 are"},
+        {2, 3, 25, 1, 6, ":byte 24: LAS 1.6 is not supported; versions 1.0 to 1.5 are"},
         {2, 3, 94, 2, 226, ":byte 94: the header says that it has 226 bytes, but a header of LAS 1.2 has at least 227"},
         {4, 3, 94, 2, 227, ":byte 94: the header says that it has 227 bytes, but a header of LAS 1.4 has at least 375"},
         {2, 3, 94, 2, 65535,

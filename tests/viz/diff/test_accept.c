@@ -184,7 +184,7 @@ static void name_of_a_file_becomes_no_folder_and_no_picture_in_another_format(vo
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         const place reference = place_in(*state, names[i]);
         command_result result = run_octreel(NULL, "accept %s %s", reference.path, frames.path);
-        assert_trouble(&result, "cannot create a folder of references under the name of a file; ");
+        assert_trouble(&result, "this is the name of a file, but the references are a folder; ");
         assert_false(file_exists(reference.path));
     }
     const place golden = place_in(*state, "golden");

@@ -102,7 +102,7 @@ static void last_frame_of_a_session_without_a_known_end_is_checked(void **state)
     const film_options options = checked_film(folder.path, DRAW_FILL_CHECKED);
     live_recording *live = live_open(&session, &options, &error);
     assert_non_null(live);
-    assert_true(live_begin(live, &error) && live_film_first(live, &error));
+    assert_true(live_begin(live, &error) && live_film_first_tick(live, &error));
     for (int i = 0; i < 3; i++)
         assert_true(live_film_tick(live, &(octree_input){0}, &error));
     assert_true(live_close(live, 3, &summary, &error));

@@ -209,7 +209,7 @@ static void markdown_escapes_any_name(void **state)
     (void)state;
     FILE *out = open_memstream(&text, &size);
     assert_non_null(out);
-    write_escaped(out, NASTY " _x_ a_b [l](u) ![i] ~~s~~ @you #1 \\| $m$", escape_markdown);
+    write_escaped(out, NASTY " _x_ a_b [l](u) ![i] ~~s~~ @you #1 \\| $m$", escape_markdown_character);
     assert_int_equal(fclose(out), 0);
     assert_null(strpbrk(text, "<>`|*[]~@\\$!\"'\n\t\x01\x1b\x7f"));
     assert_contains(text, " &#95;x&#95; a_b &#91;l&#93;(u) ");

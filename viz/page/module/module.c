@@ -242,7 +242,7 @@ static bool fit_view(view *v)
     return picture_fit(v, octree_game_tree(page.playback.game), &page.session.values, &page.error);
 }
 
-/* Set the view to the view in a recording.json. The input buffer holds `recording` bytes of this file. The picture
+/* Set the view to that of a recording.json, whose `recording` bytes are in the input buffer. The picture
  * keeps its size until the next drawing. */
 bool web_view(size_t recording)
 {
