@@ -150,7 +150,7 @@ static void measure(const run *r, table *t)
             for (int edges = 0; edges < 2; edges++)
                 compare_within(t, distortions[i].name, edges ? "with --antialias" : "max-delta alone", &frame,
                                &distorted, (image_tolerance){.max_delta = deltas[j], .antialias = edges == 1});
-        attach_picture(r, t, &distorted, 96, 54, distortions[i].name);
+        attach_picture(r, t, &distorted, 64, 36, distortions[i].name);
         image_release(&distorted);
     }
     image_release((image *)&frame);
