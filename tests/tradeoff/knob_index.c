@@ -326,7 +326,9 @@ static void tell(const table *t, FILE *out)
         tell_lead(t, kind, i == 0, out);
     }
     fprintf(
-        out, ". With epsilon = 1 Octreel is %.2f times as fast, and %.1f %% of its neighbours are still the true ones.",
+        out,
+        ". With epsilon = 1 (a neighbour may be up to twice as far as the true one), Octreel is %.2f times as fast as "
+        "with exact answers, and %.1f %% of its neighbours are still the true ones.",
         table_ratio(t, near, exact, "per_second"), 100 * table_sum(t, near, "recall") / (double)table_count(t, near));
 }
 
