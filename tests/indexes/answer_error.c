@@ -17,7 +17,9 @@ static long double squared_distance(const double a[3], const double b[3])
     return sum;
 }
 
-double distance_ratio(const double target[3], const double a[3], const double b[3])
+/* The distance from target to a, divided by that to b. Exactly 1 if both are equal as real numbers; above 1 if the
+ * first is greater. */
+static double distance_ratio(const double target[3], const double a[3], const double b[3])
 {
     const int order = quick_compare(target, a, b);
     if (order == 0)

@@ -26,8 +26,4 @@ answer_error find_answer_error(const octree_query *query, const octree_point *po
 /* Whether an answer is right by real numbers; among points at equal distances, any is right. */
 bool is_right(const answer_error *error);
 
-/* The distance from target to a, divided by that to b. Exactly 1 if both are equal as real numbers; above 1 if the
- * first is greater. */
-double distance_ratio(const double target[3], const double a[3], const double b[3]);
-
 #endif

@@ -37,6 +37,10 @@ typedef struct spatial_index {
 /* All indexes of this build, in the order of tables; null ends the list. */
 extern const spatial_index *const all_indexes[];
 
+/* The names and versions of all indexes, such as "octreel 0.1.0, ann 1.1.2", and the names of those that were not
+ * installed. Must be freed; null if memory runs out. */
+char *list_libraries(void);
+
 extern const spatial_index index_octreel, index_nanoflann, index_nanoflann_float, index_flann, index_flann_float,
     index_ann, index_cgal, index_boost, index_kdtree;
 

@@ -23,6 +23,29 @@ struct id_list {
     }
 };
 
+// An output iterator that adds the ids of the entries that a search writes. `Id` is the member with the id.
+template <class Entry, uint64_t Entry::*Id> struct id_output {
+    id_list *list;
+
+    id_output &operator=(const Entry &found)
+    {
+        list->add(found.*Id);
+        return *this;
+    }
+    id_output &operator*()
+    {
+        return *this;
+    }
+    id_output &operator++()
+    {
+        return *this;
+    }
+    id_output operator++(int)
+    {
+        return *this;
+    }
+};
+
 struct index_base {
     size_t nearest(const double[3], size_t, double, uint64_t *) const
     {

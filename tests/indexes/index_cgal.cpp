@@ -25,29 +25,6 @@ using traits =
 using near_search = CGAL::Orthogonal_k_neighbor_search<traits>;
 using tree_type = near_search::Tree;
 
-// Adds the ids of the entries that a search writes.
-struct id_output {
-    id_list *list;
-
-    id_output &operator=(const entry &found)
-    {
-        list->add(found.second);
-        return *this;
-    }
-    id_output &operator*()
-    {
-        return *this;
-    }
-    id_output &operator++()
-    {
-        return *this;
-    }
-    id_output operator++(int)
-    {
-        return *this;
-    }
-};
-
 struct kd_tree : index_base {
     tree_type tree;
 
@@ -79,13 +56,13 @@ struct kd_tree : index_base {
     void ball(const double center[3], double radius, id_list &ids) const
     {
         const place at(center[0], center[1], center[2]);
-        tree.search(id_output{&ids}, CGAL::Fuzzy_sphere<traits>(at, radius, 0, tree.traits()));
+        tree.search(id_output<entry, &entry::second>{&ids}, CGAL::Fuzzy_sphere<traits>(at, radius, 0, tree.traits()));
     }
 
     void box(const octree_box &b, id_list &ids) const
     {
         const place low(b.min[0], b.min[1], b.min[2]), high(b.max[0], b.max[1], b.max[2]);
-        tree.search(id_output{&ids}, CGAL::Fuzzy_iso_box<traits>(low, high, 0, tree.traits()));
+        tree.search(id_output<entry, &entry::second>{&ids}, CGAL::Fuzzy_iso_box<traits>(low, high, 0, tree.traits()));
     }
 };
 

@@ -38,28 +38,6 @@ struct kd_tree : index_base {
         return 1;
     }
 
-    struct id_output { // adds the ids of the entries that a search writes
-        id_list *list;
-
-        id_output &operator=(const entry &found)
-        {
-            list->add(found.id);
-            return *this;
-        }
-        id_output &operator*()
-        {
-            return *this;
-        }
-        id_output &operator++()
-        {
-            return *this;
-        }
-        id_output operator++(int)
-        {
-            return *this;
-        }
-    };
-
     void box(const octree_box &b, id_list &ids) const
     {
         tree_type::_Region_ searched;
@@ -67,7 +45,7 @@ struct kd_tree : index_base {
             searched._M_low_bounds[i] = b.min[i];
             searched._M_high_bounds[i] = b.max[i];
         }
-        tree.find_within_range(searched, id_output{&ids});
+        tree.find_within_range(searched, id_output<entry, &entry::id>{&ids});
     }
 };
 

@@ -2,7 +2,7 @@
 /* indexes.c - the indexes of this build. */
 #include "index.h"
 
-#include <stddef.h>
+#include <stdio.h>
 
 const spatial_index *const all_indexes[] = {
     &index_octreel,
@@ -29,3 +29,18 @@ const spatial_index *const all_indexes[] = {
 #define INDEX_ADDRESS(name) &index_##name,
     INDEX_MORE(INDEX_ADDRESS) NULL,
 };
+
+char *list_libraries(void)
+{
+    char *text = NULL;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    if (!out)
+        return NULL;
+    for (size_t i = 0; all_indexes[i]; i++)
+        fprintf(out, "%s%s %s", i == 0 ? "" : ", ", all_indexes[i]->name, all_indexes[i]->version);
+    if (*INDEX_LEFT_OUT)
+        fprintf(out, "; not installed and left out:%s", INDEX_LEFT_OUT);
+    fclose(out);
+    return text;
+}

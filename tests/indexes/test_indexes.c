@@ -5,6 +5,7 @@
 #include "answer_error.h"
 #include "point_sets.h"
 #include "quick_oracle.h"
+#include "truth.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -30,10 +31,8 @@ static bool is_fault(const spatial_index *index, const answer_error *error, octr
 static void round_points(octree_point *points, size_t count)
 {
     for (size_t i = 0; i < count; i++)
-        for (int axis = 0; axis < 3; axis++) {
-            const volatile float narrow = (float)points[i].position[axis];
-            points[i].position[axis] = narrow;
-        }
+        for (int axis = 0; axis < 3; axis++)
+            points[i].position[axis] = round_to_float(points[i].position[axis]);
 }
 
 /* A query whose numbers floats hold, away from the boundaries of other points. */

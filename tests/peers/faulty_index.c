@@ -3,13 +3,13 @@
  * what it answers, so that they are the same for all libraries. */
 #include "faulty_index.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "program.h"
 #include "quick_oracle.h"
+#include "truth.h"
 
 struct faulty_index {
     const spatial_index *index;
@@ -20,12 +20,6 @@ struct faulty_index {
     size_t count, stored_count;
     void *self;
 };
-
-static double rounded(double x)
-{
-    const volatile float narrow = (float)fmax(-FLT_MAX, fmin(FLT_MAX, x));
-    return narrow;
-}
 
 /* The cell that PLANTED_CHILD skips: an octant of the world. */
 static bool is_in_skipped_cell(const faulty_index *f, const double at[3])
@@ -42,7 +36,7 @@ static octree_point store(const faulty_index *f, const octree_point *point, cons
     octree_point stored = f->fault == PLANTED_STALE && point->id % 3 == 0 && before ? *before : *point;
     for (int i = 0; i < 3; i++)
         if (f->fault == PLANTED_ROUNDED)
-            stored.position[i] = fmax(f->world.min[i], fmin(f->world.max[i], rounded(stored.position[i])));
+            stored.position[i] = fmax(f->world.min[i], fmin(f->world.max[i], round_to_float(stored.position[i])));
     return stored;
 }
 

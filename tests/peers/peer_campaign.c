@@ -259,23 +259,25 @@ static size_t count_peers(void)
 /* Indexes as their libraries come. They are wrong where numbers are extreme, and where a ball of theirs is open. */
 static void judge_libraries(trial *t, const options *o)
 {
-    enum { PEERS_MOST = 64 };
-    tally sums[PEERS_MOST] = {{0}};
     const size_t peers = count_peers();
+    tally *sums = calloc(peers, sizeof *sums);
     uint64_t answers = 0;
+    if (!sums)
+        stop_with_error("out of memory");
     while (answers < o->answers) {
         answers = 0;
         t->seed++;
-        for (size_t i = 0; i < peers && i < PEERS_MOST; i++) {
+        for (size_t i = 0; i < peers; i++) {
             t->peer = all_indexes[i];
             run_sets(t, &sums[i]);
             answers += sums[i].answers;
         }
     }
-    for (size_t i = 0; i < peers && i < PEERS_MOST; i++)
+    for (size_t i = 0; i < peers; i++)
         printf("%-16s %9" PRIu64 " answers, %9" PRIu64 " wrong and accused, %" PRIu64 " at the edge of the promise\n",
                all_indexes[i]->name, sums[i].answers, sums[i].wrong, sums[i].open);
     printf("%" PRIu64 " answers of indexes as they come: every verdict is right\n\n", answers);
+    free(sums);
 }
 
 /* Whether a fault can make an answer of the index wrong. */

@@ -1,12 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* drive_tradeoff.js - uses the trade's page like a reader, and reports what it shows. */
+/* drive_tradeoff.js - uses the trade's page like a reader, and reports what it shows, after drive.js. */
 "use strict";
 
-const said = [], errors = [];
-addEventListener("error", event => errors.push(event.message));
-addEventListener("unhandledrejection", event => errors.push(String(event.reason)));
-
-const say = (what, value) => said.push(`${what}\t${value}\n`);
 const chapter = document.getElementById("index").parentElement;
 const charts = [...chapter.querySelectorAll(".chart")];
 const marks = () => charts[0].querySelectorAll(".mark").length;
@@ -16,12 +11,6 @@ const choose = (list, value) => {
     list.dispatchEvent(new Event("change"));
 };
 
-async function until(isSo)
-{
-    for (let i = 0; !isSo() && i < 100000; i++)
-        await new Promise(done => setTimeout(done, 1));
-}
-
 /* Give a file to the field that compares pages. */
 async function layOver(name, text)
 {
@@ -30,12 +19,11 @@ async function layOver(name, text)
     input.files = files.files;
     const before = status.textContent;
     input.dispatchEvent(new Event("change"));
-    await until(() => status.textContent !== before);
+    await until(() => status.textContent !== before, "the other page");
     return status.textContent;
 }
 
-async function run()
-{
+run(async () => {
     say("chapters and gains", document.querySelectorAll("main section").length);
     say("title", document.querySelector("h1").textContent);
     const all = marks();
@@ -60,19 +48,11 @@ async function run()
     say("octreel is never wrong", [...matrix.rows].slice(1).every(row => ["right", "refused"].includes(row.cells[2].textContent)));
     const details = chapter.querySelector("details");
     details.open = true;
-    await until(() => details.querySelector("table"));
+    await until(() => details.querySelector("table"), "the table");
     say("rows of the table", details.querySelectorAll("tr").length > 100);
     say("not a page", await layOver("other.html", "<p>no page</p>"));
     const both = await layOver("same.html", document.documentElement.outerHTML);
     say("another page", /^Hollow marks: \d{4}-/.test(both));
     say("twice the marks", marks() === 2 * all);
     say("fits", document.documentElement.scrollWidth <= innerWidth);
-    say("errors", errors.join("; ") || "none");
-}
-
-run().catch(error => say("errors", error.stack.replace(/\n/g, " "))).finally(() => {
-    const pre = document.createElement("pre");
-    pre.id = "said";
-    pre.textContent = "\n" + said.join("");
-    document.body.append(pre);
 });

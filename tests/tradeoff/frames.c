@@ -10,6 +10,7 @@
 
 #include "png_write.h"
 #include "renderer.h"
+#include "text.h"
 #include "fixture.h"
 #include "tick_scene.h"
 #include "must.h"
@@ -112,22 +113,14 @@ static image crop(const image *frame, int width, int height)
 /* A file in base64. The text must be freed. */
 static char *read_base64(const char *path)
 {
-    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    FILE *file = fopen(path, "rb");
     char *text = NULL;
-    unsigned char three[3];
-    size_t size, length = 0;
-    if (!file)
+    size_t size;
+    FILE *in = fopen(path, "rb"), *out = open_memstream(&text, &size);
+    if (!in || !out)
         stop_with_error("%s cannot be read", path);
-    while ((size = fread(three, 1, 3, file)) > 0) {
-        const unsigned bits =
-            (unsigned)three[0] << 16 | (size > 1 ? (unsigned)three[1] << 8 : 0) | (size > 2 ? (unsigned)three[2] : 0);
-        text = resize_memory(text, length + 5);
-        for (size_t i = 0; i < 4; i++)
-            text[length++] = i <= size ? digits[bits >> (18 - 6 * i) & 63] : '=';
-        text[length] = '\0';
-    }
-    fclose(file);
+    base64_encode(in, out);
+    fclose(in);
+    fclose(out);
     return text;
 }
 

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "frames.h"
+#include "image_compare.h"
 #include "knob.h"
 #include "picture.h"
 #include "program.h"
@@ -36,17 +37,6 @@ static void draw(void *contestant)
         stop_with_error("%s", why.text);
 }
 
-static size_t count_differing(const image *a, const image *b)
-{
-    size_t differing = 0;
-    for (int y = 0; y < a->height; y++)
-        for (int x = 0; x < a->width; x++) {
-            const image_color p = image_color_at(a, x, y), q = image_color_at(b, x, y);
-            differing += p.r != q.r || p.g != q.g || p.b != q.b;
-        }
-    return differing;
-}
-
 /* False without GL, which is then not measured. */
 static bool open_both(drawing drawings[2], const view *v, const scene *shown)
 {
@@ -78,7 +68,8 @@ static void measure(const run *r, table *t)
         subject_show(s, &v, &shown);
         if (open_both(drawings, &v, &shown)) {
             time_in_turn(draw, drawings, sizeof drawings[0], 2, r->rounds, ns);
-            const double differ = (double)count_differing(&drawings[0].picture.frame, &drawings[1].picture.frame);
+            const double differ =
+                (double)image_compare(&drawings[0].picture.frame, &drawings[1].picture.frame).unlike.pixels;
             table_add(t, kinds[i].name, "integers", (double[]){0, ns[0] / 1e6, 0});
             table_add(t, kinds[i].name, "gl", (double[]){1, ns[1] / 1e6, differ});
             if (i == 0)

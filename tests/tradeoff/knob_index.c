@@ -8,7 +8,6 @@
 #include <string.h>
 
 #include "index.h"
-#include "index_list.h"
 #include "answer_error.h"
 #include "knob.h"
 #include "measuring.h"
@@ -264,21 +263,6 @@ static void measure(const run *r, table *t)
     for (size_t i = 0; i < r->loads->count; i++)
         if (r->loads->of[i].ordinary || strcmp(r->loads->of[i].name, "lattice") == 0)
             measure_scene(r, t, &r->loads->of[i]);
-}
-
-char *list_libraries(void)
-{
-    char *text = NULL;
-    size_t size;
-    FILE *out = open_memstream(&text, &size);
-    if (!out)
-        stop_with_error("out of memory");
-    for (size_t i = 0; all_indexes[i]; i++)
-        fprintf(out, "%s%s %s", i == 0 ? "" : ", ", all_indexes[i]->name, all_indexes[i]->version);
-    if (*INDEX_LEFT_OUT)
-        fprintf(out, "; not installed and left out:%s", INDEX_LEFT_OUT);
-    fclose(out);
-    return text;
 }
 
 /* ---- In a sentence ------------------------------------------------------------------------------------------ */

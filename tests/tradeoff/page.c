@@ -9,7 +9,8 @@
 #include <string.h>
 #include <time.h>
 
-#include "index_list.h"
+#include "file.h"
+#include "index.h"
 #include "program.h"
 
 static char *copy_text(const char *text)
@@ -65,19 +66,11 @@ void where_free(measured_where *where)
 
 char *read_text(const char *path)
 {
-    FILE *file = fopen(path, "rb");
-    char *text = NULL;
-    size_t size = 0, room = 0;
-    if (!file)
-        stop_with_error("%s: %s", path, strerror(errno));
-    do {
-        room = room ? 2 * room : 1 << 16;
-        text = resize_memory(text, room + 1);
-        size += fread(text + size, 1, room - size, file);
-    } while (size == room);
-    if (ferror(file))
-        stop_with_error("%s cannot be read", path);
-    fclose(file);
+    char *text;
+    size_t size;
+    octreel_error why;
+    if (!file_read_whole(path, &text, &size, &why))
+        stop_with_error("%s", why.text);
     text[size] = '\0';
     return text;
 }

@@ -52,11 +52,13 @@ function unique(list)
     return [...new Set(list)];
 }
 
-/* Sort the names of indexes as the page lists the libraries; other names keep their order. */
+/* The names of the libraries, in the page's order. */
+const LIBRARIES = readAbout(document).libraries.split(", ").map(library => library.split(" ")[0]);
+
+/* Sort the names of indexes in this order; other names keep theirs. */
 function sortByLibrary(names)
 {
-    const order = readAbout(document).libraries.split(", ").map(library => library.split(" ")[0]);
-    const place = name => order.indexOf(name) + 1 || order.length + 1;
+    const place = name => LIBRARIES.indexOf(name) + 1 || LIBRARIES.length + 1;
     return names.sort((a, b) => place(a) - place(b));
 }
 

@@ -30,13 +30,18 @@ void table_free(table *t)
     *t = (table){0};
 }
 
+static bool has_text(const json_t *note, const char *member, const char *text)
+{
+    return strcmp(json_string_value(json_object_get(note, member)), text) == 0;
+}
+
 static json_t *find_note(const table *t, const char *scene, const char *text)
 {
-    size_t i;
-    json_t *note;
-    json_array_foreach(t->notes, i,
-                       note) if (strcmp(json_string_value(json_object_get(note, "scene")), scene) == 0 &&
-                                 strcmp(json_string_value(json_object_get(note, "text")), text) == 0) return note;
+    for (size_t i = 0; i < json_array_size(t->notes); i++) {
+        json_t *note = json_array_get(t->notes, i);
+        if (has_text(note, "scene", scene) && has_text(note, "text", text))
+            return note;
+    }
     return NULL;
 }
 

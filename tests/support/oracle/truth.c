@@ -8,11 +8,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* As a program that holds floats has it. */
-static double rounded(double x, octree_precision precision)
+double round_to_float(double x)
 {
     const volatile float narrow = (float)fmax(-FLT_MAX, fmin(FLT_MAX, x));
-    return precision == OCTREE_FLOATS ? narrow : x;
+    return narrow;
+}
+
+static double rounded(double x, octree_precision precision)
+{
+    return precision == OCTREE_FLOATS ? round_to_float(x) : x;
 }
 
 static void place(const double from[3], octree_precision precision, double to[3])

@@ -14,4 +14,7 @@ typedef enum truth { TRUTH_RIGHT, TRUTH_WRONG, TRUTH_OPEN } truth;
 #define TRUTH_POINTS 1024
 truth truth_of(const octree_query *query, const octree_point *points, size_t count);
 
+/* The float that is nearest to x, or the largest one: what a program stores that holds floats. */
+double round_to_float(double x);
+
 #endif
