@@ -117,7 +117,7 @@ static const command_option options[] = {
      .read = read_file, OPTION_VALUE(arguments, outputs[NODES].path)},
     {"advise", NULL,
      "measure on these points which --capacity and which epsilon (octree_search.epsilon of the library) save time, and "
-     "what errors an epsilon causes; this takes some seconds for a million points",
+     "what errors an epsilon causes; this takes about two seconds for a million points",
      .read = read_flag, OPTION_VALUE(arguments, advise)},
     FORCE_OPTION(arguments, force, FORCE_FILES),
     SHARED_OPTIONS(query_option_row, arguments, queries),

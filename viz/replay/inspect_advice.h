@@ -33,8 +33,8 @@ typedef struct inspect_advice {
 } inspect_advice;
 
 /* Measure. Returns false with an error if the cloud has fewer than ADVICE_LEAST_POINTS points, or memory runs out.
- * progress() of the watcher is called after each capacity. Cost: that of ADVICE_CAPACITIES bulk builds, and some
- * hundred thousand searches. Memory: a second tree, and 32 bytes a point. */
+ * progress() of the watcher is called after each capacity. Cost: that of ADVICE_CAPACITIES bulk builds, and about a
+ * million searches. Memory: a second tree, and 32 bytes a point. */
 bool inspect_advise(const inspection *i, const watcher *watch, inspect_advice *advice, octreel_error *error);
 
 /* Print both tables and a sentence of advice, or one JSON object on one line. */

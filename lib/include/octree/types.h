@@ -167,9 +167,9 @@ typedef enum octree_skip {
 } octree_skip;
 
 /* How distances are compared. EXACT compares distances as real numbers, FAST compares them as doubles. If two distances
- * differ by less than a rounding error, FAST may take the farther point for the nearer. FAST needs half the time where
- * many distances are equal and several neighbours are searched, as on a lattice. For other points FAST is about as fast
- * as EXACT. */
+ * differ by less than a rounding error, FAST may take the farther point for the nearer. FAST needs half the
+ * instructions where many distances are equal and several neighbours are searched, as on a lattice. For other points
+ * FAST is about as fast as EXACT. */
 typedef enum octree_mode {
     OCTREE_EXACT,
     OCTREE_FAST,

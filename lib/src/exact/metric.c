@@ -188,7 +188,7 @@ static int compare_units_with_radius(const int64_t target[3], const int64_t p[3]
 
 int metric_compare_radius(const double target[3], const double p[3], double radius)
 {
-    /* Most points are far from the sphere, so doubles decide first: an exact comparison takes 2 us. The margin 2^-48 is
+    /* Most points are far from the sphere, so doubles decide first. The margin 2^-48 is
      * more than twice the relative error of the distance, unless a distance just below DBL_MAX becomes infinite. */
     const double distance = metric_distance(target, p);
     if (radius > 0x1p-1000 && (distance <= DBL_MAX || radius < DBL_MAX / 2) &&
