@@ -162,13 +162,13 @@ static bool scatter(filmed_session *made, size_t count, bool moving)
 
 /* ---- Answered queries --------------------------------------------------------------------------------------- */
 
-static void ask(octree_query *queries, size_t count, size_t asked, const octree_body *bodies, size_t body_count)
+static void ask(octree_query *queries, size_t count, size_t asked, const octree_game_body *bodies, size_t body_count)
 {
     enum { NEIGHBORS = 8, REACH = 20 };
     uint64_t random = 1;
     for (size_t i = 0; i < count; i++) {
         octree_query *q = &queries[i];
-        const octree_body *body = &bodies[octree_random(&random) % body_count];
+        const octree_game_body *body = &bodies[octree_random(&random) % body_count];
         *q = (octree_query){.tick = i / asked, .kind = i % OCTREE_QUERY_KINDS, .k = NEIGHBORS, .radius = REACH};
         for (int axis = 0; axis < 3; axis++) {
             q->target[axis] = body->position[axis] + (double)(octree_random(&random) % REACH) - REACH / 2;

@@ -54,7 +54,7 @@ view filmed_whole_view(const filmed_scene *scene);
 
 typedef struct filmed_session {
     octree_session session;
-    octree_body *bodies;
+    octree_game_body *bodies;
     char *keys;
     octree_query *queries;
     uint64_t *answers;

@@ -47,7 +47,7 @@ typedef struct trial {
     octree_point points[POINT_SET_MOST];
     size_t count;
     octree_session session; /* which the game borrows, with its bodies */
-    octree_body bodies[POINT_SET_MOST];
+    octree_game_body bodies[POINT_SET_MOST];
     octree_game *game;
     faulty_index *index, *sound; /* with the fault, and without, which answers before the fault begins */
     uint64_t begins;             /* the tick in which it does */

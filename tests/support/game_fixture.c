@@ -3,7 +3,7 @@
 
 #include "fixture.h"
 
-octree_session small_session(const octree_body *bodies, size_t body_count)
+octree_session small_session(const octree_game_body *bodies, size_t body_count)
 {
     octree_session session = {.tree = define(cube(-10, 10), 2, 5, OCTREE_REFUSE)};
     session.player = (octree_player){.id = 100, .step = 1, .box_size = 0.5};

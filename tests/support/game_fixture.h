@@ -6,7 +6,7 @@
 #include "octree/game.h"
 
 /* The player, id 100, rests in the middle of [-10, 10]^3: step 1, box size 0.5. Capacity 2, depth 5. */
-octree_session small_session(const octree_body *bodies, size_t body_count);
+octree_session small_session(const octree_game_body *bodies, size_t body_count);
 
 /* Create the game of a session; the test fails if that fails. */
 octree_game *start_game(const octree_session *session);

@@ -20,9 +20,9 @@ static void random_position(uint64_t *state, const octree_box *world, double pos
     }
 }
 
-static void random_body(uint64_t *state, const octree_box *world, uint64_t id, bool moves, octree_body *body)
+static void random_body(uint64_t *state, const octree_box *world, uint64_t id, bool moves, octree_game_body *body)
 {
-    *body = (octree_body){.id = id};
+    *body = (octree_game_body){.id = id};
     random_position(state, world, body->position);
     for (int axis = 0; moves && axis < 3; axis++)
         body->velocity[axis] = quarter(state, -3, 3);

@@ -16,7 +16,7 @@
 /* A session and the arrays it borrows: it must stay where it was made. */
 typedef struct random_session {
     octree_session session;
-    octree_body bodies[RANDOM_SESSION_BODIES];
+    octree_game_body bodies[RANDOM_SESSION_BODIES];
     char keys[RANDOM_SESSION_KEYS + 1];
     octree_edit edits[RANDOM_SESSION_EDITS];
     octree_query queries[RANDOM_SESSION_QUERIES];

@@ -104,7 +104,7 @@ static void shrink(cell *c, const octree_query *query)
 /* Append a line to the notes: the cell's session in JSON, with the wrong answer. */
 static void note_example(table *t, cell *c, const char *scene, octree_query query)
 {
-    octree_body bodies[STRESS_POINTS] = {{.id = 0}};
+    octree_game_body bodies[STRESS_POINTS] = {{.id = 0}};
     octree_session session = {.tree = octree_def_default(), .bodies = bodies, .body_count = c->set.count, .ticks = 1};
     char *text;
     size_t size;

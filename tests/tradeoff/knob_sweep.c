@@ -186,7 +186,7 @@ static void measure_scene(const run *r, table *t, const workload *w)
 /* A player whose step of six boxes passes a point: the collision test at the ends misses it. */
 static void attach_step(const run *r, table *t, bool sweep, const char *caption)
 {
-    const octree_body bodies[] = {{.id = 1, .position = {0, 0, 0}}, {.id = 2, .position = {60, 40, -30}}};
+    const octree_game_body bodies[] = {{.id = 1, .position = {0, 0, 0}}, {.id = 2, .position = {60, 40, -30}}};
     octree_session session = {.tree = define(cube(-100, 100), 1, 5, OCTREE_GROW), .bodies = bodies, .body_count = 2};
     octree_game *game;
     scene shown = {0};

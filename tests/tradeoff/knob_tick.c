@@ -44,19 +44,19 @@ static const double half = 32; /* of the player's box */
 /* A flight along +x from the origin of all. Places are whole numbers and ways multiples of 64, so that every step of
  * every body is exact however many there are. */
 typedef struct flight {
-    octree_body bodies[BODIES]; /* with the whole way for a velocity; first those that are touched on it */
+    octree_game_body bodies[BODIES]; /* with the whole way for a velocity; first those that are touched on it */
     size_t count, touched;
     double from[3];
 } flight;
 
-static void place_after(const octree_body *body, double share, double at[3])
+static void place_after(const octree_game_body *body, double share, double at[3])
 {
     for (int axis = 0; axis < 3; axis++)
         at[axis] = body->position[axis] + share * body->velocity[axis];
 }
 
 /* Whether the player touches a body in a part of the flight. */
-static bool touches(const flight *f, const octree_body *body, double first, double last)
+static bool touches(const flight *f, const octree_game_body *body, double first, double last)
 {
     double p[3], q[3];
     const double from[3] = {f->from[0] + first * LENGTH, f->from[1], f->from[2]};
@@ -83,7 +83,7 @@ static void make_flight(flight *f, uint64_t *random)
 {
     *f = (flight){.from = {-LENGTH / 2, whole(random, -200, 200), whole(random, -200, 200)}};
     for (uint64_t id = 1; id <= BODIES; id++) {
-        octree_body body = {.id = id};
+        octree_game_body body = {.id = id};
         for (int axis = 0; axis < 3; axis++) {
             const double to = 64 * whole(random, -6, 6);
             body.position[axis] = whole(random, -1000, 1000);
@@ -125,7 +125,7 @@ typedef struct playing {
 
 static double play(const flight *f, size_t ticks, bool sweep, octree_cost *cost)
 {
-    octree_body bodies[BODIES];
+    octree_game_body bodies[BODIES];
     memcpy(bodies, f->bodies, f->count * sizeof *bodies);
     for (size_t i = 0; i < f->count; i++)
         for (int axis = 0; axis < 3; axis++)

@@ -153,11 +153,11 @@ static workload play(const char *name, const octree_session *session, size_t tar
 static workload play_clusters(const char *name, size_t points, size_t targets)
 {
     static const char keys[SESSION_TICKS + 1] = "ddddwwwweeeeaaaassssffff";
-    octree_body *bodies = resize_memory(NULL, points * sizeof *bodies);
+    octree_game_body *bodies = resize_memory(NULL, points * sizeof *bodies);
     workload sample = workload_sample(name, OCTREE_SAMPLE_CLUSTERED, cube(-1000, 1000), points, 1);
     uint64_t random = SEED;
     for (size_t i = 0; i < points; i++) {
-        bodies[i] = (octree_body){.id = i + 1};
+        bodies[i] = (octree_game_body){.id = i + 1};
         memcpy(bodies[i].position, sample.points[i].position, sizeof bodies[i].position);
         for (int axis = 0; axis < 3; axis++)
             bodies[i].velocity[axis] = random_between(&random, -4, 4);

@@ -79,7 +79,7 @@ static octree_box answer_box(const octree_answer *answer)
 }
 
 /* Widen a box so that it contains a moving point's positions at this tick and at the next tick. */
-static void widen_by_movement(octree_box *box, const octree_body *mover)
+static void widen_by_movement(octree_box *box, const octree_game_body *mover)
 {
     double next[3];
     for (int i = 0; i < 3; i++)

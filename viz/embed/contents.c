@@ -126,7 +126,7 @@ static bool start_point_lists(contents *c)
 
 static octreel_status add_edit(contents *c, const octree_edit *edit, size_t number, octreel_error *error)
 {
-    const octree_body *body = &edit->body;
+    const octree_game_body *body = &edit->body;
     const bool inserts = edit->kind == OCTREE_EDIT_INSERT, removes = edit->kind == OCTREE_EDIT_REMOVE;
     if ((unsigned)edit->kind > OCTREE_EDIT_MOVE)
         return status_refuse(error, OCTREEL_BAD_POINT, "changes[%zu]: unknown kind of edit", number);

@@ -22,9 +22,9 @@ static void set_tick_number(batch *b, uint64_t tick)
 }
 
 /* Returns an array with the points that a batch inserts; the caller frees it. */
-static octree_body *make_bodies(const batch *first)
+static octree_game_body *make_bodies(const batch *first)
 {
-    octree_body *bodies = calloc(first->change_count ? first->change_count : 1, sizeof *bodies);
+    octree_game_body *bodies = calloc(first->change_count ? first->change_count : 1, sizeof *bodies);
     for (size_t i = 0; bodies && i < first->change_count; i++) {
         bodies[i].id = first->changes[i].id;
         memcpy(bodies[i].position, first->changes[i].to, sizeof bodies[i].position);
@@ -44,7 +44,7 @@ static octreel_status film_first_tick(session_filmer *f, const batch *first, con
 {
     const filmer_settings *s = f->settings;
     film_options film = s->film;
-    octree_body *bodies = make_bodies(first);
+    octree_game_body *bodies = make_bodies(first);
     if (!bodies || !edit_order_init(&f->order, &s->tree, first)) {
         free(bodies);
         return refuse_for_memory(f, OCTREEL_NO_MEMORY);

@@ -55,7 +55,7 @@ static cause_points sort_bodies(const octree_session *session, bool velocities)
 {
     cause_points sorted = {malloc((session->body_count + 1) * sizeof *sorted.points), session->body_count};
     for (size_t i = 0; sorted.points && i < sorted.count; i++) {
-        const octree_body *body = &session->bodies[i];
+        const octree_game_body *body = &session->bodies[i];
         sorted.points[i].id = body->id;
         memcpy(sorted.points[i].position, velocities ? body->velocity : body->position, sizeof body->position);
     }

@@ -143,7 +143,7 @@ static double decode_number(number_form form, uint64_t code)
 
 static double number_at(const point_block *b, column_name column, size_t i)
 {
-    const octree_body *body = &b->bodies[i];
+    const octree_game_body *body = &b->bodies[i];
     return column == COLUMN_INTENSITY ? (double)point_values_get(&b->values, body->id).intensity
            : column >= COLUMN_VX      ? body->velocity[column - COLUMN_VX]
                                       : body->position[column - COLUMN_X];

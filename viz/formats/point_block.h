@@ -18,7 +18,7 @@
 typedef struct point_block {
     char title[POINT_BLOCK_TITLE]; /* the name of the cloud */
     octree_address node;           /* the node that is marked in the picture; 0: no node */
-    octree_body *bodies;           /* `count` points in ascending order of their ids; owned */
+    octree_game_body *bodies;      /* `count` points in ascending order of their ids; owned */
     size_t count;
     bool moving;         /* the block has velocities; false: all velocities are zero */
     point_values values; /* colours, intensities and classes of the points; owned */

@@ -25,7 +25,7 @@ static const struct {
     [SESSION_SHAPES] = {offsetof(octree_session, shapes), sizeof(octree_shape)},
     [SESSION_GAPS] = {offsetof(octree_session, gaps), sizeof(octree_gap)},
     [SESSION_FOREIGN] = {offsetof(octree_session, foreign), sizeof(octree_foreign_tree)},
-    [BODIES] = {offsetof(octree_session, bodies), sizeof(octree_body)},
+    [BODIES] = {offsetof(octree_session, bodies), sizeof(octree_game_body)},
 };
 
 static json_counted_array get_session_list(const octree_session *session, int list)

@@ -23,8 +23,8 @@ struct session_items {
 /* ---- Edits -------------------------------------------------------------------------------------------------- */
 
 static const json_member move_members[] = {
-    {"id", &json_uint64, offsetof(octree_body, id), .max = JSON_LARGEST_WHOLE, .required = true},
-    {"position", &json_vector, offsetof(octree_body, position), .required = true},
+    {"id", &json_uint64, offsetof(octree_game_body, id), .max = JSON_LARGEST_WHOLE, .required = true},
+    {"position", &json_vector, offsetof(octree_game_body, position), .required = true},
     {0},
 };
 

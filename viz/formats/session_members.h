@@ -60,7 +60,7 @@ typedef struct session_loader {
     cloud points;
     char note[672]; /* the text for session_file.note */
     session_values values;
-    octree_body *bodies; /* an array of header.session.body_count bodies */
+    octree_game_body *bodies; /* an array of header.session.body_count bodies */
     /* the items of single ticks, and the items of the header */
     session_list lists[SESSION_LISTS], header_lists[SESSION_LISTS];
 } session_loader;

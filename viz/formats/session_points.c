@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const hash_map_item_type by_id = {sizeof(octree_body), hash_map_hash_id, hash_map_ids_equal};
+static const hash_map_item_type by_id = {sizeof(octree_game_body), hash_map_hash_id, hash_map_ids_equal};
 
 uint32_t session_find_body(const session_loader *s, uint64_t id)
 {
@@ -50,7 +50,7 @@ static bool allocate_bodies(json_reader *r, const json_place *at, size_t count)
 /* ---- A list ------------------------------------------------------------------------------------------------- */
 
 /* Reads a row of a point: [x, y, z] or [x, y, z, id], then one value for each of the columns. */
-static bool read_point_row(json_reader *r, json_t *row, const json_place *at, octree_body *body)
+static bool read_point_row(json_reader *r, json_t *row, const json_place *at, octree_game_body *body)
 {
     const session_values *values = &((const session_loader *)r->context)->values;
     const size_t size = json_array_size(row);
@@ -72,7 +72,7 @@ static bool read_point_row(json_reader *r, json_t *row, const json_place *at, oc
 static bool read_point(json_reader *r, json_t *value, const json_place *at, void *into)
 {
     const session_loader *s = r->context;
-    octree_body *body = (octree_body *)into + at->index;
+    octree_game_body *body = (octree_game_body *)into + at->index;
     body->id = find_default_id(s, at->index);
     if (json_is_array(value))
         return read_point_row(r, value, at, body);
@@ -297,7 +297,7 @@ static bool read_points(json_reader *r, json_t *value, const json_place *at, voi
 
 /* Writes a point. A point with a velocity is written as an object, any other point as a row. A velocity of -0 counts
  * as a velocity, so that it is restored exactly. */
-static void write_point(json_writer *w, const octree_body *body)
+static void write_point(json_writer *w, const octree_game_body *body)
 {
     if (json_has_nonzero_byte(body->velocity, sizeof body->velocity)) {
         session_body_codec.write(w, body);

@@ -157,7 +157,7 @@ void session_release_values(session_values *values)
 
 /* A body and its values, which are the members of its JSON object. */
 typedef struct valued_body {
-    octree_body body;
+    octree_game_body body;
     point_value value;
 } valued_body;
 
@@ -177,7 +177,8 @@ const json_member session_body_members[] = {
     {0},
 };
 
-static bool read_body_and_values(json_reader *r, json_t *value, const json_place *at, bool inserted, octree_body *body)
+static bool read_body_and_values(json_reader *r, json_t *value, const json_place *at, bool inserted,
+                                 octree_game_body *body)
 {
     valued_body valued = {.body = *body};
     if (!json_read_members(r, value, at, session_body_members, &valued))
@@ -200,7 +201,7 @@ static bool read_inserted_body(json_reader *r, json_t *value, const json_place *
 
 static void write_body(json_writer *w, const void *from)
 {
-    valued_body valued = {.body = *(const octree_body *)from};
+    valued_body valued = {.body = *(const octree_game_body *)from};
     valued.value = point_values_get(w->context, valued.body.id);
     json_write_object(w, session_body_members, &valued);
 }

@@ -48,7 +48,7 @@ static double clamp(double value, double low, double high)
 
 /* Compute a body's position after a number of ticks. If the body meets the world's bounds earlier, compute the position
  * where it meets the bounds. */
-static void extrapolate(const octree_body *body, const octree_box *world, double ticks, double end[3])
+static void extrapolate(const octree_game_body *body, const octree_box *world, double ticks, double end[3])
 {
     int stops = -1; /* the axis whose bound the body meets first; -1: it meets none */
     for (int i = 0; i < 3; i++) {
@@ -80,7 +80,7 @@ typedef struct arrow_context {
 } arrow_context;
 
 /* Return whether the view's filter shows both the position of a body and its leaf. */
-static bool is_body_shown(const arrow_context *a, const octree_body *body)
+static bool is_body_shown(const arrow_context *a, const octree_game_body *body)
 {
     const view_filter *f = &a->scene->view.filter;
     octree_node leaf;
@@ -90,7 +90,7 @@ static bool is_body_shown(const arrow_context *a, const octree_body *body)
 }
 
 /* Compute the end of a body's arrow. Return false if the arrow would have no length. */
-static bool find_arrow_end(const arrow_context *a, const octree_body *body, double end[3])
+static bool find_arrow_end(const arrow_context *a, const octree_game_body *body, double end[3])
 {
     extrapolate(body, &a->in->world, a->ticks, end);
     return memcmp(body->position, end, sizeof body->position) != 0;
@@ -99,7 +99,7 @@ static bool find_arrow_end(const arrow_context *a, const octree_body *body, doub
 /* Return whether a body gets an arrow: the view shows the body, and the arrow has a length. The exact end of the arrow
  * is computed only if the body may leave the world's bounds, or moves so little that rounding could hide the
  * movement. */
-static bool has_arrow(const arrow_context *a, const octree_body *body)
+static bool has_arrow(const arrow_context *a, const octree_game_body *body)
 {
     const octree_box *world = &a->in->world;
     bool within = true, far = false;
@@ -175,7 +175,7 @@ static void add_velocities(scene *s, const layer_source *in, view_layer layer)
     const uint64_t points = s->tally.one_in - 1;
     const uint64_t sieve = choose_sieve_of_arrows(s, &a, points);
     for (size_t i = 0; i < tick->mover_count; i++) {
-        const octree_body *body = &tick->movers[i];
+        const octree_game_body *body = &tick->movers[i];
         scene_segment arrow = {.id = body->id, .style = make_layer_style(LAYER_VELOCITIES, STROKE_ARROW, 1)};
         if (sieve_rejects_id(sieve, body->id) || !find_arrow_end(&a, body, arrow.ends[1]) || !is_body_shown(&a, body))
             continue;
@@ -201,7 +201,7 @@ static void add_velocity_legend(legend *l, const layer_source *in)
 static void describe_arrow(description *d, const described_element *element)
 {
     for (size_t i = 0; i < d->tick->mover_count; i++) {
-        const octree_body *body = &d->tick->movers[i];
+        const octree_game_body *body = &d->tick->movers[i];
         if (body->id != element->id)
             continue;
         describe_point(d, "the velocity of ", body->id, body->position);

@@ -152,7 +152,7 @@ void film_report(FILE *out, const film_summary *summary, const film_options *opt
 /* Print a world that contains all points, in the form of the member "world" of session.json. */
 static void print_world(FILE *out, const octree_session *session)
 {
-    const octree_body *bodies = session->bodies;
+    const octree_game_body *bodies = session->bodies;
     const octree_box world = find_point_world(bodies->position, sizeof *bodies, session->body_count);
     json_write_box_member(&(json_writer){.out = out}, "world", &world);
 }

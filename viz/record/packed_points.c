@@ -54,7 +54,7 @@ bool are_points_packed(const octree_session *session, const point_values *values
 unsigned char *pack_points_of_session(const octree_session *session, const point_values *values, size_t *packed)
 {
     /* the block is only read here */
-    point_block b = {.bodies = (octree_body *)session->bodies, .count = session->body_count};
+    point_block b = {.bodies = (octree_game_body *)session->bodies, .count = session->body_count};
     if (values)
         b.values = *values;
     for (size_t i = 0; i < b.count; i++)

@@ -19,8 +19,8 @@
 /* ---- Points ----------------------------------------------------------------------------------------------------- */
 
 typedef struct collector {
-    octree_body *rows;     /* rows[id]: the point with this id */
-    unsigned char *stored; /* stored[id]: the tree has a point with this id */
+    octree_game_body *rows; /* rows[id]: the point with this id */
+    unsigned char *stored;  /* stored[id]: the tree has a point with this id */
 } collector;
 
 static octree_walk_order collect_leaf(const octree_node *node, void *context)

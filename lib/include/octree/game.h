@@ -27,11 +27,11 @@ extern "C" {
 
 /* A point of the game. The velocity is in world units per tick. A body with a velocity bounces off the bounds of the
  * world. */
-typedef struct octree_body {
+typedef struct octree_game_body {
     uint64_t id;
     double position[3];
     double velocity[3];
-} octree_body;
+} octree_game_body;
 
 /* Which point the player is, and what moves it. */
 typedef enum octree_player_kind {
@@ -65,7 +65,7 @@ typedef struct octree_edit {
     octree_edit_kind kind;
     /* REMOVE reads only the body's id. MOVE reads its id and position; the body keeps its current velocity, which a
      * bounce may have reversed (octree_tick.movers) */
-    octree_body body;
+    octree_game_body body;
 } octree_edit;
 
 typedef enum octree_shape_kind {
@@ -120,7 +120,7 @@ typedef struct octree_sampled {
 typedef struct octree_session {
     octree_def tree;
     octree_player player;
-    const octree_body *bodies;
+    const octree_game_body *bodies;
     size_t body_count;
     const char *keys; /* a string with one key per tick from tick 1 on, or null */
     /* the minimum number of ticks after tick 0. In a tick for which `keys` has no key, the player waits */
@@ -240,7 +240,7 @@ typedef struct octree_tick {
     size_t shape_count;
     /* the bodies with a velocity, in the same order each time the session is played. A body's velocity is its current
      * velocity, which bounces reverse */
-    const octree_body *movers;
+    const octree_game_body *movers;
     size_t mover_count;
     octree_foreign_state foreign; /* the nodes of the foreign index at this tick */
     /* the reason why the tick is a gap; null if the tick is not a gap. A gap has no events, and its other members keep

@@ -66,7 +66,7 @@ static bool is_moving(const double velocity[3])
 
 /* Add a body whose id is not in use. The motion of the body starts now: at its position, at the tick `tick`. False when
  * there is no memory. */
-static bool bodies_add(bodies *b, arena *memory, const octree_body *body, uint64_t tick)
+static bool bodies_add(bodies *b, arena *memory, const octree_game_body *body, uint64_t tick)
 {
     if (!make_room_in_slots(b, memory, b->items.count + 1))
         return false;
@@ -148,7 +148,7 @@ static double reflect_path(double origin, double velocity, double ticks, double 
 /* Compute the position and the velocity of a body on one axis. The faces of the world reflect the body. When the body
  * is at a face, its velocity already points back into the world. */
 static void compute_body_on_axis(const moving_body *body, const octree_box *world, double ticks, int axis,
-                                 octree_body *now)
+                                 octree_game_body *now)
 {
     const double min = world->min[axis], max = world->max[axis];
     int direction;
@@ -161,9 +161,9 @@ static void compute_body_on_axis(const moving_body *body, const octree_box *worl
 
 /* Compute the position and velocity of a body at a tick. Most bodies have not reached a face of the world yet; a single
  * test without branches recognizes them. */
-static octree_body body_at_tick(const moving_body *body, const octree_box *world, uint64_t tick)
+static octree_game_body body_at_tick(const moving_body *body, const octree_box *world, uint64_t tick)
 {
-    octree_body now = {.id = body->id};
+    octree_game_body now = {.id = body->id};
     const double ticks = (double)(tick - body->since);
     bool within = true;
     for (int i = 0; i < 3; i++) {
@@ -179,7 +179,7 @@ static octree_body body_at_tick(const moving_body *body, const octree_box *world
 /* Restart the motion of a body at the position `place`. The body keeps the velocity that it has at this tick. */
 static void restart_motion(moving_body *body, const octree_box *world, const double place[3], uint64_t tick)
 {
-    const octree_body now = body_at_tick(body, world, tick);
+    const octree_game_body now = body_at_tick(body, world, tick);
     for (int i = 0; i < 3; i++)
         /* A computed velocity of 0 can also mean that the body is too fast to follow. Such a body keeps its stored
          * velocity. */
@@ -260,21 +260,21 @@ bool octree_game_find(const octree_game *game, uint64_t id, octree_point *point)
     return is_player || body;
 }
 
-octree_status game_check_body(const octree_game *game, const octree_body *body)
+octree_status game_check_body(const octree_game *game, const octree_game_body *body)
 {
     if (is_players_id(game, body->id) || bodies_find(&game->bodies, body->id))
         return OCTREE_DUPLICATE;
     return is_finite_position(body->velocity) ? OCTREE_OK : OCTREE_NOT_FINITE;
 }
 
-bool game_add_body(octree_game *game, const octree_body *body, octree_status status)
+bool game_add_body(octree_game *game, const octree_game_body *body, octree_status status)
 {
     if (status == OCTREE_OK)
         return bodies_add(&game->bodies, &game->memory, body, motion_start_tick(game));
     return record_if_refused(game, body->id, status, body->position);
 }
 
-static bool insert_body(octree_game *game, const octree_body *body)
+static bool insert_body(octree_game *game, const octree_game_body *body)
 {
     octree_status status = game_check_body(game, body);
     if (status == OCTREE_OK)
@@ -362,7 +362,7 @@ static void collect_moves_by_velocity(const octree_game *game, motion *m)
         /* Skip bodies at rest: body_at_tick() would turn a coordinate of -0.0 into +0.0. */
         if (!is_moving(body->velocity))
             continue;
-        const octree_body now = body_at_tick(body, &game->session->tree.world, game->tick.number);
+        const octree_game_body now = body_at_tick(body, &game->session->tree.world, game->tick.number);
         if (memcmp(now.position, body->position, sizeof now.position) != 0)
             add_move(m, &game->bodies, i, now.position);
     }
@@ -410,7 +410,7 @@ static void collect_run_of_moves(octree_game *game, const octree_edit *edits, si
     const size_t run = ++game->bodies.runs;
     m->count = 0;
     while (m->count < count) {
-        const octree_body *to = &edits[m->count].body;
+        const octree_game_body *to = &edits[m->count].body;
         moving_body *body = bodies_find(&game->bodies, to->id);
         if (!body || body->run == run)
             break;
@@ -474,7 +474,7 @@ bool game_list_movers(octree_game *game)
         const moving_body *body = &bodies_items(all)[i];
         if (!is_moving(body->velocity))
             continue;
-        octree_body now = body_at_tick(body, &game->session->tree.world, game->tick.number);
+        octree_game_body now = body_at_tick(body, &game->session->tree.world, game->tick.number);
         /* Show the position that the tree stores. The stored position differs from the computed position if a full leaf
          * refused the move. */
         memcpy(now.position, body->position, sizeof now.position);

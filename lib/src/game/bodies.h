@@ -48,11 +48,11 @@ bool game_record_refusal(octree_game *game, uint64_t id, octree_status why, cons
 
 /* Check whether a body can be inserted. Returns DUPLICATE if its id is in use, NOT_FINITE if its velocity is not
  * finite, otherwise OK. */
-octree_status game_check_body(const octree_game *game, const octree_body *body);
+octree_status game_check_body(const octree_game *game, const octree_game_body *body);
 
 /* Add a body after the tree was asked to insert its point and returned `status`. If `status` is OK, the body is added;
  * otherwise a refusal is recorded. False when there is no memory. */
-bool game_add_body(octree_game *game, const octree_body *body, octree_status status);
+bool game_add_body(octree_game *game, const octree_game_body *body, octree_status status);
 
 /* The steps of a tick. game_apply_edits() applies the edits in order. game_move_bodies() moves each body by its
  * velocity. game_list_movers() lists the moving bodies as they are after the tick. All three return false when there is

@@ -18,7 +18,7 @@
     X(visits, visit_count, octree_visit)                                                                               \
     X(hit_leaves, hit_leaf_count, octree_address)                                                                      \
     X(shapes, shape_count, octree_shape)                                                                               \
-    X(movers, mover_count, octree_body)
+    X(movers, mover_count, octree_game_body)
 
 /* All lists that are empty at the start of a tick: GAME_SHOWN_LISTS, the positions that the hits had before the tick
  * (only with swept collisions), and the points and neighbours of all answers. */

@@ -170,7 +170,7 @@ static size_t collect_bodies_of_finite_velocity(octree_game *game, octree_point 
 {
     size_t count = 0;
     for (size_t i = 0; i < game->session->body_count; i++) {
-        const octree_body *body = &game->session->bodies[i];
+        const octree_game_body *body = &game->session->bodies[i];
         if (!is_finite_position(body->velocity))
             continue;
         for (int axis = 0; axis < 3; axis++)
@@ -186,7 +186,7 @@ static size_t collect_bodies_of_finite_velocity(octree_game *game, octree_point 
 static octree_status add_bodies(octree_game *game, const octree_status *statuses)
 {
     for (size_t i = 0; i < game->session->body_count; i++) {
-        const octree_body *body = &game->session->bodies[i];
+        const octree_game_body *body = &game->session->bodies[i];
         octree_status status = game_check_body(game, body);
         if (status == OCTREE_OK)
             status = *statuses;
@@ -221,7 +221,7 @@ octree_status game_load_bodies(octree_game *game)
 
 /* The bodies of the example in the paper. The id of a body is its number in the paper's list. The sixth point of that
  * list, (0, 0, 0), is the player. Three points share one cell of depth 5, so tick 0 refuses one of these points. */
-static const octree_body paper_bodies[] = {
+static const octree_game_body paper_bodies[] = {
     {.id = 1, .position = {-50, -50, 100}},    {.id = 2, .position = {900, -900, -900}},
     {.id = 3, .position = {900, 900, 900}},    {.id = 4, .position = {-100, -100, 100}},
     {.id = 5, .position = {-1, 2, 3}},         {.id = 7, .position = {750, 750, 750}},

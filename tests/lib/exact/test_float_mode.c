@@ -342,13 +342,13 @@ static void fail_all(run *r, const double at[3])
 static void play(run *r)
 {
     octree_session session = octree_session_default();
-    static octree_body bodies[50];
+    static octree_game_body bodies[50];
     session.tree = definition(r, OCTREE_GROW);
     session.player.sweep = true;
     session.player.step = times(40);
     session.player.box_size = times(300);
     for (size_t i = 0; i < 50; i++) {
-        bodies[i] = (octree_body){.id = i + 10, .velocity = {times(1), times(-3), 0}};
+        bodies[i] = (octree_game_body){.id = i + 10, .velocity = {times(1), times(-3), 0}};
         memcpy(bodies[i].position, points[i].position, sizeof bodies[i].position);
     }
     session.bodies = bodies;

@@ -16,7 +16,7 @@
 typedef struct crossing {
     double from[3], step, size;
     char key;
-    octree_body bodies[BODIES];
+    octree_game_body bodies[BODIES];
     octree_edit edits[BODIES];
 } crossing;
 
@@ -31,7 +31,7 @@ static double nudged(double value, int steps)
 
 static void send(crossing *c, size_t i, const double p[3], const double q[3])
 {
-    c->bodies[i] = (octree_body){.id = i};
+    c->bodies[i] = (octree_game_body){.id = i};
     c->edits[i] = (octree_edit){.tick = 1, .kind = OCTREE_EDIT_MOVE, .body = {.id = i}};
     for (int axis = 0; axis < 3; axis++) {
         c->bodies[i].position[axis] = fmin(fmax(p[axis], -DBL_MAX), DBL_MAX);

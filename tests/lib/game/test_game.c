@@ -148,7 +148,8 @@ static void a_step_may_end_on_a_face_but_not_beyond(void **state)
 static void a_step_that_collides_is_taken_back(void **state)
 {
     (void)state;
-    static const octree_body bodies[] = {{.id = 9, .position = {2.5, 0, 0}}, {.id = 3, .position = {2, 0.5, -0.5}}};
+    static const octree_game_body bodies[] = {{.id = 9, .position = {2.5, 0, 0}},
+                                              {.id = 3, .position = {2, 0.5, -0.5}}};
     octree_session session = small_session(bodies, 2);
     octree_game *game = start_game(&session);
     assert_int_equal(play_key(game, 'd')->events, OCTREE_EVENT_MOVED); /* (1, 0, 0): 1.5 away */
@@ -169,7 +170,7 @@ static void a_step_that_collides_is_taken_back(void **state)
 static void a_step_into_a_full_leaf_is_taken_back(void **state)
 {
     (void)state;
-    static const octree_body bodies[] = {{.id = 1, .position = {9, 9, 9}}, {.id = 2, .position = {9, 9, 8}}};
+    static const octree_game_body bodies[] = {{.id = 1, .position = {9, 9, 9}}, {.id = 2, .position = {9, 9, 8}}};
     octree_session session = small_session(bodies, 2);
     session.tree.max_depth = 1;
     for (int axis = 0; axis < 3; axis++)
@@ -311,8 +312,9 @@ static octree_status status_of(const octree_session *session)
 static void create_refuses_bad_trees_ids_options_and_orders(void **state)
 {
     (void)state;
-    static const octree_body twins[] = {{.id = 1}, {.id = 2, .position = {5, 5, 5}}, {.id = 1, .position = {9, 9, 9}}};
-    static const octree_body usurper[] = {{.id = 100, .position = {5, 5, 5}}};
+    static const octree_game_body twins[] = {
+        {.id = 1}, {.id = 2, .position = {5, 5, 5}}, {.id = 1, .position = {9, 9, 9}}};
+    static const octree_game_body usurper[] = {{.id = 100, .position = {5, 5, 5}}};
     static const octree_edit late[] = {{.tick = 2}, {.tick = 1}};
     static const octree_edit odd[] = {{.tick = 1, .kind = (octree_edit_kind)3}};
     static const octree_query back[] = {{.tick = 2, .box = {{0}, {1, 1, 1}}}, {.tick = 1, .box = {{0}, {1, 1, 1}}}};
@@ -406,7 +408,7 @@ static void create_refuses_arrays_that_are_null(void **state)
 static void more_bodies_than_memory_can_be_are_refused(void **state)
 {
     (void)state;
-    static const octree_body one = {.id = 1};
+    static const octree_game_body one = {.id = 1};
     const octree_session session = small_session(&one, SIZE_MAX);
     assert_int_equal(status_of(&session), OCTREE_NO_MEMORY);
 }

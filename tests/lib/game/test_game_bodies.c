@@ -14,7 +14,7 @@ static bool body_is_at(const octree_game *game, uint64_t id, double x, double y,
 static void a_body_moves_by_its_velocity_every_tick_from_tick_one(void **state)
 {
     (void)state;
-    static const octree_body body[] = {{.id = 1, .position = {5, 5, 5}, .velocity = {0.5, -1, 0.25}}};
+    static const octree_game_body body[] = {{.id = 1, .position = {5, 5, 5}, .velocity = {0.5, -1, 0.25}}};
     octree_session session = small_session(body, 1);
     octree_game *game = start_game(&session);
     assert_true(body_is_at(game, 1, 5, 5, 5));
@@ -28,9 +28,9 @@ static void a_body_moves_by_its_velocity_every_tick_from_tick_one(void **state)
 static void a_body_that_meets_the_bounds_is_reflected(void **state)
 {
     (void)state;
-    static const octree_body bodies[] = {{.id = 1, .position = {9, 4, 4}, .velocity = {2, 0, 0}},
-                                         {.id = 2, .position = {-4, -9.5, 4}, .velocity = {0, -1, 0}},
-                                         {.id = 3, .position = {4, 4, 9}, .velocity = {0, 0, 1}}};
+    static const octree_game_body bodies[] = {{.id = 1, .position = {9, 4, 4}, .velocity = {2, 0, 0}},
+                                              {.id = 2, .position = {-4, -9.5, 4}, .velocity = {0, -1, 0}},
+                                              {.id = 3, .position = {4, 4, 9}, .velocity = {0, 0, 1}}};
     octree_session session = small_session(bodies, 3);
     octree_game *game = start_game(&session);
     static const double first[] = {9, 7, 5, 3, 1}, second[] = {-9.5, -8.5, -7.5, -6.5, -5.5},
@@ -49,7 +49,7 @@ static void a_body_of_any_speed_stays_in_the_world(void **state)
     (void)state;
     static const double speeds[] = {19.5, 20, 40, 41, 123.25, 1e6, 1e17, 1e300, 1.7e308};
     for (size_t i = 0; i < sizeof speeds / sizeof speeds[0]; i++) {
-        octree_body body[] = {{.id = 1, .position = {5, -5, 9}, .velocity = {speeds[i], -speeds[i], 0.5}}};
+        octree_game_body body[] = {{.id = 1, .position = {5, -5, 9}, .velocity = {speeds[i], -speeds[i], 0.5}}};
         octree_session session = small_session(body, 1);
         octree_game *game = start_game(&session);
         octree_box world = cube(-10, 10);
@@ -66,9 +66,9 @@ static void a_body_of_any_speed_stays_in_the_world(void **state)
 static void a_body_that_its_leaf_refuses_stays_and_is_told(void **state)
 {
     (void)state;
-    static const octree_body bodies[] = {{.id = 1, .position = {9, 9, 9}},
-                                         {.id = 2, .position = {9, 9, 8}},
-                                         {.id = 3, .position = {-1, 9, 9}, .velocity = {2, 0, 0}}};
+    static const octree_game_body bodies[] = {{.id = 1, .position = {9, 9, 9}},
+                                              {.id = 2, .position = {9, 9, 8}},
+                                              {.id = 3, .position = {-1, 9, 9}, .velocity = {2, 0, 0}}};
     octree_session session = small_session(bodies, 3);
     session.tree.max_depth = 1;
     session.player.position[2] = -5;
@@ -94,8 +94,8 @@ static octree_walk_order find_minus_zero(const octree_node *node, void *context)
 static void a_body_at_rest_keeps_its_bits_while_others_move(void **state)
 {
     (void)state;
-    static const octree_body bodies[] = {{.id = 1, .position = {-0.0, 5, 0}},
-                                         {.id = 2, .position = {5, 5, 5}, .velocity = {1, 0, 0}}};
+    static const octree_game_body bodies[] = {{.id = 1, .position = {-0.0, 5, 0}},
+                                              {.id = 2, .position = {5, 5, 5}, .velocity = {1, 0, 0}}};
     octree_session session = small_session(bodies, 2);
     octree_game *game = start_game(&session);
     size_t found = 0;
@@ -108,7 +108,7 @@ static void a_body_at_rest_keeps_its_bits_while_others_move(void **state)
 static void a_waiting_player_is_hit_and_nothing_is_taken_back(void **state)
 {
     (void)state;
-    static const octree_body body[] = {{.id = 1, .position = {3, 0, 0}, .velocity = {-1, 0, 0}}};
+    static const octree_game_body body[] = {{.id = 1, .position = {3, 0, 0}, .velocity = {-1, 0, 0}}};
     octree_session session = small_session(body, 1);
     octree_game *game = start_game(&session);
     static const unsigned hits[] = {0, 0, 1, 0}; /* at 2, 1, 0, -1 */
@@ -125,13 +125,13 @@ static void a_waiting_player_is_hit_and_nothing_is_taken_back(void **state)
 static void bodies_that_the_tree_refuses_are_refusals_of_tick_zero(void **state)
 {
     (void)state;
-    static const octree_body bodies[] = {{.id = 1, .position = {11, 0, 0}},
-                                         {.id = 2, .position = {NAN, 0, 0}},
-                                         {.id = 3, .position = {5, 5, 5}},
-                                         {.id = 4, .position = {5, 5, 5}},
-                                         {.id = 5, .position = {5, 5, 5}},
-                                         {.id = 6, .position = {-5, 5, 5}, .velocity = {NAN, 0, 0}},
-                                         {.id = 7, .position = {-5, 5, 5}, .velocity = {0, 0, -INFINITY}}};
+    static const octree_game_body bodies[] = {{.id = 1, .position = {11, 0, 0}},
+                                              {.id = 2, .position = {NAN, 0, 0}},
+                                              {.id = 3, .position = {5, 5, 5}},
+                                              {.id = 4, .position = {5, 5, 5}},
+                                              {.id = 5, .position = {5, 5, 5}},
+                                              {.id = 6, .position = {-5, 5, 5}, .velocity = {NAN, 0, 0}},
+                                              {.id = 7, .position = {-5, 5, 5}, .velocity = {0, 0, -INFINITY}}};
     static const octree_status why[] = {OCTREE_OUTSIDE, OCTREE_NOT_FINITE, OCTREE_FULL, OCTREE_NOT_FINITE,
                                         OCTREE_NOT_FINITE};
     static const uint64_t ids[] = {1, 2, 5, 6, 7};
@@ -150,7 +150,7 @@ static void bodies_that_the_tree_refuses_are_refusals_of_tick_zero(void **state)
 static void edits_insert_remove_and_move_by_id(void **state)
 {
     (void)state;
-    static const octree_body bodies[] = {{.id = 1, .position = {5, 5, 5}}};
+    static const octree_game_body bodies[] = {{.id = 1, .position = {5, 5, 5}}};
     static const octree_edit edits[] = {
         {1, OCTREE_EDIT_INSERT, {.id = 7, .position = {-5, 5, 5}}},
         {2, OCTREE_EDIT_MOVE, {.id = 7, .position = {-5, -5, 5}, .velocity = {9, 9, 9}}}, /* not read */
@@ -176,7 +176,7 @@ static void edits_insert_remove_and_move_by_id(void **state)
 static void an_edit_that_cannot_be_made_is_a_refusal(void **state)
 {
     (void)state;
-    static const octree_body bodies[] = {{.id = 1, .position = {5, 5, 5}}};
+    static const octree_game_body bodies[] = {{.id = 1, .position = {5, 5, 5}}};
     static const octree_edit edits[] = {
         {1, OCTREE_EDIT_INSERT, {.id = 1, .position = {-5, 5, 5}}},
         {1, OCTREE_EDIT_INSERT, {.id = 100, .position = {-5, 5, 5}}},
@@ -249,11 +249,11 @@ static void many_edits_that_move_do_the_same_at_once_as_one_by_one(void **state)
 {
     (void)state;
     enum { BODIES = 600, EDITS = 640 };
-    static octree_body bodies[BODIES];
+    static octree_game_body bodies[BODIES];
     static octree_edit edits[2][EDITS];
     uint64_t random = 3;
     for (size_t i = 0; i < EDITS; i++) {
-        octree_body *body = i < BODIES ? &bodies[i] : &(octree_body){.id = 0}, to = {.id = 1000 + i};
+        octree_game_body *body = i < BODIES ? &bodies[i] : &(octree_game_body){.id = 0}, to = {.id = 1000 + i};
         for (int axis = 0; axis < 3; axis++) {
             body->position[axis] = random_between(&random, -10, 10);
             body->velocity[axis] = i % 3 ? random_between(&random, -1, 1) : 0;
@@ -288,7 +288,7 @@ static void many_edits_that_move_do_the_same_at_once_as_one_by_one(void **state)
 static void an_edit_moves_a_body_and_keeps_its_velocity(void **state)
 {
     (void)state;
-    static const octree_body bodies[] = {{.id = 1, .position = {5, 5, 5}, .velocity = {0, 0, 1}}};
+    static const octree_game_body bodies[] = {{.id = 1, .position = {5, 5, 5}, .velocity = {0, 0, 1}}};
     static const octree_edit edits[] = {{2, OCTREE_EDIT_MOVE, {.id = 1, .position = {-5, -5, -5}}}};
     octree_session session = small_session(bodies, 1);
     session.edits = edits;
@@ -306,7 +306,7 @@ static void an_edit_moves_a_body_and_keeps_its_velocity(void **state)
 static void a_body_that_leaves_makes_room_for_a_step_in_the_same_tick(void **state)
 {
     (void)state;
-    static const octree_body bodies[] = {{.id = 1, .position = {1, 0, 0}, .velocity = {0, 4, 0}}};
+    static const octree_game_body bodies[] = {{.id = 1, .position = {1, 0, 0}, .velocity = {0, 4, 0}}};
     octree_session session = small_session(bodies, 1);
     octree_game *game = start_game(&session);
     const octree_tick *tick = play_key(game, 'd');
@@ -318,7 +318,7 @@ static void a_body_that_leaves_makes_room_for_a_step_in_the_same_tick(void **sta
 static void queries_are_asked_at_their_ticks_after_the_step(void **state)
 {
     (void)state;
-    static const octree_body bodies[] = {{.id = 4, .position = {3, 3, 3}}, {.id = 2, .position = {3, 2, 3}}};
+    static const octree_game_body bodies[] = {{.id = 4, .position = {3, 3, 3}}, {.id = 2, .position = {3, 2, 3}}};
     static const octree_query queries[] = {
         {.tick = 0, .kind = OCTREE_QUERY_RANGE, .box = {{3, 0, 3}, {3, 3, 3}}},
         {.tick = 1, .kind = OCTREE_QUERY_NEAREST, .target = {3, 3, 3.25}},
@@ -348,9 +348,9 @@ static void queries_are_asked_at_their_ticks_after_the_step(void **state)
 static void neighbours_come_by_distance_and_then_by_id_without_the_player(void **state)
 {
     (void)state;
-    static const octree_body bodies[] = {{.id = 4, .position = {0, 2, 0}}, {.id = 3, .position = {3, 0, 0}},
-                                         {.id = 7, .position = {0, 0, 2}}, {.id = 5, .position = {2, 0, 0}},
-                                         {.id = 1, .position = {9, 9, 9}}, {.id = 200, .position = {0, 0, 0}}};
+    static const octree_game_body bodies[] = {{.id = 4, .position = {0, 2, 0}}, {.id = 3, .position = {3, 0, 0}},
+                                              {.id = 7, .position = {0, 0, 2}}, {.id = 5, .position = {2, 0, 0}},
+                                              {.id = 1, .position = {9, 9, 9}}, {.id = 200, .position = {0, 0, 0}}};
     static const octree_query queries[] = {{.kind = OCTREE_QUERY_KNEAREST, .at_player = true, .k = 5},
                                            {.kind = OCTREE_QUERY_KNEAREST, .target = {0, 0, 0}, .k = 2},
                                            {.kind = OCTREE_QUERY_KNEAREST, .target = {9, 9, 9}, .k = SIZE_MAX},
@@ -380,7 +380,7 @@ static void neighbours_come_by_distance_and_then_by_id_without_the_player(void *
 static void a_ball_is_closed_and_goes_with_the_player(void **state)
 {
     (void)state;
-    static const octree_body bodies[] = {
+    static const octree_game_body bodies[] = {
         {.id = 4, .position = {0, 3, 4}}, {.id = 2, .position = {5, 0, 0}}, {.id = 9, .position = {6, 0, 0}}};
     static const octree_query queries[] = {
         {.tick = 0, .kind = OCTREE_QUERY_RADIUS, .target = {0, 3, 4}, .radius = 0},
@@ -406,7 +406,7 @@ static void a_ball_is_closed_and_goes_with_the_player(void **state)
 static void n_names_the_nearest_neighbour_but_the_player(void **state)
 {
     (void)state;
-    static const octree_body bodies[] = {{.id = 200, .position = {0, 4, 0}}, {.id = 2, .position = {0, -3, 0}}};
+    static const octree_game_body bodies[] = {{.id = 200, .position = {0, 4, 0}}, {.id = 2, .position = {0, -3, 0}}};
     static const octree_query queries[] = {
         {.tick = OCTREE_EVERY_TICK, .kind = OCTREE_QUERY_NEAREST, .at_player = true}};
     octree_session session = small_session(bodies, 2);
@@ -433,7 +433,7 @@ static void n_names_the_nearest_neighbour_but_the_player(void **state)
 static void a_body_at_the_player_is_its_nearest_neighbour(void **state)
 {
     (void)state;
-    static const octree_body bodies[] = {{.id = 1, .position = {0, 0, 0}}, {.id = 2, .position = {0, 1, 0}}};
+    static const octree_game_body bodies[] = {{.id = 1, .position = {0, 0, 0}}, {.id = 2, .position = {0, 1, 0}}};
     octree_session session = small_session(bodies, 2);
     octree_game *game = start_game(&session);
     const octree_tick *tick = play_key(game, 'n');
@@ -445,7 +445,7 @@ static void a_body_at_the_player_is_its_nearest_neighbour(void **state)
 static void a_thousand_ticks_of_waiting_cost_no_changes(void **state)
 {
     (void)state;
-    static const octree_body bodies[] = {{.id = 1, .position = {5, 5, 5}}};
+    static const octree_game_body bodies[] = {{.id = 1, .position = {5, 5, 5}}};
     octree_session session = small_session(bodies, 1);
     octree_game *game = start_game(&session);
     uint64_t version = octree_version(octree_game_tree(game));

@@ -139,7 +139,7 @@ enum { REGIONS = 60, QUERIES = REGIONS * HABITS * FAULTS * OCTREE_BOUNDS_KINDS }
 static lattice_region regions[QUERIES];
 static octree_query queries[QUERIES];
 static uint64_t ids[QUERIES][POINTS];
-static octree_body bodies[POINTS];
+static octree_game_body bodies[POINTS];
 
 static void make_queries(double scale, octree_precision precision)
 {
@@ -166,7 +166,7 @@ static void judge_lattice(double scale, octree_precision precision)
     for (size_t id = 0; id < POINTS; id++) {
         int at[3];
         lattice_position(id, at);
-        bodies[id] = (octree_body){.id = id, .position = {at[0] * scale, at[1] * scale, at[2] * scale}};
+        bodies[id] = (octree_game_body){.id = id, .position = {at[0] * scale, at[1] * scale, at[2] * scale}};
     }
     make_queries(scale, precision);
     octree_session session = {.tree = define(cube(-8 * scale, 8 * scale), 2, 21, OCTREE_GROW),
@@ -206,7 +206,7 @@ static void judge_agrees_with_a_scan_of_huge_and_tiny_lattices(void **state)
 static octree_game *last_game;
 
 /* The answer of a game to one query, with the judgement of a foreign answer. */
-static const octree_answer *judge_one(const octree_body *all, size_t body_count, double reach, octree_query q,
+static const octree_answer *judge_one(const octree_game_body *all, size_t body_count, double reach, octree_query q,
                                       const uint64_t *named, size_t count)
 {
     q.answered = true;
@@ -235,9 +235,9 @@ static void real_distances_decide_where_rounded_ones_are_equal(void **state)
     assert_true(x * x + y * y == r * r && x * x + y * y + 4 == r * r);
     for (size_t i = 0; i < sizeof scales / sizeof scales[0]; i++) {
         const double s = scales[i];
-        const octree_body all[] = {{.id = 1, .position = {x * s, y * s, 0}},
-                                   {.id = 2, .position = {x * s, y * s, s}},
-                                   {.id = 3, .position = {x * s, y * s, 2 * s}}};
+        const octree_game_body all[] = {{.id = 1, .position = {x * s, y * s, 0}},
+                                        {.id = 2, .position = {x * s, y * s, s}},
+                                        {.id = 3, .position = {x * s, y * s, 2 * s}}};
         octree_query q = {.kind = OCTREE_QUERY_RADIUS, .radius = r * s};
         assert_int_equal(judge_one(all, 3, 2 * r * s, q, IDS(1, 2))->judgement.wrong, OCTREE_WRONG_NONE);
         assert_int_equal(judge_one(all, 3, 2 * r * s, q, IDS(1))->judgement.accepting, OCTREE_BOUNDS_OPEN);
@@ -255,10 +255,10 @@ static void real_distances_decide_where_rounded_ones_are_equal(void **state)
     }
 }
 
-static const octree_body few[] = {{.id = 1, .position = {1, 0, 0}},
-                                  {.id = 2, .position = {0, 2, 0}},
-                                  {.id = 3, .position = {-2, 0, 0}},
-                                  {.id = 4, .position = {3, 0, 0}}};
+static const octree_game_body few[] = {{.id = 1, .position = {1, 0, 0}},
+                                       {.id = 2, .position = {0, 2, 0}},
+                                       {.id = 3, .position = {-2, 0, 0}},
+                                       {.id = 4, .position = {3, 0, 0}}};
 
 static octree_judgement judge_few(octree_query q, const uint64_t *named, size_t count)
 {
@@ -270,9 +270,9 @@ static const octree_query open_ball = {.kind = OCTREE_QUERY_RADIUS, .radius = 2,
 /* Points 1 and 2 are on the boundary only as floats. */
 static void rounded_positions_lie_on_the_boundary(void **state)
 {
-    const octree_body near[] = {{.id = 1, .position = {1 + 0x1p-30, 0, 0}},
-                                {.id = 2, .position = {0, 1 - 0x1p-30, 0}},
-                                {.id = 3, .position = {0, 0, 0.5}}};
+    const octree_game_body near[] = {{.id = 1, .position = {1 + 0x1p-30, 0, 0}},
+                                     {.id = 2, .position = {0, 1 - 0x1p-30, 0}},
+                                     {.id = 3, .position = {0, 0, 0.5}}};
     octree_query q = {.kind = OCTREE_QUERY_RADIUS, .radius = 1 + 0x1p-31, .precision = OCTREE_FLOATS};
     (void)state;
     octree_judgement j = judge_one(near, 3, 10, q, IDS(3))->judgement;

@@ -17,10 +17,10 @@
 #define UNDER(id) .has_parent = true, .parent = (id)
 #define X_BOX(from, to) .box = {{from, -10, -10}, {to, 10, 10}}
 
-static const octree_body bodies[] = {{.id = 1, .position = {-8, 0, 0}},
-                                     {.id = 2, .position = {-2, 0, 0}},
-                                     {.id = 3, .position = {2, 0, 0}},
-                                     {.id = 4, .position = {8, 0, 0}}};
+static const octree_game_body bodies[] = {{.id = 1, .position = {-8, 0, 0}},
+                                          {.id = 2, .position = {-2, 0, 0}},
+                                          {.id = 3, .position = {2, 0, 0}},
+                                          {.id = 4, .position = {8, 0, 0}}};
 
 /* A tree of intervals on x that is right: two halves, of which the left has two leaves. */
 enum { ROOT, LEFT, RIGHT, FAR_LEFT, NEAR_LEFT, NODES };
@@ -341,7 +341,7 @@ static void what_moves_out_of_its_leaf_is_found_when_it_does(void **state)
 static void boxes_of_floats_are_compared_in_floats(void **state)
 {
     (void)state;
-    const octree_body near[] = {{.id = 1, .position = {0.1, 0, 0}}, {.id = 2, .position = {next_up(9), 0, 0}}};
+    const octree_game_body near[] = {{.id = 1, .position = {0.1, 0, 0}}, {.id = 2, .position = {next_up(9), 0, 0}}};
     octree_foreign_node nodes[] = {{.id = 1, .box = {{0.1f, 0, 0}, {9, 0, 0}}, POINTS(1)},
                                    {.id = 2, UNDER(1), .box = {{0.1, 0, 0}, {9, 0, 0}}, POINTS(1)}};
     const octree_foreign_tree tree = {.nodes = nodes, .node_count = 2};

@@ -6,7 +6,7 @@
 
 #include "game_fixture.h"
 
-static const octree_body bodies[] = {{.id = 1, .position = {1, 2, 3}}, {.id = 2, .position = {-5, 0, 5}}};
+static const octree_game_body bodies[] = {{.id = 1, .position = {1, 2, 3}}, {.id = 2, .position = {-5, 0, 5}}};
 static const octree_query asked = {.tick = OCTREE_EVERY_TICK, .kind = OCTREE_QUERY_NEAREST};
 static const octree_edit edits[] = {{.tick = 1, .kind = OCTREE_EDIT_MOVE, .body = {.id = 1, .position = {4, 4, 4}}},
                                     {.tick = 4, .kind = OCTREE_EDIT_REMOVE, .body = {.id = 2}}};

@@ -8,9 +8,9 @@
 
 #define PLAYER 5000
 
-static const octree_body few[] = {{.id = 1, .position = {1, 0, 0}},  {.id = 2, .position = {0, 2, 0}},
-                                  {.id = 3, .position = {-2, 0, 0}}, {.id = 4, .position = {3, 0, 0}},
-                                  {.id = 5, .position = {0, 0, 4}},  {.id = 6, .position = {0, 0, 0}}};
+static const octree_game_body few[] = {{.id = 1, .position = {1, 0, 0}},  {.id = 2, .position = {0, 2, 0}},
+                                       {.id = 3, .position = {-2, 0, 0}}, {.id = 4, .position = {3, 0, 0}},
+                                       {.id = 5, .position = {0, 0, 4}},  {.id = 6, .position = {0, 0, 0}}};
 
 /* The judgement of one answer, about the points above and a player far off; the arrays are good until the next. */
 static octree_game *last_game;
@@ -173,7 +173,7 @@ static void answers_that_cannot_be_judged_are_refused(void **state)
 
 /* Ids of the bodies of a game with this query, judged in floats. Its lists go with the game, but for the first that was
  * missed. */
-static octree_judgement judge_floats(const octree_body *bodies, size_t count, octree_query q, const uint64_t *ids,
+static octree_judgement judge_floats(const octree_game_body *bodies, size_t count, octree_query q, const uint64_t *ids,
                                      size_t id_count)
 {
     q.answered = true;
@@ -202,10 +202,10 @@ static octree_judgement judge_floats(const octree_body *bodies, size_t count, oc
 static void floats_that_coincide_are_left_out(void **state)
 {
     (void)state;
-    const octree_body near[] = {{.id = 3, .position = {2e-6, 0, 0}},
-                                {.id = 1, .position = {1e-50, 0, 0}},
-                                {.id = 2, .position = {0, 1e-50, 0}},
-                                {.id = 4, .position = {7, 0, 0}}};
+    const octree_game_body near[] = {{.id = 3, .position = {2e-6, 0, 0}},
+                                     {.id = 1, .position = {1e-50, 0, 0}},
+                                     {.id = 2, .position = {0, 1e-50, 0}},
+                                     {.id = 4, .position = {7, 0, 0}}};
     octree_query q = {.kind = OCTREE_QUERY_KNEAREST, .k = 1, .skip = OCTREE_SKIP_COINCIDENT};
     octree_judgement j = judge_floats(near + 1, 3, q, NULL, 0);
     assert_true(j.wrong == OCTREE_WRONG_COUNT && j.missing_count == 1 && j.missing[0].id == 4);
@@ -219,7 +219,7 @@ static void floats_that_coincide_are_left_out(void **state)
     q.k = 9; /* more than there are points */
     assert_int_equal(judge_floats(near, 4, q, IDS(3, 4)).wrong, OCTREE_WRONG_NONE);
     assert_int_equal(judge_floats(near, 4, q, IDS(4)).wrong, OCTREE_WRONG_COUNT);
-    const octree_body twins[] = {{.id = 1}, {.id = 2}, {.id = 3}, {.id = 4, .position = {7, 0, 0}}};
+    const octree_game_body twins[] = {{.id = 1}, {.id = 2}, {.id = 3}, {.id = 4, .position = {7, 0, 0}}};
     q.k = 2; /* one is there, and it is not known how far others are */
     assert_int_equal(judge_floats(twins, 4, q, IDS(4)).wrong, OCTREE_WRONG_NONE);
 }
@@ -230,12 +230,12 @@ static void floats_that_coincide_are_left_out(void **state)
 static void the_kth_of_floats_is_nearer_than_all_that_a_ball_left_out(void **state)
 {
     (void)state;
-    const octree_body bodies[] = {{.id = 1, .position = {1.25 - 10 * 0x1p-23, 0, 0}},
-                                  {.id = 2, .position = {2.5 + 4.875 * 0x1p-22, 0, 0}},
-                                  {.id = 3, .position = {0x1.b8b000ep+0, 0x1.d01b48ep+0, 0}},
-                                  {.id = 4, .position = {1e-50, 0, 0}},
-                                  {.id = 5},
-                                  {.id = 6}};
+    const octree_game_body bodies[] = {{.id = 1, .position = {1.25 - 10 * 0x1p-23, 0, 0}},
+                                       {.id = 2, .position = {2.5 + 4.875 * 0x1p-22, 0, 0}},
+                                       {.id = 3, .position = {0x1.b8b000ep+0, 0x1.d01b48ep+0, 0}},
+                                       {.id = 4, .position = {1e-50, 0, 0}},
+                                       {.id = 5},
+                                       {.id = 6}};
     const octree_query at_target = {
         .kind = OCTREE_QUERY_KNEAREST, .k = 4, .answered = true, .precision = OCTREE_FLOATS};
     octree_query queries[] = {at_target, at_target};
@@ -257,10 +257,10 @@ static void the_kth_of_floats_is_nearer_than_all_that_a_ball_left_out(void **sta
 static void floats_are_judged_in_worlds_beyond_them(void **state)
 {
     (void)state;
-    const octree_body far[] = {{.id = 1, .position = {1e300, 0, 0}},
-                               {.id = 2, .position = {1e100, 0, 0}},
-                               {.id = 3, .position = {-1e308, 1e308, 1e308}},
-                               {.id = 4, .position = {1e-320, 0, 0}}};
+    const octree_game_body far[] = {{.id = 1, .position = {1e300, 0, 0}},
+                                    {.id = 2, .position = {1e100, 0, 0}},
+                                    {.id = 3, .position = {-1e308, 1e308, 1e308}},
+                                    {.id = 4, .position = {1e-320, 0, 0}}};
     const uint64_t tied[] = {1, 4}, not [] = {3, 1};
     const octree_query queries[] = {{.kind = OCTREE_QUERY_KNEAREST,
                                      .target = {1e200, 0, 0},
@@ -302,7 +302,7 @@ static void floats_are_judged_in_worlds_beyond_them(void **state)
 static void a_promise_beyond_doubles_is_held_to_it(void **state)
 {
     (void)state;
-    const octree_body far = {.id = 3, .position = {-1e308, 1e308, 1e308}};
+    const octree_game_body far = {.id = 3, .position = {-1e308, 1e308, 1e308}};
     const uint64_t named = 3;
     octree_query q = {.kind = OCTREE_QUERY_RADIUS,
                       .radius = 1e308,

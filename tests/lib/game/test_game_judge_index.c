@@ -17,7 +17,7 @@ typedef enum plant { RIGHT, BOUND, CHILD, ROUNDED, STRICT, SHORT, STALE, PLANTS 
 /* What moves, and the index that answers: points in eight cells about a middle, each with its bounds. */
 typedef struct world_of_points {
     octree_box box;
-    octree_body points[MOST_POINTS];
+    octree_game_body points[MOST_POINTS];
     size_t count;
     octree_point held[2 * MOST_POINTS];
     size_t held_count;

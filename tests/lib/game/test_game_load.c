@@ -12,11 +12,11 @@
 enum { BODIES = 400 };
 
 /* One in a few cannot be in the game; and the id of one that cannot may be used again. */
-static octree_body random_body(uint64_t *random, const octree_body *before, size_t i)
+static octree_game_body random_body(uint64_t *random, const octree_game_body *before, size_t i)
 {
     static const double odd[] = {NAN, INFINITY, -INFINITY, 1.5, -0.0};
     const double strange = odd[random_below(random, 5)];
-    octree_body body = {.id = i + 1};
+    octree_game_body body = {.id = i + 1};
     for (int axis = 0; axis < 3; axis++) /* few places: leaves are full soon, and stay so where they cannot split */
         body.position[axis] = (double)random_below(random, 7) / 4 - 0.75;
     switch (random_below(random, 6)) {
@@ -65,7 +65,7 @@ static void assert_loads_as_inserted(octree_session session)
 
 static void bodies_are_loaded_as_if_one_after_the_other(void **state)
 {
-    static octree_body bodies[BODIES];
+    static octree_game_body bodies[BODIES];
     (void)state;
     for (uint64_t seed = 1; seed <= 60; seed++) {
         uint64_t random = seed;
@@ -81,10 +81,10 @@ static void bodies_are_loaded_as_if_one_after_the_other(void **state)
 
 static void an_id_that_was_refused_can_be_used_again(void **state)
 {
-    const octree_body bodies[] = {{.id = 1, .position = {0, 0, NAN}},
-                                  {.id = 1, .position = {0.5, 0, 0}, .velocity = {0, NAN, 0}},
-                                  {.id = 2, .position = {2, 0, 0}},
-                                  {.id = 1, .position = {0.25, 0, 0}}};
+    const octree_game_body bodies[] = {{.id = 1, .position = {0, 0, NAN}},
+                                       {.id = 1, .position = {0.5, 0, 0}, .velocity = {0, NAN, 0}},
+                                       {.id = 2, .position = {2, 0, 0}},
+                                       {.id = 1, .position = {0.25, 0, 0}}};
     const octree_session session = {.tree = define(cube(-1, 1), 4, 5, OCTREE_REFUSE),
                                     .player = {.kind = OCTREE_PLAYER_NONE},
                                     .bodies = bodies,

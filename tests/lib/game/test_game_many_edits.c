@@ -12,7 +12,7 @@
 enum { BODIES = 600, EDITS = 1500 };
 
 typedef struct script {
-    octree_body bodies[BODIES];
+    octree_game_body bodies[BODIES];
     octree_edit edits[EDITS];
 } script;
 
@@ -29,7 +29,7 @@ static void write_script(script *s, uint64_t seed)
 {
     uint64_t random = seed;
     for (size_t i = 0; i < BODIES; i++) {
-        s->bodies[i] = (octree_body){.id = i};
+        s->bodies[i] = (octree_game_body){.id = i};
         for (int axis = 0; axis < 3; axis++) {
             s->bodies[i].position[axis] = (double)random_below(&random, 33) - 16;
             s->bodies[i].velocity[axis] = i % 2 ? (double)random_below(&random, 5) - 2 : 0;

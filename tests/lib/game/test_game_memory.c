@@ -55,12 +55,12 @@ enum { SWARM = 300 }; /* enough for moves that are made at once */
 static void a_swarm_with_wrong_answers_survives_each_failure(void **state)
 {
     (void)state;
-    static octree_body bodies[SWARM];
+    static octree_game_body bodies[SWARM];
     static octree_edit edits[SWARM];
     static const uint64_t answer[] = {1, 2, 2, 5000};
     uint64_t random = 1;
     for (size_t i = 0; i < SWARM; i++) {
-        bodies[i] = (octree_body){.id = i + 1};
+        bodies[i] = (octree_game_body){.id = i + 1};
         for (int axis = 0; axis < 3; axis++) {
             bodies[i].position[axis] = random_between(&random, -9, 9);
             bodies[i].velocity[axis] = random_between(&random, -3, 3);
@@ -102,10 +102,10 @@ static void a_swarm_with_wrong_answers_survives_each_failure(void **state)
 /* So many bodies on a diagonal that a leaf of 100 lacks room for one: with the player they are the children of one. */
 enum { ROW = 100 };
 
-static octree_session row_session(octree_body row[ROW])
+static octree_session row_session(octree_game_body row[ROW])
 {
     for (size_t i = 0; i < ROW; i++)
-        row[i] = (octree_body){.id = i + 1, .position = {-9 + 0.18 * (double)i, -9 + 0.18 * (double)i, 5}};
+        row[i] = (octree_game_body){.id = i + 1, .position = {-9 + 0.18 * (double)i, -9 + 0.18 * (double)i, 5}};
     return (octree_session){.tree = define(cube(-10, 10), ROW, 8, OCTREE_GROW),
                             .player = {.id = 9999, .position = {-0.5, 9, -9}, .step = 1, .box_size = 0.1},
                             .bodies = row,
@@ -116,7 +116,7 @@ static octree_session row_session(octree_body row[ROW])
 static void what_merges_leaves_survives_each_failure(void **state)
 {
     (void)state;
-    octree_body row[ROW];
+    octree_game_body row[ROW];
     octree_session session = row_session(row);
     const octree_edit edits[] = {{.tick = 3, .kind = OCTREE_EDIT_MOVE, .body = {.id = 1, .position = {9, 9, 9}}},
                                  {.tick = 4, .kind = OCTREE_EDIT_REMOVE, .body = {.id = 2}}};
@@ -130,7 +130,7 @@ static void what_merges_leaves_survives_each_failure(void **state)
 static void a_hit_survives_each_failure(void **state)
 {
     (void)state;
-    octree_body fast = {.id = 1, .position = {8, 0, 0}, .velocity = {-16, 0, 0}};
+    octree_game_body fast = {.id = 1, .position = {8, 0, 0}, .velocity = {-16, 0, 0}};
     octree_session session = {.tree = define(cube(-10, 10), 4, 8, OCTREE_GROW),
                               .player = {.id = 9999, .step = 1, .box_size = 0.5, .sweep = true},
                               .bodies = &fast,
@@ -141,7 +141,7 @@ static void a_hit_survives_each_failure(void **state)
     assert_int_equal(octree_game_tick(game)->hit_count, 1);
     octree_game_destroy(game);
     assert_true(fail_each(&session) > 2);
-    fast = (octree_body){.id = 1, .position = {1, 0, 0}};
+    fast = (octree_game_body){.id = 1, .position = {1, 0, 0}};
     session.player.sweep = false;
     session.keys = "d"; /* into it */
     assert_true(fail_each(&session) > 2);
@@ -150,11 +150,12 @@ static void a_hit_survives_each_failure(void **state)
 static void refusals_by_full_leaves_survive_each_failure(void **state)
 {
     (void)state;
-    static octree_body bodies[SWARM];
+    static octree_game_body bodies[SWARM];
     static octree_edit edits[SWARM];
     for (size_t i = 0; i < SWARM; i++) {
         const double z = 9 - (double)i / SWARM;
-        bodies[i] = (octree_body){.id = i + 1, .position = {i % 2 ? 5 : -5, 5, z}, .velocity = {i % 2 ? 0 : 10, 0, 0}};
+        bodies[i] =
+            (octree_game_body){.id = i + 1, .position = {i % 2 ? 5 : -5, 5, z}, .velocity = {i % 2 ? 0 : 10, 0, 0}};
         edits[i] = (octree_edit){.tick = 2, .kind = OCTREE_EDIT_MOVE, .body = {.id = i + 1, .position = {6, 6, z}}};
     }
     octree_session session = {.tree = define(cube(-10, 10), SWARM / 2, 1, OCTREE_REFUSE),
@@ -193,7 +194,7 @@ static void each_fault_of_nodes_survives_each_failure(void **state)
                 {all, unknown, 5, OCTREE_NODE_UNKNOWN_POINT},
                 {all, twice, 7, OCTREE_NODE_REPEATED_POINT},
                 {all, one, 1, OCTREE_NODE_LOST_POINT}};
-    octree_body row[ROW];
+    octree_game_body row[ROW];
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         octree_foreign_node nodes[NODES] = {rows[i].root};
         for (size_t n = 1; n < NODES; n++)
@@ -231,7 +232,7 @@ static void what_was_pruned_wrongly_survives_each_failure(void **state)
                           .k = 5,
                           .epsilon = 9,
                           .visits = {[OCTREE_NODE_PRUNED] = {pruned, 1}}};
-    octree_body row[ROW];
+    octree_game_body row[ROW];
     octree_session session = row_session(row);
     session.foreign = &tree;
     session.foreign_count = 1;

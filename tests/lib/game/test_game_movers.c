@@ -9,10 +9,10 @@
 #include "game_fixture.h"
 
 /* The one mover with this id, or null. */
-static const octree_body *find_mover(const octree_game *game, uint64_t id)
+static const octree_game_body *find_mover(const octree_game *game, uint64_t id)
 {
     const octree_tick *tick = octree_game_tick(game);
-    const octree_body *found = NULL;
+    const octree_game_body *found = NULL;
     for (size_t i = 0; i < tick->mover_count; i++) {
         if (tick->movers[i].id != id)
             continue;
@@ -24,7 +24,7 @@ static const octree_body *find_mover(const octree_game *game, uint64_t id)
 
 static void assert_moves(const octree_game *game, uint64_t id, double at, double velocity)
 {
-    const octree_body *body = find_mover(game, id);
+    const octree_game_body *body = find_mover(game, id);
     assert_non_null(body);
     assert_true(body->position[0] == at && body->velocity[0] == velocity);
     assert_true(octree_contains(octree_game_tree(game), body->position, id));
@@ -34,10 +34,10 @@ static void assert_moves(const octree_game *game, uint64_t id, double at, double
 static void a_bounce_turns_the_velocity(void **state)
 {
     (void)state;
-    static const octree_body bodies[] = {{.id = 1, .position = {9, 4, 4}, .velocity = {2, 0, 0}},
-                                         {.id = 2, .position = {9, 5, 5}, .velocity = {1, 0, 0}},
-                                         {.id = 3, .position = {-10, 6, 6}, .velocity = {-3, 0, 0}},
-                                         {.id = 4, .position = {7, 7, 7}, .velocity = {39, 0, 0}}};
+    static const octree_game_body bodies[] = {{.id = 1, .position = {9, 4, 4}, .velocity = {2, 0, 0}},
+                                              {.id = 2, .position = {9, 5, 5}, .velocity = {1, 0, 0}},
+                                              {.id = 3, .position = {-10, 6, 6}, .velocity = {-3, 0, 0}},
+                                              {.id = 4, .position = {7, 7, 7}, .velocity = {39, 0, 0}}};
     static const double at[4][3] = {{9, 9, 7}, {9, 10, 9}, {-10, -7, -4}, {7, 6, 5}};
     static const double velocity[4][3] = {{2, -2, -2}, {1, -1, -1}, {3, 3, 3}, {39, 39, 39}};
     octree_session session = small_session(bodies, 4);
@@ -65,10 +65,10 @@ enum { BODIES = 40 };
 static void a_mover_is_next_where_its_velocity_takes_it(void **state)
 {
     (void)state;
-    octree_body bodies[BODIES];
+    octree_game_body bodies[BODIES];
     uint64_t random = 11;
     for (size_t i = 0; i < BODIES; i++) {
-        bodies[i] = (octree_body){.id = i + 1};
+        bodies[i] = (octree_game_body){.id = i + 1};
         for (int axis = 0; axis < 3; axis++) {
             bodies[i].position[axis] = floor(random_between(&random, -40, 40)) / 4;
             bodies[i].velocity[axis] = i % 4 ? floor(random_between(&random, -200, 200)) / 4 : 0;
@@ -78,7 +78,7 @@ static void a_mover_is_next_where_its_velocity_takes_it(void **state)
     session.tree.full_leaf = OCTREE_GROW;
     octree_game *game = start_game(&session);
     for (int tick = 0; tick < 60; tick++) {
-        octree_body before[BODIES];
+        octree_game_body before[BODIES];
         const size_t count = octree_game_tick(game)->mover_count;
         assert_int_equal(count, BODIES / 4 * 3);
         memcpy(before, octree_game_tick(game)->movers, count * sizeof *before);
@@ -96,8 +96,8 @@ static void a_mover_is_next_where_its_velocity_takes_it(void **state)
 static void bodies_at_rest_and_the_player_do_not_move(void **state)
 {
     (void)state;
-    static const octree_body bodies[] = {{.id = 1, .position = {5, 5, 5}},
-                                         {.id = 2, .position = {6, 5, 5}, .velocity = {-0.0, 0, 0}}};
+    static const octree_game_body bodies[] = {{.id = 1, .position = {5, 5, 5}},
+                                              {.id = 2, .position = {6, 5, 5}, .velocity = {-0.0, 0, 0}}};
     octree_session session = small_session(bodies, 2);
     octree_game *game = start_game(&session);
     assert_int_equal(octree_game_tick(game)->mover_count, 0);
@@ -109,7 +109,7 @@ static void bodies_at_rest_and_the_player_do_not_move(void **state)
 static void a_body_too_fast_to_follow_is_at_rest(void **state)
 {
     (void)state;
-    static const octree_body body[] = {{.id = 3, .position = {7, 5, 5}, .velocity = {0, 1.7e308, 0}}};
+    static const octree_game_body body[] = {{.id = 3, .position = {7, 5, 5}, .velocity = {0, 1.7e308, 0}}};
     octree_session session = small_session(body, 1);
     octree_game *game = start_game(&session);
     assert_non_null(find_mover(game, 3));
@@ -144,7 +144,7 @@ static void edits_begin_and_end_motion(void **state)
 enum { BOUNCING = 4 };
 
 /* Where a tick after `before` a body must be that an edit has put here. */
-static void assert_goes_on(const octree_game *game, const octree_body *before, const double put[3])
+static void assert_goes_on(const octree_game *game, const octree_game_body *before, const double put[3])
 {
     double next[3];
     for (int axis = 0; axis < 3; axis++)
@@ -156,10 +156,10 @@ static void assert_goes_on(const octree_game *game, const octree_body *before, c
 static void a_move_undoes_no_bounce(void **state)
 {
     (void)state;
-    static const octree_body bodies[BOUNCING] = {{.id = 1, .position = {5, 5, 9}, .velocity = {0, 0, 2}},
-                                                 {.id = 2, .position = {9, 0, -9}, .velocity = {2, 0.5, -3}},
-                                                 {.id = 3, .position = {9, 3, 3}, .velocity = {1, 0, 0}},
-                                                 {.id = 4, .position = {0, 4, 0}, .velocity = {39, 0, 0}}};
+    static const octree_game_body bodies[BOUNCING] = {{.id = 1, .position = {5, 5, 9}, .velocity = {0, 0, 2}},
+                                                      {.id = 2, .position = {9, 0, -9}, .velocity = {2, 0.5, -3}},
+                                                      {.id = 3, .position = {9, 3, 3}, .velocity = {1, 0, 0}},
+                                                      {.id = 4, .position = {0, 4, 0}, .velocity = {39, 0, 0}}};
     octree_edit edits[BOUNCING];
     for (size_t i = 0; i < BOUNCING; i++)
         edits[i] = (octree_edit){0, OCTREE_EDIT_MOVE, {.id = bodies[i].id, .position = {1, 2, -3}}};
@@ -169,7 +169,7 @@ static void a_move_undoes_no_bounce(void **state)
         octree_game *game = start_game(&session);
         for (uint64_t tick = 0; tick < when; tick++)
             play_key(game, '.');
-        octree_body before[BOUNCING];
+        octree_game_body before[BOUNCING];
         for (size_t i = 0; i < BOUNCING; i++)
             before[i] = *find_mover(game, bodies[i].id);
         const octree_input input = {.edits = edits, .edit_count = BOUNCING};
@@ -184,7 +184,7 @@ static void a_move_undoes_no_bounce(void **state)
 static void a_move_lets_a_body_go_on_that_was_too_fast_to_follow(void **state)
 {
     (void)state;
-    static const octree_body body[] = {{.id = 3, .position = {7, 5, 5}, .velocity = {0, 1.7e308, 0}}};
+    static const octree_game_body body[] = {{.id = 3, .position = {7, 5, 5}, .velocity = {0, 1.7e308, 0}}};
     static const octree_edit move = {0, OCTREE_EDIT_MOVE, {.id = 3, .position = {1, 2, 3}}};
     octree_session session = small_session(body, 1);
     octree_game *game = start_game(&session);
@@ -198,9 +198,9 @@ static void a_move_lets_a_body_go_on_that_was_too_fast_to_follow(void **state)
 static void a_body_that_its_leaf_refuses_is_told_where_it_stays(void **state)
 {
     (void)state;
-    static const octree_body bodies[] = {{.id = 1, .position = {9, 9, 9}},
-                                         {.id = 2, .position = {9, 9, 8}},
-                                         {.id = 3, .position = {-1, 9, 9}, .velocity = {2, 0, 0}}};
+    static const octree_game_body bodies[] = {{.id = 1, .position = {9, 9, 9}},
+                                              {.id = 2, .position = {9, 9, 8}},
+                                              {.id = 3, .position = {-1, 9, 9}, .velocity = {2, 0, 0}}};
     octree_session session = small_session(bodies, 3);
     session.tree.max_depth = 1;
     session.player.position[2] = -5;
@@ -213,10 +213,10 @@ static void a_body_that_its_leaf_refuses_is_told_where_it_stays(void **state)
 static void the_fastest_body_is_known_from_the_start(void **state)
 {
     (void)state;
-    static const octree_body bodies[] = {{.id = 1, .position = {1, 1, 1}},
-                                         {.id = 2, .position = {2, 2, 2}, .velocity = {1, -7, 2}},
-                                         {.id = 3, .position = {3, 3, 3}, .velocity = {NAN, 50, 0}},
-                                         {.id = 4, .position = {4, 4, 4}, .velocity = {0, 0, -INFINITY}}};
+    static const octree_game_body bodies[] = {{.id = 1, .position = {1, 1, 1}},
+                                              {.id = 2, .position = {2, 2, 2}, .velocity = {1, -7, 2}},
+                                              {.id = 3, .position = {3, 3, 3}, .velocity = {NAN, 50, 0}},
+                                              {.id = 4, .position = {4, 4, 4}, .velocity = {0, 0, -INFINITY}}};
     const double fastest[] = {0, 7, 7, 7};
     for (size_t count = 1; count <= 4; count++) {
         octree_session session = small_session(bodies, count);
@@ -232,7 +232,7 @@ static void many_bodies_move_as_one_by_one(void **state)
 {
     (void)state;
     enum { COUNT = 700, TICKS = 12 };
-    static octree_body bodies[COUNT];
+    static octree_game_body bodies[COUNT];
     static double stored[COUNT][3];
     uint64_t random = 4;
     for (int i = 0; i < COUNT; i++) {
@@ -286,7 +286,7 @@ static void a_reflected_body_stays_in_the_world_to_the_last_bit(void **state)
                 {-0.4, 0.18, 0.18, 5.551115123125783e-17, 0.18},
                 {-0.7, 0.05, 0.05, 6.938893903907228e-18, 0.05}};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-        const octree_body body = {.id = 1, .position = {rows[i].from, 0.01, 0.01}, .velocity = {rows[i].velocity}};
+        const octree_game_body body = {.id = 1, .position = {rows[i].from, 0.01, 0.01}, .velocity = {rows[i].velocity}};
         octree_session session = small_session(&body, 1);
         session.player.kind = OCTREE_PLAYER_NONE;
         session.tree.world.min[0] = rows[i].min;

@@ -106,7 +106,7 @@ static void a_hundred_random_sessions_play_as_in_the_paper(void **state)
 }
 
 /* A world of one leaf that holds one point beside the player, with the player next to it. */
-static octree_session crowded_session(const octree_body *body)
+static octree_session crowded_session(const octree_game_body *body)
 {
     octree_session session = {.tree = define(cube(-8, 8), 2, 0, OCTREE_REFUSE)};
     session.player = (octree_player){.id = 100, .position = {-1, 0, 0}, .step = 1, .box_size = 0.5};
@@ -131,7 +131,7 @@ static paper_octree tree_without_player(const octree_session *session, size_t ca
 static void at_fault_the_paper_steps_onto_a_point_in_a_full_leaf_and_deletes_it(void **state)
 {
     (void)state;
-    static const octree_body body[] = {{.id = 1, .position = {0, 0, 0}}};
+    static const octree_game_body body[] = {{.id = 1, .position = {0, 0, 0}}};
     octree_session session = crowded_session(body);
     paper_octree octree = tree_without_player(&session, 1); /* full without the player */
     const octree_point step_end = {{0, 0, 0}, 100};
@@ -149,7 +149,7 @@ static void at_fault_the_paper_steps_onto_a_point_in_a_full_leaf_and_deletes_it(
 static void at_fault_the_paper_does_not_name_a_neighbour_at_the_player(void **state)
 {
     (void)state;
-    static const octree_body body[] = {{.id = 1, .position = {-1, 0, 0}}};
+    static const octree_game_body body[] = {{.id = 1, .position = {-1, 0, 0}}};
     octree_session session = crowded_session(body);
     octree_game *game = start_game(&session);
     paper_game theirs;
@@ -165,7 +165,7 @@ static void at_fault_a_rounded_box_collides_where_the_real_one_does_not(void **s
 {
     (void)state;
     /* The double 0.1 + 0.2 is more than 0.2 away from 0.1; the rounded corner of Equation 4 lies exactly on it. */
-    static const octree_body body[] = {{.id = 1, .position = {0.1 + 0.2, 0, 0}}};
+    static const octree_game_body body[] = {{.id = 1, .position = {0.1 + 0.2, 0, 0}}};
     octree_session session = crowded_session(body);
     session.player = (octree_player){.id = 100, .position = {0.1, 0, 0}, .step = 1, .box_size = 0.2};
     octree_game *game = start_game(&session);

@@ -17,7 +17,7 @@ static const octree_tick *play(octree_game *game)
 }
 
 /* The small session with an id for its player that a body has, while there is one. */
-static octree_session led_session(const octree_body *bodies, size_t body_count, const octree_edit *edits,
+static octree_session led_session(const octree_game_body *bodies, size_t body_count, const octree_edit *edits,
                                   size_t edit_count)
 {
     octree_session session = small_session(bodies, body_count);
@@ -31,7 +31,7 @@ static octree_session led_session(const octree_body *bodies, size_t body_count, 
 static void without_a_player_nothing_steps_collides_or_is_asked_about_it(void **state)
 {
     (void)state;
-    static const octree_body bodies[] = {{.id = 0, .position = {1, 1, 1}}, {.id = 2, .position = {1, 1, 1.25}}};
+    static const octree_game_body bodies[] = {{.id = 0, .position = {1, 1, 1}}, {.id = 2, .position = {1, 1, 1.25}}};
     static const octree_query queries[] = {
         {.tick = OCTREE_EVERY_TICK, .kind = OCTREE_QUERY_NEAREST, .at_player = true},
         {.tick = OCTREE_EVERY_TICK, .kind = OCTREE_QUERY_NEAREST, .target = {1, 1, 0}}};
@@ -57,7 +57,7 @@ static void without_a_player_nothing_steps_collides_or_is_asked_about_it(void **
 static void a_player_that_is_a_body_comes_moves_and_goes_by_edits(void **state)
 {
     (void)state;
-    static const octree_body bodies[] = {{.id = 2, .position = {3, 0, 0}}};
+    static const octree_game_body bodies[] = {{.id = 2, .position = {3, 0, 0}}};
     static const octree_edit edits[] = {{1, OCTREE_EDIT_INSERT, {.id = 1, .position = {-3, 0, 0}}},
                                         {2, OCTREE_EDIT_MOVE, {.id = 1, .position = {2.75, 0, 0}}},
                                         {3, OCTREE_EDIT_REMOVE, {.id = 1}},
@@ -86,7 +86,7 @@ static void a_player_that_is_a_body_comes_moves_and_goes_by_edits(void **state)
 static void keys_do_not_move_a_player_that_is_a_body(void **state)
 {
     (void)state;
-    static const octree_body bodies[] = {{.id = 1, .position = {1, 2, 3}}, {.id = 2, .position = {5, 5, 5}}};
+    static const octree_game_body bodies[] = {{.id = 1, .position = {1, 2, 3}}, {.id = 2, .position = {5, 5, 5}}};
     octree_session session = led_session(bodies, 2, NULL, 0);
     session.player.step = 1;
     octree_game *game = start_game(&session);
@@ -103,7 +103,7 @@ static void keys_do_not_move_a_player_that_is_a_body(void **state)
 static void a_swept_player_that_an_edit_moves_misses_nothing_on_its_way(void **state)
 {
     (void)state;
-    static const octree_body bodies[] = {
+    static const octree_game_body bodies[] = {
         {.id = 1, .position = {-9, 0, 0}}, {.id = 2, .position = {0, 0.25, 0}}, {.id = 3, .position = {0, 2, 0}}};
     static const octree_edit edits[] = {{1, OCTREE_EDIT_MOVE, {.id = 1, .position = {9, 0, 0}}},
                                         {2, OCTREE_EDIT_REMOVE, {.id = 1}},

@@ -61,11 +61,11 @@ static void assert_same_answers(const octree_answer *a, const octree_answer *b)
 }
 
 /* Thirty bodies about the player of game_fixture.h. */
-static void scatter(octree_body bodies[30])
+static void scatter(octree_game_body bodies[30])
 {
     uint64_t random = 3;
     for (uint64_t i = 0; i < 30; i++) {
-        bodies[i] = (octree_body){.id = i};
+        bodies[i] = (octree_game_body){.id = i};
         for (int axis = 0; axis < 3; axis++)
             bodies[i].position[axis] = random_between(&random, -9, 9);
     }
@@ -74,7 +74,7 @@ static void scatter(octree_body bodies[30])
 static void every_kind_is_answered_outside_a_game_as_in_one(void **state)
 {
     (void)state;
-    octree_body bodies[30];
+    octree_game_body bodies[30];
     octree_query queries[2 * OCTREE_QUERY_KINDS];
     scatter(bodies);
     for (int i = 0; i < 2 * OCTREE_QUERY_KINDS; i++)
@@ -129,7 +129,7 @@ static void assert_left_out(const octree_query *query, const octree_answer *full
 /* A tree of scattered points, one of them at the place that the queries name. */
 static octree *scattered_tree(void)
 {
-    octree_body bodies[30];
+    octree_game_body bodies[30];
     octree *tree = make_tree(cube(-10, 10), 2, 8, OCTREE_GROW);
     scatter(bodies);
     memcpy(bodies[11].position, (const double[3]){1, -1, 0.5}, sizeof bodies[11].position);
@@ -171,7 +171,7 @@ static void a_query_of_any_kind_leaves_out_what_it_skips(void **state)
 static void a_query_with_a_skip_and_an_epsilon_is_answered_as_the_library_does(void **state)
 {
     (void)state;
-    octree_body bodies[30];
+    octree_game_body bodies[30];
     scatter(bodies);
     const octree_query queries[] = {
         {.kind = OCTREE_QUERY_KNEAREST,
@@ -229,7 +229,7 @@ static void a_skip_or_epsilon_that_cannot_be_is_refused(void **state)
 static octree *counted_tree(counting_allocator *counts)
 {
     octree *tree = make_counted_tree(counts, cube(-10, 10), 2, 8, OCTREE_GROW);
-    octree_body bodies[30];
+    octree_game_body bodies[30];
     scatter(bodies);
     for (int i = 0; i < 30; i++)
         assert_int_equal(octree_insert(tree, bodies[i].position, bodies[i].id), OCTREE_OK);

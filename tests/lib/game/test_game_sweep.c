@@ -9,7 +9,7 @@
 #include "game_fixture.h"
 
 /* A world of +-1000, and a player of box 30 and step 60 in its middle, id 100. */
-static octree_session wide_session(const octree_body *bodies, size_t count, bool sweep)
+static octree_session wide_session(const octree_game_body *bodies, size_t count, bool sweep)
 {
     octree_session session = small_session(bodies, count);
     session.tree.world = cube(-1000, 1000);
@@ -49,7 +49,7 @@ static void a_session_is_swept_only_when_it_says_so(void **state)
 static void a_point_that_both_ends_miss_is_met_on_the_way(void **state)
 {
     (void)state;
-    static const octree_body body = {.id = 1, .position = {45, 15, 0}, .velocity = {0, -60, 0}};
+    static const octree_game_body body = {.id = 1, .position = {45, 15, 0}, .velocity = {0, -60, 0}};
     for (int sweep = 0; sweep < 2; sweep++) {
         const octree_session session = wide_session(&body, 1, sweep);
         octree_game *game = start_game(&session);
@@ -71,9 +71,10 @@ static void a_point_that_both_ends_miss_is_met_on_the_way(void **state)
 static void a_thin_wall_stops_a_long_step(void **state)
 {
     (void)state;
-    octree_body wall[81];
+    octree_game_body wall[81];
     for (size_t i = 0; i < 81; i++)
-        wall[i] = (octree_body){.id = i, .position = {100, 60 * (double)(i / 9) - 217, 60 * (double)(i % 9) - 251}};
+        wall[i] =
+            (octree_game_body){.id = i, .position = {100, 60 * (double)(i / 9) - 217, 60 * (double)(i % 9) - 251}};
     for (int sweep = 0; sweep < 2; sweep++) {
         octree_session session = wide_session(wall, 81, sweep);
         session.tree.full_leaf = OCTREE_GROW;
@@ -93,9 +94,9 @@ static void a_thin_wall_stops_a_long_step(void **state)
 static void a_bullet_through_a_waiting_player_is_told(void **state)
 {
     (void)state;
-    static const octree_body bullets[] = {{.id = 9, .position = {-100, 30, 0}, .velocity = {200, 0, 0}},
-                                          {.id = 3, .position = {0, 10, 500}, .velocity = {0, 0, -900}},
-                                          {.id = 5, .position = {-100, 31, 0}, .velocity = {200, 0, 0}}};
+    static const octree_game_body bullets[] = {{.id = 9, .position = {-100, 30, 0}, .velocity = {200, 0, 0}},
+                                               {.id = 3, .position = {0, 10, 500}, .velocity = {0, 0, -900}},
+                                               {.id = 5, .position = {-100, 31, 0}, .velocity = {200, 0, 0}}};
     const octree_session session = wide_session(bullets, 3, true);
     octree_game *game = start_game(&session);
     const octree_tick *tick = play_key(game, '.');
@@ -111,7 +112,7 @@ static void a_bullet_through_a_waiting_player_is_told(void **state)
 static void a_body_that_arrives_behind_the_player_is_not_met(void **state)
 {
     (void)state;
-    static const octree_body body = {.id = 1, .position = {40, 100, 0}, .velocity = {-40, -100, 0}};
+    static const octree_game_body body = {.id = 1, .position = {40, 100, 0}, .velocity = {-40, -100, 0}};
     octree_session session = wide_session(&body, 1, true);
     session.player.step = 200;
     octree_game *game = start_game(&session);
@@ -125,7 +126,7 @@ static void a_body_that_arrives_behind_the_player_is_not_met(void **state)
 static void companions_of_one_velocity_never_meet(void **state)
 {
     (void)state;
-    octree_body companion = {.id = 1, .position = {0, 0, next_up(30)}, .velocity = {60, 0, 0}};
+    octree_game_body companion = {.id = 1, .position = {0, 0, next_up(30)}, .velocity = {60, 0, 0}};
     octree_session session = wide_session(&companion, 1, true);
     octree_game *game = start_game(&session);
     for (int i = 0; i < 10; i++)
@@ -142,7 +143,7 @@ static void companions_of_one_velocity_never_meet(void **state)
 static void an_edit_that_moves_is_a_motion_and_one_that_inserts_is_none(void **state)
 {
     (void)state;
-    static const octree_body bodies[] = {{.id = 1, .position = {-100, 0, 0}}, {.id = 2, .position = {-100, 1, 0}}};
+    static const octree_game_body bodies[] = {{.id = 1, .position = {-100, 0, 0}}, {.id = 2, .position = {-100, 1, 0}}};
     static const octree_edit edits[] = {
         {1, OCTREE_EDIT_MOVE, {.id = 1, .position = {100, 0, 0}}},
         {1, OCTREE_EDIT_REMOVE, {.id = 2}},
@@ -173,8 +174,8 @@ static void an_edit_that_moves_is_a_motion_and_one_that_inserts_is_none(void **s
 static void ways_are_straight_from_tick_to_tick(void **state)
 {
     (void)state;
-    static const octree_body bodies[] = {{.id = 1, .position = {-100, 100, 0}, .velocity = {200, 0, 0}},
-                                         {.id = 2, .position = {990, 0, 500}, .velocity = {30, 0, 0}}};
+    static const octree_game_body bodies[] = {{.id = 1, .position = {-100, 100, 0}, .velocity = {200, 0, 0}},
+                                              {.id = 2, .position = {990, 0, 500}, .velocity = {30, 0, 0}}};
     static const octree_edit edits[] = {{1, OCTREE_EDIT_MOVE, {.id = 1, .position = {-100, -100, 0}}}};
     octree_session session = wide_session(bodies, 2, true);
     session.edits = edits;
@@ -195,9 +196,9 @@ static void ways_are_straight_from_tick_to_tick(void **state)
 static void a_step_that_a_full_leaf_refuses_is_a_wait(void **state)
 {
     (void)state;
-    static const octree_body bodies[] = {{.id = 1, .position = {9, 9, 9}},
-                                         {.id = 2, .position = {9, 9, 8}},
-                                         {.id = 3, .position = {-1.375, 0.25, -9}, .velocity = {0, 0, 18}}};
+    static const octree_game_body bodies[] = {{.id = 1, .position = {9, 9, 9}},
+                                              {.id = 2, .position = {9, 9, 8}},
+                                              {.id = 3, .position = {-1.375, 0.25, -9}, .velocity = {0, 0, 18}}};
     octree_session session = small_session(bodies, 3);
     session.tree.max_depth = 1;
     session.player.position[0] = -1;
@@ -214,9 +215,9 @@ static void a_step_that_a_full_leaf_refuses_is_a_wait(void **state)
 static void a_body_whose_motion_is_refused_is_at_rest(void **state)
 {
     (void)state;
-    static const octree_body bodies[] = {{.id = 1, .position = {9, 9, 9}},
-                                         {.id = 2, .position = {9, 9, 8}},
-                                         {.id = 3, .position = {-2, 1, 1}, .velocity = {4, 0, 0}}};
+    static const octree_game_body bodies[] = {{.id = 1, .position = {9, 9, 9}},
+                                              {.id = 2, .position = {9, 9, 8}},
+                                              {.id = 3, .position = {-2, 1, 1}, .velocity = {4, 0, 0}}};
     octree_session session = small_session(bodies, 3);
     session.tree.max_depth = 1;
     session.player.position[2] = -0.25; /* its box reaches the way of the third body, and not where that stays */
@@ -233,7 +234,7 @@ static void a_body_whose_motion_is_refused_is_at_rest(void **state)
 static void nothing_overflows_in_the_largest_world(void **state)
 {
     (void)state;
-    static const octree_body bodies[] = {
+    static const octree_game_body bodies[] = {
         {.id = 1, .position = {-DBL_MAX, -DBL_MAX, -DBL_MAX}, .velocity = {0}}, /* moved by the edit: hits */
         {.id = 2, .position = {-DBL_MAX, DBL_MAX, 0}},                          /* moved by the edit: passes by */
         {.id = 3, .position = {DBL_MAX / 2, 0, 0}},                             /* in the way of the step */

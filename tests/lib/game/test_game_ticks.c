@@ -33,7 +33,7 @@ static const octree_point *find_id(const brute *all, uint64_t id)
 }
 
 /* Whether the tree did not take a body where an edit puts it. */
-static bool is_refused(const octree_tick *tick, const octree_body *body)
+static bool is_refused(const octree_tick *tick, const octree_game_body *body)
 {
     for (size_t i = 0; i < tick->refusal_count; i++)
         if (tick->refusals[i].id == body->id && tick->refusals[i].why != OCTREE_DUPLICATE &&

@@ -17,7 +17,7 @@ enum { BODIES = 6000, INSERTED = 6000, EDITS = 6000, TICKS = 60 };
 typedef struct crowd_game {
     octree_game *game;
     uint64_t random;
-    octree_body bodies[BODIES + INSERTED];
+    octree_game_body bodies[BODIES + INSERTED];
     size_t count;
     uint64_t next_id;
     octree_edit edits[EDITS];
@@ -55,16 +55,16 @@ static void start_crowd(crowd_game *c, uint64_t seed, size_t capacity, double sp
     *c = (crowd_game){.random = seed, .count = count, .next_id = count + 1};
     assert_int_equal(octree_sample(OCTREE_SAMPLE_CLUSTERED, seed, &session.tree.world, count, positions), OCTREE_OK);
     for (size_t i = 0; i < count; i++) {
-        c->bodies[i] = (octree_body){.id = i + 1, .velocity = {i % 100 ? 0 : speed, 0, 0}};
+        c->bodies[i] = (octree_game_body){.id = i + 1, .velocity = {i % 100 ? 0 : speed, 0, 0}};
         memcpy(c->bodies[i].position, positions[i], sizeof positions[i]);
     }
     c->game = start_game(&session);
     assert_told(c);
 }
 
-static octree_body random_body(crowd_game *c, const double about[3], double reach)
+static octree_game_body random_body(crowd_game *c, const double about[3], double reach)
 {
-    octree_body body = {.id = c->next_id++};
+    octree_game_body body = {.id = c->next_id++};
     for (int i = 0; i < 3; i++)
         body.position[i] = fmin(fmax(about[i] + random_between(&c->random, -reach, reach), -100), 100);
     return body;
@@ -74,7 +74,7 @@ static void insert_near(crowd_game *c, size_t count, double reach)
 {
     const double about[3] = {random_between(&c->random, -90, 90), random_between(&c->random, -90, 90), 5};
     for (size_t i = 0; i < count && c->count < BODIES + INSERTED && c->edit_count < EDITS; i++) {
-        const octree_body body = random_body(c, about, reach);
+        const octree_game_body body = random_body(c, about, reach);
         c->edits[c->edit_count++] = (octree_edit){.kind = OCTREE_EDIT_INSERT, .body = body};
         c->bodies[c->count++] = body;
     }
@@ -92,8 +92,8 @@ static void remove_some(crowd_game *c, size_t count)
 static void move_some(crowd_game *c, size_t count, double reach)
 {
     for (size_t i = 0; i < count && c->count > 0 && c->edit_count < EDITS; i++) {
-        octree_body *body = &c->bodies[random_below(&c->random, c->count)];
-        const octree_body moved = random_body(c, body->position, reach);
+        octree_game_body *body = &c->bodies[random_below(&c->random, c->count)];
+        const octree_game_body moved = random_body(c, body->position, reach);
         memcpy(body->position, moved.position, sizeof body->position);
         c->edits[c->edit_count++] = (octree_edit){.kind = OCTREE_EDIT_MOVE, .body = *body};
     }

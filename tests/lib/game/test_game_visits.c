@@ -72,7 +72,7 @@ enum { BODIES = 2000 };
 static void ticks_among_many_points_tell_what_a_recount_finds(void **state)
 {
     (void)state;
-    static octree_body bodies[BODIES];
+    static octree_game_body bodies[BODIES];
     static double positions[BODIES][3];
     static const octree_query queries[] = {
         {.tick = OCTREE_EVERY_TICK, .kind = OCTREE_QUERY_RANGE, .at_player = true, .box = {{-3, -4, -5}, {5.5, 4, 3}}},
@@ -89,7 +89,7 @@ static void ticks_among_many_points_tell_what_a_recount_finds(void **state)
     session.query_count = sizeof queries / sizeof queries[0];
     assert_int_equal(octree_sample(OCTREE_SAMPLE_CLUSTERED, 9, &session.tree.world, BODIES, positions), OCTREE_OK);
     for (size_t i = 0; i < BODIES; i++) {
-        bodies[i] = (octree_body){.id = i + 1000};
+        bodies[i] = (octree_game_body){.id = i + 1000};
         memcpy(bodies[i].position, positions[i], sizeof positions[i]);
     }
     shown met = {{0}, 0, 0};
@@ -101,10 +101,10 @@ static void ticks_among_many_points_tell_what_a_recount_finds(void **state)
  * clear of all, so that its own test visits the root and 3, and prunes the others. */
 static octree_session three_levels(void)
 {
-    static const octree_body bodies[] = {{.id = 1, .position = {-6, -6, -6}},
-                                         {.id = 2, .position = {-2, -2, -2}},
-                                         {.id = 3, .position = {6, 6, 6}},
-                                         {.id = 4, .position = {6, -6, -6}}};
+    static const octree_game_body bodies[] = {{.id = 1, .position = {-6, -6, -6}},
+                                              {.id = 2, .position = {-2, -2, -2}},
+                                              {.id = 3, .position = {6, 6, 6}},
+                                              {.id = 4, .position = {6, -6, -6}}};
     octree_session session = small_session(bodies, 4);
     session.tree = define(cube(-8, 8), 1, OCTREE_MAX_DEPTH, OCTREE_REFUSE);
     session.player = (octree_player){.id = 100, .position = {-6, 6, 6}, .step = 1, .box_size = 0.5};
@@ -182,9 +182,9 @@ static void leaves_of_hits_and_answers_are_named_once(void **state)
 static void bodies_that_moved_are_compared_one_by_one_when_swept(void **state)
 {
     (void)state;
-    static const octree_body bodies[] = {{.id = 1, .position = {5, 5, 5}, .velocity = {1, 0, 0}},
-                                         {.id = 2, .position = {-5, 5, 5}, .velocity = {0, 1, 0}},
-                                         {.id = 3, .position = {-5, -5, -5}}};
+    static const octree_game_body bodies[] = {{.id = 1, .position = {5, 5, 5}, .velocity = {1, 0, 0}},
+                                              {.id = 2, .position = {-5, 5, 5}, .velocity = {0, 1, 0}},
+                                              {.id = 3, .position = {-5, -5, -5}}};
     uint64_t points[2];
     for (int sweep = 0; sweep < 2; sweep++) {
         octree_session session = small_session(bodies, 3);

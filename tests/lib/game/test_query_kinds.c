@@ -11,7 +11,7 @@
 #define POINTS 40
 #define QUERIES 50
 
-static octree_body bodies[POINTS];
+static octree_game_body bodies[POINTS];
 
 static double coordinate(uint64_t *random)
 {
@@ -135,7 +135,8 @@ static void judge_accepts_only_the_exact_answer_of_every_kind(void **state)
     octree_def def = octree_def_default();
     assert_int_equal(octree_create(&def, &tree), OCTREE_OK);
     for (size_t i = 0; i < POINTS; i++) {
-        bodies[i] = (octree_body){.id = i, .position = {coordinate(&random), coordinate(&random), coordinate(&random)}};
+        bodies[i] =
+            (octree_game_body){.id = i, .position = {coordinate(&random), coordinate(&random), coordinate(&random)}};
         assert_int_equal(octree_insert(tree, bodies[i].position, i), OCTREE_OK);
     }
     for (int kind = 0; kind < OCTREE_QUERY_KINDS; kind++)

@@ -148,7 +148,7 @@ bool change_velocity(changed_session *t, uint64_t tick, uint64_t *state)
     const size_t i = random_below(state, session->body_count);
     memcpy(t->bodies, session->bodies, session->body_count * sizeof *t->bodies);
     t->changed.bodies = t->bodies;
-    octree_body *body = &t->bodies[i];
+    octree_game_body *body = &t->bodies[i];
     expect(t, "points.velocity", CAUSE_OTHER, CAUSE_NO_TICK, body->id);
     place_text(body->velocity, texts[0]);
     body->velocity[random_below(state, 3)] += 0.25 * (double)(1 + random_below(state, 8));

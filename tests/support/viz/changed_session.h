@@ -13,7 +13,7 @@ typedef struct changed_session {
     random_session made;
     octree_session changed;
     octree_shape shapes[2][CHANGED_SHAPES]; /* of both */
-    octree_body bodies[RANDOM_SESSION_BODIES];
+    octree_game_body bodies[RANDOM_SESSION_BODIES];
     octree_edit edits[RANDOM_SESSION_EDITS + 1];
     const char *where; /* the expected fact: where the change is, and how */
     cause_change change;

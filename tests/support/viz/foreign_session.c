@@ -6,7 +6,7 @@
     .has_points = true,                                                                                                \
     .points = {(const uint64_t[]){__VA_ARGS__}, sizeof((const uint64_t[]){__VA_ARGS__}) / sizeof(uint64_t)}
 
-static const octree_body bodies[] = {
+static const octree_game_body bodies[] = {
     {.id = 1, .position = {-900, -700, -800}}, {.id = 2, .position = {-300, 400, -200}},
     {.id = 3, .position = {-700, 100, 300}},   {.id = 4, .position = {-200, -500, 900}},
     {.id = 5, .position = {300, -600, -400}},  {.id = 6, .position = {500, 200, 100}},

@@ -105,7 +105,8 @@ static view view_of_frame(const golden_frame *frame)
     return v;
 }
 
-static const octree_body few[] = {{.id = 1, .position = {500, 500, 500}}, {.id = 2, .position = {-500, -500, -500}}};
+static const octree_game_body few[] = {{.id = 1, .position = {500, 500, 500}},
+                                       {.id = 2, .position = {-500, -500, -500}}};
 
 static const octree_query around[] = {
     {.tick = OCTREE_EVERY_TICK, .kind = OCTREE_QUERY_RANGE, .box = {{-900, -400, -300}, {100, 600, 300}}}};
@@ -130,7 +131,7 @@ static const octree_query answered[] = {{.tick = OCTREE_EVERY_TICK,
                                          .answer = other,
                                          .answer_count = 4}};
 
-static const octree_body crossing[] = {
+static const octree_game_body crossing[] = {
     {.id = 1, .position = {50, -50, -250}},
     {.id = 2, .position = {300, 0, 600}, .velocity = {-100, 0, -1400}},
     {.id = 3, .position = {50, 0, 0}},
@@ -138,14 +139,14 @@ static const octree_body crossing[] = {
 };
 
 /* Many points of a kind, and one query. */
-static octree_session sampled_session(octree_sample_kind kind, const octree_query *query, octree_body *bodies,
+static octree_session sampled_session(octree_sample_kind kind, const octree_query *query, octree_game_body *bodies,
                                       size_t count)
 {
     octree_session session = octree_session_default();
     double positions[GOLDEN_MOST_BODIES][3];
     octree_sample(kind, 5, &session.tree.world, count, positions);
     for (size_t i = 0; i < count; i++)
-        bodies[i] = (octree_body){.id = i + 100, .position = {positions[i][0], positions[i][1], positions[i][2]}};
+        bodies[i] = (octree_game_body){.id = i + 100, .position = {positions[i][0], positions[i][1], positions[i][2]}};
     session.tree.leaf_capacity = 4;
     session.tree.max_depth = OCTREE_MAX_DEPTH;
     session.bodies = bodies;
@@ -156,7 +157,7 @@ static octree_session sampled_session(octree_sample_kind kind, const octree_quer
 }
 
 /* Points at rest and points that move, some of which bounce soon. */
-static octree_session moving_session(octree_body *bodies)
+static octree_session moving_session(octree_game_body *bodies)
 {
     octree_session session = sampled_session(OCTREE_SAMPLE_UNIFORM, NULL, bodies, 30);
     double velocities[30][3];
@@ -182,13 +183,13 @@ static octree_session swept_session(void)
 }
 
 /* A saddle of 400 points, and a part of it raised. */
-static octree_session saddle_session(octree_body bodies[GOLDEN_MOST_BODIES])
+static octree_session saddle_session(octree_game_body bodies[GOLDEN_MOST_BODIES])
 {
     octree_session session = octree_session_default();
     for (uint64_t i = 0; i < GOLDEN_MOST_BODIES; i++) {
         const double x = (double)(i % 20) * 80 - 760, y = (double)(i / 20) * 80 - 760;
         const bool raised = fabs(x) < 250 && fabs(y) < 250;
-        bodies[i] = (octree_body){.id = 100 + i, .position = {x, y, (x * x - y * y) / 1900 + (raised ? 450 : 0)}};
+        bodies[i] = (octree_game_body){.id = 100 + i, .position = {x, y, (x * x - y * y) / 1900 + (raised ? 450 : 0)}};
     }
     session.tree.leaf_capacity = 16;
     session.bodies = bodies;
@@ -197,7 +198,7 @@ static octree_session saddle_session(octree_body bodies[GOLDEN_MOST_BODIES])
     return session;
 }
 
-static octree_session session_of(const golden_frame *frame, octree_body bodies[GOLDEN_MOST_BODIES])
+static octree_session session_of(const golden_frame *frame, octree_game_body bodies[GOLDEN_MOST_BODIES])
 {
     octree_session session = octree_session_default();
     if (!frame->points)
@@ -253,7 +254,7 @@ bool golden_open(const golden_frame *frame, golden_play *play, octreel_error *er
 /* One point is written into another's cell. */
 static void break_game(const octree_game *game)
 {
-    const octree_body *first = octree_game_session(game)->bodies;
+    const octree_game_body *first = octree_game_session(game)->bodies;
     break_tree(octree_game_tree(game), first->position, octree_game_tick(game)->player);
 }
 

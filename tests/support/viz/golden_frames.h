@@ -27,7 +27,7 @@ extern const size_t golden_frame_count;
 /* A game and its view. The structure must not be moved. */
 typedef struct golden_play {
     octree_session session;
-    octree_body bodies[GOLDEN_MOST_BODIES];
+    octree_game_body bodies[GOLDEN_MOST_BODIES];
     view view;
     octree_game *game;
 } golden_play;

@@ -36,12 +36,13 @@ static const uint64_t far_answer[] = {700};
 octree_session session_with_all_layers(void)
 {
     static octree_query queries[32];
-    static octree_body bodies[32];
+    static octree_game_body bodies[32];
     octree_session session = octree_session_default();
     size_t count = session.query_count;
     assert_true(session.body_count < sizeof bodies / sizeof bodies[0]);
     memcpy(bodies, session.bodies, session.body_count * sizeof *bodies);
-    bodies[session.body_count++] = (octree_body){.id = 700, .position = {-900, 700, -600}, .velocity = {3, -2.5, 0.25}};
+    bodies[session.body_count++] =
+        (octree_game_body){.id = 700, .position = {-900, 700, -600}, .velocity = {3, -2.5, 0.25}};
     session.bodies = bodies;
     assert_true(count + 3 <= sizeof queries / sizeof queries[0]);
     memcpy(queries, session.queries, count * sizeof *queries);

@@ -24,7 +24,7 @@ octree_session session_with_all_layers(void);
 #define SCALED_SESSION_ROOM 16
 typedef struct scaled_session {
     octree_session session;
-    octree_body bodies[SCALED_SESSION_ROOM];
+    octree_game_body bodies[SCALED_SESSION_ROOM];
     octree_query queries[SCALED_SESSION_ROOM];
 } scaled_session;
 

@@ -10,7 +10,7 @@
 #include "game_fixture.h"
 #include "text.h"
 
-static const octree_body some_bodies[] = {
+static const octree_game_body some_bodies[] = {
     {1, {1, 2, 3}, {0, 0, 0}}, {2, {-4, 5, -6}, {0, 0, 0}}, {3, {7, 7, 7}, {0, 0, 0}}, {4, {8, 7, 7}, {0, 0, 0}}};
 
 static const octree_edit some_edits[] = {{2, OCTREE_EDIT_MOVE, {1, {1, 2, 4}, {0, 0, 0}}},

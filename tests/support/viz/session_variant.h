@@ -12,7 +12,7 @@
 /* A session that a test may change in any part. */
 typedef struct variant {
     octree_session session;
-    octree_body bodies[16];
+    octree_game_body bodies[16];
     octree_edit edits[8];
     octree_query queries[4];
     octree_shape shapes[8];

@@ -178,7 +178,7 @@ static void close_up_shows_only_the_players_surroundings(void **state)
     (void)state;
     enum { MANY = 20000 };
     octree_session session = octree_session_default();
-    octree_body *bodies = calloc(MANY, sizeof *bodies);
+    octree_game_body *bodies = calloc(MANY, sizeof *bodies);
     double(*positions)[3] = calloc(MANY, sizeof *positions);
     assert_true(bodies && positions);
     octree_sample(OCTREE_SAMPLE_UNIFORM, 3, &session.tree.world, MANY, positions);
@@ -227,7 +227,7 @@ static void enlarged_area_is_outlined_however_small(void **state)
 {
     (void)state;
     octree_session session = octree_session_default();
-    const octree_body near_player = {.id = 99, .position = {1e-6, 0, 0}};
+    const octree_game_body near_player = {.id = 99, .position = {1e-6, 0, 0}};
     session.player.step = session.player.box_size = 1e-5;
     session.bodies = &near_player;
     session.body_count = 1;

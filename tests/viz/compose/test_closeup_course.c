@@ -122,7 +122,7 @@ static void close_up_shows_the_first_of_distant_subjects(void **state)
 static void neighbours_are_shown_with_their_surroundings(void **state)
 {
     (void)state;
-    static const octree_body bodies[] = {
+    static const octree_game_body bodies[] = {
         {.id = 1, .position = {400, 0, 0}}, {.id = 2, .position = {401, 0, 0}}, {.id = 3, .position = {-400, 0, 0}}};
     octree_query nearest = {.tick = 0, .kind = OCTREE_QUERY_NEAREST, .target = {400, 30, 0}};
     octree_session session = nobodys_session();
@@ -179,7 +179,7 @@ static void close_up_stays_at_shown_changes_and_moves_to_others(void **state)
 static void single_mover_is_followed_and_a_crowd_is_not(void **state)
 {
     (void)state;
-    octree_body bodies[20] = {{.id = 1, .position = {-500, 0, 0}, .velocity = {25, 0, 0}}};
+    octree_game_body bodies[20] = {{.id = 1, .position = {-500, 0, 0}, .velocity = {25, 0, 0}}};
     octree_session session = nobodys_session();
     session.bodies = bodies;
     session.body_count = 1;
@@ -198,7 +198,8 @@ static void single_mover_is_followed_and_a_crowd_is_not(void **state)
     assert_true(steps > 0 && steps < 15);
     film_end(&f);
     for (uint64_t i = 0; i < 20; i++)
-        bodies[i] = (octree_body){.id = i + 1, .position = {90.0 * (double)i - 900}, .velocity = {1, 2, (double)i}};
+        bodies[i] =
+            (octree_game_body){.id = i + 1, .position = {90.0 * (double)i - 900}, .velocity = {1, 2, (double)i}};
     session.body_count = 20;
     film_begin(&f, &session);
     for (int tick = 0; tick < 5; tick++, film_next(&f))

@@ -73,10 +73,10 @@ static void panel_shows_a_swept_test(void **state)
 static void panel_shows_answers(void **state)
 {
     (void)state;
-    static const octree_body bodies[] = {{.id = 41, .position = {3, 4, 0}},
-                                         {.id = 42, .position = {0, 2, 0}},
-                                         {.id = 43, .position = {0, 0, 9}},
-                                         {.id = 44, .position = {0, 0, -9}}};
+    static const octree_game_body bodies[] = {{.id = 41, .position = {3, 4, 0}},
+                                              {.id = 42, .position = {0, 2, 0}},
+                                              {.id = 43, .position = {0, 0, 9}},
+                                              {.id = 44, .position = {0, 0, -9}}};
     static const octree_query queries[] = {{.kind = OCTREE_QUERY_KNEAREST, .at_player = true, .k = 2},
                                            {.kind = OCTREE_QUERY_RADIUS, .at_player = true, .radius = 4.25},
                                            {.kind = OCTREE_QUERY_RADIUS, .target = {9, 9, 9}, .radius = 0.5},
@@ -170,9 +170,9 @@ static void ids_without_room_are_counted(void **state)
                  {UINT64_MAX - 20, 12, ""}};
     const view v = view_make_default();
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        octree_body bodies[12];
+        octree_game_body bodies[12];
         for (size_t j = 0; j < cases[i].count; j++)
-            bodies[j] = (octree_body){.id = cases[i].first + j, .position = {5, 5, 5 + (double)j / 8}};
+            bodies[j] = (octree_game_body){.id = cases[i].first + j, .position = {5, 5, 5 + (double)j / 8}};
         const octree_query query = {
             .tick = OCTREE_EVERY_TICK, .kind = OCTREE_QUERY_RANGE, .box = {{4, 4, 4}, {10, 10, 10}}};
         octree_session session = small_session(bodies, cases[i].count);
@@ -229,11 +229,11 @@ static void picture_without_room_for_the_column_shows_the_main_facts(void **stat
 static void texts_of_any_length_stay_within_bounds(void **state)
 {
     (void)state;
-    octree_body bodies[40];
+    octree_game_body bodies[40];
     octree_session session = {.tree = define(cube(-1.2345678e300, 1.2345678e300), 1, 21, OCTREE_REFUSE)};
     session.player = (octree_player){.id = UINT64_MAX, .step = 1.2345678e299, .box_size = 1e300};
     for (size_t i = 0; i < 40; i++)
-        bodies[i] = (octree_body){.id = UINT64_MAX - 1 - i, .position = {-1e-300, 1.2345678e299, -1.2345678e-299}};
+        bodies[i] = (octree_game_body){.id = UINT64_MAX - 1 - i, .position = {-1e-300, 1.2345678e299, -1.2345678e-299}};
     session.bodies = bodies;
     session.body_count = 40;
     session.keys = "dddd";

@@ -109,7 +109,7 @@ enum { BODIES = 5000, EDITS = 6 };
 /* So many points that what did not change is kept, and a few edits a tick. */
 typedef struct kept_play {
     octree_session session;
-    octree_body bodies[BODIES];
+    octree_game_body bodies[BODIES];
     octree_edit edits[EDITS];
 } kept_play;
 
@@ -121,7 +121,8 @@ static kept_play *make_kept_play(void)
     p->session = octree_session_default();
     octree_sample(OCTREE_SAMPLE_UNIFORM, 3, &p->session.tree.world, BODIES, positions);
     for (uint64_t i = 0; i < BODIES; i++)
-        p->bodies[i] = (octree_body){.id = i + 10, .position = {positions[i][0], positions[i][1], positions[i][2]}};
+        p->bodies[i] =
+            (octree_game_body){.id = i + 10, .position = {positions[i][0], positions[i][1], positions[i][2]}};
     for (uint64_t i = 0; i < EDITS; i++)
         p->edits[i] = (octree_edit){.tick = 2 + i / 2, .kind = OCTREE_EDIT_REMOVE, .body = p->bodies[i * 700]};
     p->session.tree.leaf_capacity = 8;

@@ -117,7 +117,7 @@ static void collided_step_is_recognizable_without_colour(void **state)
 static void collision_with_a_waiting_player_is_recognizable_without_colour(void **state)
 {
     (void)state;
-    static const octree_body body[] = {{.id = 1, .position = {3, 0, 0}, .velocity = {-1, 0, 0}}};
+    static const octree_game_body body[] = {{.id = 1, .position = {3, 0, 0}, .velocity = {-1, 0, 0}}};
     octree_session session = small_session(body, 1);
     session.ticks = 5;
     assert_true(check_collisions(&session, 640, 360, 1) == CAMERA_COUNT);

@@ -14,7 +14,7 @@
 
 enum { TICKS = 6 };
 
-static const octree_body bodies[] = {{.id = 1, .position = {1, 0, 0}}, {.id = 2, .position = {2, 0, 0}}};
+static const octree_game_body bodies[] = {{.id = 1, .position = {1, 0, 0}}, {.id = 2, .position = {2, 0, 0}}};
 
 /* What a program answered in each tick to "what is nearest to the origin": one id, 1 is right. '-': it was not asked.
  */

@@ -156,7 +156,7 @@ static void members_that_a_kind_of_player_ignores_are_not_named(void **state)
 
 static void add_body(variant *v)
 {
-    v->bodies[v->session.body_count++] = (octree_body){.id = 5, .position = {9, -9, 9}};
+    v->bodies[v->session.body_count++] = (octree_game_body){.id = 5, .position = {9, -9, 9}};
 }
 
 static void drop_body(variant *v)
@@ -177,7 +177,7 @@ static void push_body(variant *v)
 
 static void swap_bodies(variant *v)
 {
-    const octree_body first = v->bodies[0];
+    const octree_game_body first = v->bodies[0];
     v->bodies[0] = v->bodies[1];
     v->bodies[1] = first;
 }

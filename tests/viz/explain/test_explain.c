@@ -185,7 +185,7 @@ static void different_seed_is_the_cause_instead_of_its_points(void **state)
     session_file again;
     film_options options = small_film(d.path);
     assert_true(session_read(place_below(a.path, "session.json").path, &again, &error));
-    ((octree_body *)again.session.bodies)[7].position[0] = 500;
+    ((octree_game_body *)again.session.bodies)[7].position[0] = 500;
     assert_filmed(&again.session, &options);
     session_release(&again);
     comparison_of made = assert_explained(&a, &d, 10);

@@ -114,7 +114,7 @@ static void nodes_and_points_are_ignored_under_anti_aliasing(void **state)
 {
     const unsigned layers = 1u << LAYER_WORLD | 1u << LAYER_NODES | 1u << LAYER_POINTS;
     octree_session session;
-    octree_body bodies[32];
+    octree_game_body bodies[32];
     char names[3][8];
     for (int aa = 1; aa <= 2; aa++) {
         for (int i = 0; i < 3; i++)

@@ -126,7 +126,7 @@ static void points_are_read_in_each_form(void **state)
     session_file file = parse(HEADER ",\"player\":{\"id\":2},\"points\":[[1,2,3],[-0,5e-1,6],[7,8,9,40],"
                                      "{\"id\":9007199254740991,\"position\":[1,1,1],\"velocity\":[0,0.25,-1]},"
                                      "{\"position\":[2000,0,0]}]}");
-    const octree_body *bodies = file.session.bodies;
+    const octree_game_body *bodies = file.session.bodies;
     (void)state;
     assert_int_equal(file.session.body_count, 5);
     assert_int_equal(bodies[0].id, 1);

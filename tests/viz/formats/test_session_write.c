@@ -246,7 +246,7 @@ static double any_double(uint64_t *state)
 
 static void every_bit_of_a_number_survives_the_round_trip(void **state)
 {
-    static octree_body bodies[500];
+    static octree_game_body bodies[500];
     uint64_t random = 11;
     octree_session session = octree_session_default();
     (void)state;

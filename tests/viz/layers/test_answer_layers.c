@@ -174,10 +174,10 @@ static void every_answer_of_random_sessions_is_shown_in_its_layer(void **state)
 static void ranks_of_neighbours_never_cover_each_other(void **state)
 {
     (void)state;
-    static const octree_body bodies[] = {{.id = 1, .position = {5, 0, 5}},
-                                         {.id = 2, .position = {5, 2, 5}},
-                                         {.id = 3, .position = {5, -4, 5.01}},
-                                         {.id = 4, .position = {-5, 0, -7}}};
+    static const octree_game_body bodies[] = {{.id = 1, .position = {5, 0, 5}},
+                                              {.id = 2, .position = {5, 2, 5}},
+                                              {.id = 3, .position = {5, -4, 5.01}},
+                                              {.id = 4, .position = {-5, 0, -7}}};
     static const octree_query query = {.kind = OCTREE_QUERY_KNEAREST, .at_player = true, .k = 4};
     const view v = view_of(1280, 720, CAMERA_FRONT, VIEW_ALL_LAYERS);
     octree_session session = small_session(bodies, 4);

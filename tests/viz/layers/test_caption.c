@@ -62,8 +62,8 @@ static void captions_count_what_is_many(void **state)
 {
     (void)state;
     static const uint64_t wrong[] = {2};
-    static const octree_body bodies[] = {{.id = 1, .position = {1, 1, 1}},
-                                         {.id = 2, .position = {5, 5, 5}, .velocity = {0.25, 0, 0}}};
+    static const octree_game_body bodies[] = {{.id = 1, .position = {1, 1, 1}},
+                                              {.id = 2, .position = {5, 5, 5}, .velocity = {0.25, 0, 0}}};
     const octree_query queries[] = {
         {.tick = OCTREE_EVERY_TICK, .kind = OCTREE_QUERY_NEAREST, .answered = true, .answer = wrong, .answer_count = 1},
         {.tick = OCTREE_EVERY_TICK, .kind = OCTREE_QUERY_RADIUS, .radius = 2}};

@@ -82,7 +82,7 @@ static void every_split_and_merge_is_shown_where_it_happened(void **state)
 static void a_split_at_the_greatest_depth_is_shown(void **state)
 {
     (void)state;
-    static const octree_body bodies[] = {{.id = 1, .position = {1.5, 0.25, 0.25}}};
+    static const octree_game_body bodies[] = {{.id = 1, .position = {1.5, 0.25, 0.25}}};
     static const octree_edit edits[] = {{1, OCTREE_EDIT_INSERT, {.id = 2, .position = {0.25, 0.25, 0.25}}},
                                         {1, OCTREE_EDIT_MOVE, {.id = 1, .position = {1.25, 0.25, 0.25}}}};
     octree_session session = {.tree = define(cube(0, 0x1p21), 1, OCTREE_MAX_DEPTH, OCTREE_REFUSE),
@@ -140,10 +140,10 @@ static void check_broken(const scene *s, const octree_box *world, octree_address
 static void broken_invariant_is_crossed_out_and_reported(void **state)
 {
     (void)state;
-    static const octree_body bodies[] = {{.id = 1, .position = {5, 5, 5}},
-                                         {.id = 2, .position = {6, 5, 5}},
-                                         {.id = 3, .position = {-5, 5, 5}},
-                                         {.id = 4, .position = {-6, 5, 5}}};
+    static const octree_game_body bodies[] = {{.id = 1, .position = {5, 5, 5}},
+                                              {.id = 2, .position = {6, 5, 5}},
+                                              {.id = 3, .position = {-5, 5, 5}},
+                                              {.id = 4, .position = {-6, 5, 5}}};
     static const double elsewhere[3] = {-5, -5, -5};
     const octree_session session = small_session(bodies, 4);
     octree_game *game = start_game(&session);

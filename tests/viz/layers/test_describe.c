@@ -240,7 +240,7 @@ static void descriptions_of_a_node_and_a_point_are_exact(void **state)
 /* Point 2 lies exactly on the boundary of the ball. */
 static void marks_of_an_answer_that_differs_at_the_boundary_say_so(void **state)
 {
-    static const octree_body bodies[] = {{.id = 2, .position = {200, 0, 0}}};
+    static const octree_game_body bodies[] = {{.id = 2, .position = {200, 0, 0}}};
     const octree_query ball = {.kind = OCTREE_QUERY_RADIUS, .radius = 200, .answered = true};
     const view v = view_of(320, 180, CAMERA_ISO, VIEW_ALL_LAYERS);
     octree_session session = octree_session_default();

@@ -14,7 +14,7 @@ enum { BODIES = 5000, TICKS = 24, FEW = 6, MANY = 2400, MOST_EDITS = TICKS * FEW
 
 typedef struct played {
     octree_session session;
-    octree_body bodies[BODIES];
+    octree_game_body bodies[BODIES];
     octree_edit edits[MOST_EDITS];
     size_t edit_count;
     bool gone[BODIES];
@@ -69,9 +69,9 @@ static played *make_session(void)
         memcpy(p->bodies[i].position, positions[i], sizeof positions[i]);
     }
     free(positions);
-    const octree_body *start = malloc(sizeof p->bodies);
+    const octree_game_body *start = malloc(sizeof p->bodies);
     assert_non_null(start);
-    memcpy((octree_body *)start, p->bodies, sizeof p->bodies);
+    memcpy((octree_game_body *)start, p->bodies, sizeof p->bodies);
     for (uint64_t tick = 1; tick < TICKS; tick++)
         if (tick == 9 || tick == 16)
             add_many(p, tick, tick == 9);
@@ -89,7 +89,7 @@ static played *make_session(void)
 
 static void release_session(played *p)
 {
-    free((octree_body *)p->session.bodies);
+    free((octree_game_body *)p->session.bodies);
     free(p);
 }
 

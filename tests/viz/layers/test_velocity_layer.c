@@ -43,7 +43,7 @@ static bool says(const scene *s, const char *text)
 
 /* An arrow leads from the point along its velocity for `ticks` ticks, or ends at the world's face that it would pass.
  */
-static void check_arrow(const scene_segment *arrow, const octree_body *body, const octree_box *world, double ticks)
+static void check_arrow(const scene_segment *arrow, const octree_game_body *body, const octree_box *world, double ticks)
 {
     const double *end = arrow->ends[1];
     double part = 1;
@@ -72,7 +72,7 @@ static void check_tick(const scene *s, const octree_game *game, double ticks)
     const octree_tick *tick = octree_game_tick(game);
     const layer_counts found = count_layer(s, LAYER_VELOCITIES);
     for (size_t i = 0; i < tick->mover_count; i++) {
-        const octree_body *body = &tick->movers[i];
+        const octree_game_body *body = &tick->movers[i];
         const scene_segment *arrow = find_arrow(s, body->id);
         assert_non_null(arrow);
         assert_true(octree_contains(octree_game_tree(game), arrow->ends[0], body->id));
@@ -83,11 +83,11 @@ static void check_tick(const scene *s, const octree_game *game, double ticks)
 }
 
 /* Some bodies are at rest, and some cross the world in one tick. */
-static octree_session moving_session(octree_body *bodies, size_t count, double speed)
+static octree_session moving_session(octree_game_body *bodies, size_t count, double speed)
 {
     uint64_t random = 3;
     for (size_t i = 0; i < count; i++) {
-        bodies[i] = (octree_body){.id = i + 1000};
+        bodies[i] = (octree_game_body){.id = i + 1000};
         for (int axis = 0; axis < 3; axis++) {
             bodies[i].position[axis] = random_between(&random, -10, 10);
             bodies[i].velocity[axis] = i % 5 ? random_between(&random, -speed, speed) : 0;
@@ -106,7 +106,7 @@ static void every_mover_and_nothing_else_has_an_arrow(void **state)
     (void)state;
     static const double speeds[] = {0.01, 0.4, 3, 17, 60};
     for (size_t i = 0; i < sizeof speeds / sizeof speeds[0]; i++) {
-        octree_body bodies[BODIES];
+        octree_game_body bodies[BODIES];
         const octree_session session = moving_session(bodies, BODIES, speeds[i]);
         const view v = every_arrow((view_camera)(i % CAMERA_COUNT));
         octree_game *game = start_game(&session);
@@ -138,8 +138,8 @@ static void arrow_scale_makes_movement_visible(void **state)
         {1e300, 1, "velocity, 1 tick"}};
     const view v = every_arrow(CAMERA_ISO);
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        const octree_body bodies[] = {{.id = 1, .position = {1, 2, 3}, .velocity = {0, -cases[i].speed, 0}},
-                                      {.id = 2, .position = {1, 2, 4}, .velocity = {cases[i].speed / 4, 0, 0}}};
+        const octree_game_body bodies[] = {{.id = 1, .position = {1, 2, 3}, .velocity = {0, -cases[i].speed, 0}},
+                                           {.id = 2, .position = {1, 2, 4}, .velocity = {cases[i].speed / 4, 0, 0}}};
         const octree_session session = small_session(bodies, 2);
         octree_game *game = start_game(&session);
         scene s = {0};
@@ -176,7 +176,7 @@ static void session_without_movers_has_no_arrows_and_no_legend_line(void **state
 static void filtered_point_has_no_arrow(void **state)
 {
     (void)state;
-    octree_body bodies[BODIES];
+    octree_game_body bodies[BODIES];
     const octree_session session = moving_session(bodies, BODIES, 1);
     octree_game *game = start_game(&session);
     static const view_filter filters[] = {{.by_region = true, .region = {{-4, -9, -9}, {9, 9, 6}}},
@@ -211,7 +211,7 @@ static double pixels_of(const scene *s, const scene_segment *arrow)
 static void arrows_below_the_lod_are_left_out_and_counted(void **state)
 {
     (void)state;
-    octree_body bodies[BODIES];
+    octree_game_body bodies[BODIES];
     const octree_session session = moving_session(bodies, BODIES, 0.4);
     octree_game *game = start_game(&session);
     for (double lod = 2; lod < 200; lod *= 1.5) {
@@ -252,7 +252,7 @@ enum { MANY = 100000 };
 static void budget_thins_a_hundred_thousand_arrows_and_reports_it(void **state)
 {
     (void)state;
-    static octree_body bodies[MANY];
+    static octree_game_body bodies[MANY];
     static double positions[MANY][3], velocities[MANY][3];
     octree_session session = small_session(bodies, MANY);
     session.tree = define(cube(-10, 10), 64, OCTREE_MAX_DEPTH, OCTREE_GROW);
@@ -260,7 +260,7 @@ static void budget_thins_a_hundred_thousand_arrows_and_reports_it(void **state)
     const octree_box slow = cube(-0.1, 0.1);
     assert_int_equal(octree_sample(OCTREE_SAMPLE_UNIFORM, 2, &slow, MANY, velocities), OCTREE_OK);
     for (size_t i = 0; i < MANY; i++) {
-        bodies[i] = (octree_body){.id = i + 1000};
+        bodies[i] = (octree_game_body){.id = i + 1000};
         memcpy(bodies[i].position, positions[i], sizeof positions[i]);
         memcpy(bodies[i].velocity, velocities[i], sizeof velocities[i]);
     }
@@ -292,7 +292,7 @@ static void budget_thins_a_hundred_thousand_arrows_and_reports_it(void **state)
 static void points_beyond_the_budget_have_no_arrow(void **state)
 {
     (void)state;
-    octree_body bodies[BODIES];
+    octree_game_body bodies[BODIES];
     const octree_session session = moving_session(bodies, BODIES, 1);
     octree_game *game = start_game(&session);
     view v = every_arrow(CAMERA_ISO);

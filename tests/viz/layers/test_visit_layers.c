@@ -185,7 +185,7 @@ static void visits_of_random_sessions_match_a_recount(void **state)
 enum { BODIES = 600 };
 
 /* 600 clustered points, a box, a ball and neighbours. */
-static octree_session clustered_session(octree_body bodies[BODIES])
+static octree_session clustered_session(octree_game_body bodies[BODIES])
 {
     static const octree_query queries[] = {
         {.tick = OCTREE_EVERY_TICK, .kind = OCTREE_QUERY_RANGE, .box = {{-7.3, -6.1, -8.2}, {5.5, 7.7, 3.1}}},
@@ -199,7 +199,7 @@ static octree_session clustered_session(octree_body bodies[BODIES])
     session.keys = "wd";
     assert_int_equal(octree_sample(OCTREE_SAMPLE_CLUSTERED, 4, &session.tree.world, BODIES, positions), OCTREE_OK);
     for (size_t i = 0; i < BODIES; i++) {
-        bodies[i] = (octree_body){.id = i + 1000};
+        bodies[i] = (octree_game_body){.id = i + 1000};
         memcpy(bodies[i].position, positions[i], sizeof positions[i]);
     }
     return session;
@@ -208,7 +208,7 @@ static octree_session clustered_session(octree_body bodies[BODIES])
 static void filter_and_lod_apply_to_visited_nodes(void **state)
 {
     (void)state;
-    static octree_body bodies[BODIES];
+    static octree_game_body bodies[BODIES];
     static const view_filter filters[] = {
         {.leaves = true},
         {.by_depth = true, .min_depth = 2, .max_depth = 4},
@@ -230,7 +230,7 @@ static void filter_and_lod_apply_to_visited_nodes(void **state)
 static void visited_nodes_keep_their_colour(void **state)
 {
     (void)state;
-    static octree_body bodies[BODIES];
+    static octree_game_body bodies[BODIES];
     const octree_session session = clustered_session(bodies);
     octree_game *game = start_game(&session);
     for (int coloring = 0; coloring < COLORING_COUNT; coloring++) {

@@ -12,10 +12,10 @@
 #include <stdio.h>
 #include <string.h>
 
-static const octree_body bodies[] = {{.id = 1, .position = {1, 0, 1}},
-                                     {.id = 2, .position = {2, 0, 1}},
-                                     {.id = 3, .position = {5, 3, 1}},
-                                     {.id = 4, .position = {-7, 4, 1}}};
+static const octree_game_body bodies[] = {{.id = 1, .position = {1, 0, 1}},
+                                          {.id = 2, .position = {2, 0, 1}},
+                                          {.id = 3, .position = {5, 3, 1}},
+                                          {.id = 4, .position = {-7, 4, 1}}};
 
 /* A session without a player: the bodies, and these queries in tick 0. */
 static octree_session session_of(const octree_query *queries, size_t count)

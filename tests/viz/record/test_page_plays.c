@@ -197,14 +197,14 @@ enum { MANY = 10000 };
 /* Film a session with so many points that its page has them in a block. Some move, and some have colours. */
 static place film_many_points(const driven *d)
 {
-    static octree_body bodies[MANY];
+    static octree_game_body bodies[MANY];
     static point_value rows[MANY];
     const place film = place_in(d->folder, "many");
     const point_values values = {.rows = rows, .count = MANY, .first = 100, .kinds = 1u << POINT_COLOR};
     octree_session session = octree_session_default();
     film_options options = small_film(film.path);
     for (size_t i = 0; i < MANY; i++) {
-        bodies[i] = (octree_body){.id = i + 100, .velocity = {i % 7 == 0 ? 0.125 * (double)(i % 5) : 0}};
+        bodies[i] = (octree_game_body){.id = i + 100, .velocity = {i % 7 == 0 ? 0.125 * (double)(i % 5) : 0}};
         for (size_t axis = 0; axis < 3; axis++)
             bodies[i].position[axis] = (double)((i + 1) * (31 + axis * 6) % 2000) - 1000 + 1 / (double)(i + 3);
         rows[i] = (point_value){.color = {(uint8_t)i, 90, (uint8_t)(i >> 8)}, .has[POINT_COLOR] = i % 3 > 0};

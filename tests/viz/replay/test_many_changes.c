@@ -17,7 +17,7 @@ enum { POINTS = 6000, TICKS = 3 };
 /* Record a session in which all points move far. The point `extra` is inserted at this tick, and makes a node split. */
 static place film_swarm(const temp_folder *own, const char *name, uint64_t extra_at, uint64_t every)
 {
-    static octree_body bodies[POINTS];
+    static octree_game_body bodies[POINTS];
     static double places[POINTS][3];
     octree_session session = {.tree = define(cube(-1000, 1000), 2, 12, OCTREE_GROW), .ticks = TICKS};
     const octree_edit extra = {.tick = extra_at, .body = {.id = POINTS + 1, .position = {-999, -999, -999}}};
@@ -26,13 +26,13 @@ static place film_swarm(const temp_folder *own, const char *name, uint64_t extra
     assert_int_equal(octree_sample(OCTREE_SAMPLE_UNIFORM, 1, &session.tree.world, POINTS, places), OCTREE_OK);
     uint64_t random = 1;
     for (size_t i = 0; i < POINTS; i++) {
-        bodies[i] = (octree_body){.id = i + 1};
+        bodies[i] = (octree_game_body){.id = i + 1};
         memcpy(bodies[i].position, places[i], sizeof places[i]);
         for (int axis = 0; axis < 3; axis++)
             bodies[i].velocity[axis] = (double)random_below(&random, 401) - 200;
     }
     for (size_t i = 0; i < 2; i++) { /* two resting points, next to the extra one */
-        bodies[i] = (octree_body){.id = i + 1, .position = {-998 + (double)i, -998, -998}};
+        bodies[i] = (octree_game_body){.id = i + 1, .position = {-998 + (double)i, -998, -998}};
     }
     session.bodies = bodies;
     session.body_count = POINTS;

@@ -44,7 +44,7 @@ enum { BODIES = 60, TICKS = 120 };
  * fused multiply-add would change a digest. */
 static octree_session session_that_rounds(void)
 {
-    static octree_body bodies[BODIES];
+    static octree_game_body bodies[BODIES];
     static double positions[BODIES][3];
     static octree_query queries[2];
     uint64_t random = 5;

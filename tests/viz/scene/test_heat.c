@@ -119,7 +119,7 @@ static void heat_is_the_sum_over_the_ticks(void **state)
 static void a_tick_counts_once_for_any_number_of_queries(void **state)
 {
     (void)state;
-    static const octree_body bodies[] = {
+    static const octree_game_body bodies[] = {
         {.id = 1, .position = {-6, -6, -6}}, {.id = 2, .position = {-2, -2, -2}}, {.id = 3, .position = {6, 6, 6}}};
     static const octree_query queries[] = {
         {.tick = OCTREE_EVERY_TICK, .kind = OCTREE_QUERY_RANGE, .box = {{-9, -9, -9}, {1, 1, 1}}},

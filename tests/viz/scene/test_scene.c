@@ -236,11 +236,11 @@ static void hiding_a_layer_changes_no_other_layer(void **state)
     octree_game_destroy(game);
 }
 
-static void shuffle(octree_body *bodies, size_t count, uint64_t *state)
+static void shuffle(octree_game_body *bodies, size_t count, uint64_t *state)
 {
     for (size_t i = count; i > 1; i--) {
         const size_t j = random_below(state, i);
-        const octree_body swapped = bodies[i - 1];
+        const octree_game_body swapped = bodies[i - 1];
         bodies[i - 1] = bodies[j];
         bodies[j] = swapped;
     }
@@ -273,11 +273,11 @@ static void the_scene_does_not_depend_on_the_order_of_bodies(void **state)
 #define POINTS 300
 
 /* Half of the points share coordinates, and some share an id. The index starts at `first` and wraps around. */
-static octree *tree_from(const octree_body *bodies, size_t first)
+static octree *tree_from(const octree_game_body *bodies, size_t first)
 {
     octree *tree = make_tree(cube(-8, 8), 3, 5, OCTREE_GROW);
     for (size_t i = 0; i < POINTS; i++) {
-        const octree_body *body = &bodies[(first + i) % POINTS];
+        const octree_game_body *body = &bodies[(first + i) % POINTS];
         const octree_status status = octree_insert(tree, body->position, body->id);
         assert_true(status == OCTREE_OK || status == OCTREE_DUPLICATE);
     }
@@ -288,10 +288,10 @@ static void the_scene_does_not_depend_on_the_history_of_the_tree(void **state)
 {
     (void)state;
     const view v = view_of(320, 180, CAMERA_ISO, VIEW_ALL_LAYERS);
-    octree_body bodies[POINTS];
+    octree_game_body bodies[POINTS];
     uint64_t random = 7;
     for (size_t i = 0; i < POINTS; i++)
-        bodies[i] = (octree_body){
+        bodies[i] = (octree_game_body){
             .id = random_below(&random, POINTS / 2),
             .position = {(double)random_below(&random, 8), (double)random_below(&random, 4) / 8, 1},
         };

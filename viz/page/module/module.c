@@ -124,7 +124,7 @@ static bool take_points(const char *block, size_t size)
     session_file *s = &page.session;
     if (!point_block_read(block, size, &page.points, &page.error))
         return false;
-    free((octree_body *)s->session.bodies);
+    free((octree_game_body *)s->session.bodies);
     point_values_release(&s->values);
     s->session.bodies = page.points.bodies;
     s->session.body_count = page.points.count;
