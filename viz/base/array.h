@@ -10,9 +10,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Returns the array with capacity for at least `count` items; the caller frees the array with free(). If memory runs
- * out, returns null; the old array is then unchanged and still belongs to the caller. Cost: O(1) per item,
- * amortized. */
+/* Returns an array with the same items and capacity for at least `count` items, and sets *room to its capacity. The
+ * caller frees the array with free(). If memory runs out, returns null; the old array is then unchanged and still
+ * belongs to the caller. Cost: O(1) per item, amortized. */
 static inline void *array_reserve(void *items, size_t count, size_t *room, size_t item_size)
 {
     enum { SMALLEST_ROOM = 16 };
@@ -27,19 +27,20 @@ static inline void *array_reserve(void *items, size_t count, size_t *room, size_
     return grown;
 }
 
-/* Makes capacity for at least `count` items in an array. `array` is the address of the pointer to the items. Returns
+/* Grows an array to a capacity of at least `count` items. `array` is the address of the pointer to the items. Returns
  * false and leaves the array unchanged if memory runs out. */
 static inline bool array_grow(void *array, size_t count, size_t *room, size_t item_size)
 {
     void *items;
-    memcpy(&items, array, sizeof items); /* copy the pointer, because its type may differ from void * */
+    memcpy(&items, array, sizeof items); /* memcpy(), because the type of the caller's pointer is not void * */
     items = array_reserve(items, count, room, item_size);
     if (items || count == 0)
         memcpy(array, &items, sizeof items);
     return items || count == 0;
 }
 
-/* A type for an array that owns its items. ARRAY_GROW() makes room for `more` items with array_grow().
+/* A type for an array that owns its items. ARRAY_GROW() makes room for `more` further items; it returns false if memory
+ * runs out.
  *   ARRAY(int) list = {0};
  *   if (ARRAY_GROW(&list, 1))
  *       list.items[list.count++] = 7;

@@ -16,8 +16,8 @@ bool error_no_memory(octreel_error *error);
 
 /* Looks at errno after a check that failed. Returns false with an error if errno says that the system ran out of
  * memory, file descriptors or disk space, or failed to read. Such a failure proves nothing about the input of the
- * check. Returns true for other values of errno, such as a missing file or permission. The caller sets errno to 0
- * before the check. */
+ * check. Returns true for other values of errno, such as ENOENT or EACCES. The caller sets errno to 0 before the
+ * check. */
 bool check_system_resources(octreel_error *error);
 
 #endif

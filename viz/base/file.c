@@ -73,7 +73,7 @@ bool folder_contains(const char *folder, const char *name)
     return path_print(folder, name, path) && stat(path, &status) == 0;
 }
 
-static int is_no_dot_entry(const struct dirent *entry)
+static int is_not_dot_entry(const struct dirent *entry)
 {
     return strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0;
 }
@@ -87,7 +87,7 @@ static int compare_by_name(const struct dirent **a, const struct dirent **b)
 char **folder_names(const char *folder, octreel_error *error)
 {
     struct dirent **entries = NULL;
-    const int count = scandir(folder, &entries, is_no_dot_entry, compare_by_name);
+    const int count = scandir(folder, &entries, is_not_dot_entry, compare_by_name);
     size_t size = 0;
     for (int i = 0; i < count; i++)
         size += strlen(entries[i]->d_name) + 1;
@@ -159,8 +159,8 @@ const char *file_output_display_name(const char *path)
 
 #define PART ".part"
 
-/* Returns the open file that a name such as /dev/stdout or /dev/fd/63 stands for, or -1. Such a name must not be
- * replaced, and opening it would give the file a second position. */
+/* Returns the file descriptor that a path such as /dev/stdout or /dev/fd/63 names, or -1. A new file must not replace
+ * such a path, and opening the path again would start at a second file position. */
 static int find_named_descriptor(const char *path)
 {
     const char *at = strncmp(path, "/dev/fd/", 8) == 0 ? path + 8 : "";
@@ -187,8 +187,8 @@ static bool is_special_file(const char *path)
 #define dup(descriptor) (-1) /* WASI has no copies of descriptors, and pages write no files */
 #endif
 
-/* Opens a pipe, a device or an open file for writing. Opening a pipe that no process reads would wait for a reader;
- * instead it fails with ENXIO. */
+/* Opens a pipe, a device or an open file for writing. If no process reads a pipe, the function fails with ENXIO;
+ * without O_NONBLOCK, open() would wait for a reader. */
 static FILE *open_special_file(const char *path)
 {
     const int named = find_named_descriptor(path);
@@ -201,7 +201,7 @@ static FILE *open_special_file(const char *path)
 
 /* How a file_writer opens its file. */
 typedef enum write_mode {
-    WRITE_OUTPUT, /* write to an existing pipe or device directly; for other paths as WRITE_REPLACING */
+    WRITE_OUTPUT, /* write to an existing pipe or device directly; treat other paths like WRITE_REPLACING */
     /* create a new ".part" file; first remove an existing ".part" file, which could be a pipe or a link */
     WRITE_REPLACING,
     WRITE_UNIQUE /* create a new ".part" file; fail if the ".part" file already exists */
@@ -423,7 +423,7 @@ bool is_same_file(const struct stat *a, const struct stat *b)
     return a->st_dev == b->st_dev && a->st_ino == b->st_ino;
 }
 
-bool stat_parent(const char *path, struct stat *status)
+bool stat_parent_folder(const char *path, struct stat *status)
 {
     char *parent = path_parent_folder(path);
     const bool is = parent && stat(parent, status) == 0;

@@ -16,8 +16,8 @@
  * path. Returns null if memory runs out. */
 char *path_join(const char *folder, const char *name);
 
-/* Prints "folder/name", as path_join() returns it, into a buffer. Returns false if the path has PATH_MAX or more bytes,
- * which the system would refuse. */
+/* Writes "folder/name", as path_join() returns it, into the buffer `path`. Returns false if the path has PATH_MAX or
+ * more bytes, which the system would refuse. */
 bool path_print(const char *folder, const char *name, char path[PATH_MAX]);
 
 /* Returns the folder that contains a path: "a" for "a/b" and "a/b/", "." for "b". The caller frees the result. Returns
@@ -27,7 +27,7 @@ char *path_parent_folder(const char *path);
 /* Returns the part of a path after its last slash. */
 const char *path_base_name(const char *path);
 
-/* Returns whether a file name ends with one of the endings in a list such as ".las.laz", in upper or lower case. */
+/* Returns whether a file name ends with one of `endings`, a list such as ".las.laz". Case is ignored. */
 bool file_has_ending(const char *name, const char *endings);
 
 /* Returns whether the folder contains a file or folder with this name. The folder "" is the current folder. */
@@ -39,9 +39,9 @@ bool folder_contains(const char *folder, const char *name);
  * array. */
 char **folder_names(const char *folder, octreel_error *error);
 
-/* file_lock() locks an open file until the file is closed. It returns false if another open file of this or another
- * process holds the lock. On a file system without locks it always succeeds. file_is_locked() returns whether a file is
- * locked. */
+/* file_lock() locks an open file until the file is closed. It returns false if the file is already locked, by another
+ * process or through another open() of this process. On a file system without locks it always succeeds.
+ * file_is_locked() returns whether a file is locked. */
 bool file_lock(int file);
 bool file_is_locked(const char *path);
 
@@ -50,14 +50,15 @@ bool file_is_locked(const char *path);
  * close() releases the lock. Returns -1 if the folder does not exist or its file system has no locks. */
 int file_lock_parent_folder(const char *path);
 
-/* Returns true for the path "-". All functions below read standard input or write standard output if the path is "-". A
- * file with the name "-" is given as "./-". */
+/* Returns whether a path is "-". For this path, the functions below that read a file read standard input, and the
+ * functions that write a file write standard output. A file with the name "-" is given as "./-". */
 bool file_is_standard_stream(const char *path);
 
-/* Returns whether the path of an output is standard output: "-", /dev/stdout or /dev/fd/1. */
+/* Returns whether an output path names standard output: "-", /dev/stdout or /dev/fd/1. */
 bool file_is_standard_output(const char *path);
 
-/* Returns the name of a file for messages: its path or, for "-", "standard input" or "standard output". */
+/* Return the name of a file for messages: its path or, for "-", "standard input". file_output_display_name() returns
+ * "standard output" instead. */
 #define FILE_STANDARD_INPUT "standard input"
 const char *file_display_name(const char *path);
 const char *file_output_display_name(const char *path);
@@ -70,13 +71,13 @@ const char *file_output_display_name(const char *path);
  * or a device. */
 FILE *file_open(const char *path, uint64_t *size, char reason[FILE_REASON]);
 
-/* A function that is called after each block of a file was read. `done` is the number of bytes read so far, `total` the
- * number of all bytes, or 0 if it is unknown. */
+/* A function that is called after each block that was read from a file. `done` is the number of bytes read so far,
+ * `total` the size of the file, or 0 if the size is unknown. */
 typedef void file_progress(uint64_t done, uint64_t total, void *context);
 
-/* Reads a whole file into *bytes. The caller frees *bytes, which has room for one more byte. `progress` may be null.
- * The bytes of standard input are not kept, so standard input can be read only once in this way. On failure, *bytes is
- * null. */
+/* Reads a whole file into *bytes. The caller frees *bytes, which has room for one more byte, such as a final zero.
+ * `progress` may be null. The bytes of standard input are not kept, so standard input can be read only once in this
+ * way. On failure, *bytes is null. */
 bool file_read_with_progress(const char *path, file_progress *progress, void *context, char **bytes, size_t *size,
                              octreel_error *error);
 
@@ -84,14 +85,15 @@ bool file_read_with_progress(const char *path, file_progress *progress, void *co
 bool file_read_whole(const char *path, char **bytes, size_t *size, octreel_error *error);
 
 /* A file that is written as "<path>.part" and then renamed to the path, so that the path never holds an incomplete
- * file. If the path is that of standard
- * output, the writer writes there, and neither flushes nor closes it; main() does, and reports errors. */
+ * file. If the path is "-", the writer writes to standard output; main() flushes standard output and reports errors. */
 typedef struct file_writer {
     FILE *stream;
     const char *path;
-    char *temp; /* the path of the temporary file; owned; null: standard output */
-    /* if the caller sets this after opening, the file is synced: a power failure then leaves either the old or the new
-     * file */
+    /* the path of the open file: the temporary file, or `path` if it is written directly; owned; null: standard
+     * output */
+    char *temp;
+    /* set by the caller after opening; true: the file is synced before it is renamed, so that a power failure leaves
+     * either the old or the new file */
     bool lasting;
 } file_writer;
 
@@ -99,18 +101,20 @@ typedef struct file_writer {
  * reads is refused. */
 bool file_writer_open(file_writer *file, const char *path, octreel_error *error);
 
-/* Opens a writer in a folder whose contents other people may have prepared. An existing pipe, device or link at the
- * path is replaced. The writer never writes to it: writing to a pipe would block, and a link or device would lead out
- * of the folder. */
+/* Opens a writer in a folder whose contents are not trusted. If the path is a pipe, a device or a link, the new file
+ * replaces it. Writing to a pipe would block; writing to a link or device would change a file outside the folder. */
 bool file_writer_open_replacing(file_writer *file, const char *path, octreel_error *error);
 
 /* Opens a writer as file_writer_open_replacing() does. In addition the temporary file has a unique name, so that
  * several processes can write the same path. */
 bool file_writer_open_unique(file_writer *file, const char *path, octreel_error *error);
+
+/* Completes the file: writes all buffered data, and renames the temporary file to the path. On failure, removes the
+ * temporary file. */
 bool file_writer_close(file_writer *file, octreel_error *error);
 
-/* The two steps of file_writer_close(), for several files that change together. file_writer_finish() writes
- * everything to the temporary file; file_writer_rename() only renames it. */
+/* The two steps of file_writer_close(), for several files that change together. file_writer_finish() writes all
+ * buffered data to the temporary file and closes it; file_writer_rename() only renames it. */
 bool file_writer_finish(file_writer *file, octreel_error *error);
 bool file_writer_rename(file_writer *file, octreel_error *error);
 
@@ -135,9 +139,9 @@ bool file_copy_unique(const char *from, const char *to, octreel_error *error);
 bool have_same_bytes(const char *a, const char *b);
 bool have_same_file(const char *folder_a, const char *folder_b, const char *name);
 
-/* is_same_file() returns whether two results of stat() describe the same file. stat_parent() describes the folder that
- * contains a path; it returns false on failure. */
+/* is_same_file() returns whether two results of stat() describe the same file. stat_parent_folder() calls stat() for
+ * the folder that contains a path; it returns false on failure. */
 bool is_same_file(const struct stat *a, const struct stat *b);
-bool stat_parent(const char *path, struct stat *status);
+bool stat_parent_folder(const char *path, struct stat *status);
 
 #endif

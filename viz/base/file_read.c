@@ -63,8 +63,8 @@ static bool read_block(reading *r, size_t *got)
     return true;
 }
 
-/* Reads a stream to its end. The first buffer is larger than a regular file, so that the last read finds the end of the
- * file without growing the buffer. */
+/* Reads a stream to its end. The first buffer for a regular file is larger than the file, so that the last read finds
+ * the end of the file without growing the buffer. */
 static bool read_stream(reading *r, char reason[FILE_REASON])
 {
     size_t got = 1;
@@ -120,8 +120,8 @@ FILE *file_open(const char *path, uint64_t *size, char reason[FILE_REASON])
     return stream;
 }
 
-/* Copies the bytes that file_open() kept. A copy is affordable, because inputs that file_open() has opened before are
- * small. */
+/* Copies the bytes of standard input that file_open() kept. A copy is affordable, because inputs that file_open() opens
+ * are small. */
 static bool copy_stored_input(char **bytes, size_t *size, char reason[FILE_REASON])
 {
     *size = standard.size;

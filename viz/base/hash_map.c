@@ -4,7 +4,7 @@
  * The items stay in the caller's array; the map is only a table of their indices, 4 bytes each. The hash of a key
  * selects a slot. If another item occupies this slot, the slots after it are tried in turn (open addressing with linear
  * probing). Linear probing reads memory in order and needs no lists. An empty slot ends a search. Removing a single
- * item would leave such a slot, so single items cannot be removed.
+ * item would leave an empty slot that ends the search for another item too early, so single items cannot be removed.
  *
  * The table is at most half full. A search then takes about 1.5 probes for a present key and 2.5 for an absent key
  * (Knuth, The Art of Computer Programming 3, 6.4). The table has 2^n slots, so that a mask selects the slot instead of

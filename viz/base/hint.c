@@ -24,8 +24,8 @@
 
 enum { LONGEST = 40, SHORTEST_BEGINNING = 3 };
 
-/* Option names of other programs, such as odiff, ffmpeg and make. Beside each name is the name of the same option in
- * Octreel. */
+/* Names of options and commands of other programs, such as odiff, ffmpeg and make. Beside each name is Octreel's name
+ * for the same option or command. */
 static const char *const synonyms[][2] = {
     {"force", "replace"},       {"overwrite", "replace"}, {"clobber", "replace"}, {"continue", "resume"},
     {"movie", "film"},          {"video", "film"},        {"gif", "film"},        {"animate", "film"},
@@ -48,7 +48,7 @@ static size_t minimum(size_t a, size_t b)
     return a < b ? a : b;
 }
 
-static int lower_case(char c)
+static int to_lower_case(char c)
 {
     return tolower((unsigned char)c);
 }
@@ -66,10 +66,10 @@ static size_t find_edit_distance(const char *a, size_t a_length, const char *b, 
                 now[j] = i + j;
                 continue;
             }
-            const bool same = lower_case(a[i - 1]) == lower_case(b[j - 1]);
+            const bool same = to_lower_case(a[i - 1]) == to_lower_case(b[j - 1]);
             now[j] = minimum(minimum(last[j], now[j - 1]) + 1, last[j - 1] + !same);
-            if (i > 1 && j > 1 && lower_case(a[i - 1]) == lower_case(b[j - 2]) &&
-                lower_case(a[i - 2]) == lower_case(b[j - 1]))
+            if (i > 1 && j > 1 && to_lower_case(a[i - 1]) == to_lower_case(b[j - 2]) &&
+                to_lower_case(a[i - 2]) == to_lower_case(b[j - 1]))
                 now[j] = minimum(now[j], before[j - 2] + 1);
         }
     }

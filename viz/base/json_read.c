@@ -213,7 +213,7 @@ static bool fail_with_jansson_error(json_reader *r, const json_error_t *parsed)
     return json_fail_line(r, r->line + (parsed->line > 1 ? (size_t)parsed->line - 1 : 0), NULL, "%s%s", ours, rest);
 }
 
-static void advance_to(json_reader *r, const char *at)
+static void move_reader_to(json_reader *r, const char *at)
 {
     r->line += count_lines(r->at, at);
     r->at = at;
@@ -223,7 +223,7 @@ bool json_skip_to_object(json_reader *r)
 {
     const char *at = r->at;
     skip_blanks(&at, r->limit);
-    advance_to(r, at);
+    move_reader_to(r, at);
     return at < r->limit;
 }
 
@@ -239,6 +239,6 @@ bool json_read_object(json_reader *r, bool alone, json_object_reader *read)
     const bool done = json_is_object(object) ? read(r, object) : json_fail_expected(r, object, NULL, "an object");
     json_decref(object);
     if (!alone)
-        advance_to(r, r->at + parsed.position);
+        move_reader_to(r, r->at + parsed.position);
     return done;
 }

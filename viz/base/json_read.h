@@ -27,7 +27,7 @@ const char *json_place_format(const json_place *place, char *text, size_t size);
 json_t *json_parse(const char *text, size_t size, size_t flags, json_error_t *error);
 
 /* Makes json_parse() notice every failed allocation of jansson. Must be called once, before any thread starts. Without
- * it, jansson 2.14 silently drops a character of a long string if one allocation fails and the next allocation
+ * this call, jansson 2.14 silently drops a character of a long string if one allocation fails and the next allocation
  * succeeds. */
 void json_detect_failed_allocations(void);
 
@@ -44,8 +44,8 @@ typedef struct json_reader {
 /* Skips whitespace before the next object. Returns false at the end of the text. */
 bool json_skip_to_object(json_reader *r);
 
-/* Reads the current object with `read` and moves past the object. All numbers are read as doubles: -0 keeps its sign,
- * and integers are exact up to 2^53. With `alone`, text after the object is an error. */
+/* Reads the current object with `read`. If `alone` is true, text after the object is an error; otherwise the reader
+ * moves past the object. All numbers are read as doubles: -0 keeps its sign, and integers are exact up to 2^53. */
 typedef bool json_object_reader(json_reader *r, json_t *object);
 bool json_read_object(json_reader *r, bool alone, json_object_reader *read);
 
@@ -58,7 +58,7 @@ bool json_read_object(json_reader *r, bool alone, json_object_reader *read);
 const char *json_shorten_name(const char *name);
 
 /* Returns the line in which a place begins. If the place is missing from the text, returns the line of the nearest
- * place that contains it. Cost: O(size). */
+ * place that contains it. Cost: O(size of the object's text). */
 size_t json_find_line(const json_reader *r, const json_place *at);
 
 /* Writes an error about a place from a printf format. Always returns false. */

@@ -114,7 +114,7 @@ static bool wait_for_input(const json_stream *s)
 
 /* Reads the bytes that are available. Sets s->ended at the end of the stream. Returns JSON_STREAM_OBJECT if the scan
  * can continue. */
-static json_stream_state read_more(json_stream *s, json_reader *r)
+static json_stream_state read_available_bytes(json_stream *s, json_reader *r)
 {
     ssize_t got;
     if (!make_room_for_block(s))
@@ -142,7 +142,7 @@ static void skip_blanks(json_stream *s, json_reader *r)
     for (; s->begin < s->size && is_blank(s->bytes[s->begin]); s->begin++)
         r->line += s->bytes[s->begin] == '\n';
     if (s->begin < s->size)
-        s->mark = 3; /* other text has begun: as after a whole mark of 3 bytes, skip no more of it */
+        s->mark = 3; /* the text has begun, so no mark can follow: set the state after a whole mark */
 }
 
 /* Continues the scan with the bytes that were read. Returns true if the end of the object was found, or if the
@@ -177,7 +177,7 @@ json_stream_state json_stream_read_object(json_stream *s, json_reader *r)
             return report_broken_object(r, "the text ends inside the object that begins in this line%s", "");
         if (s->ended)
             return JSON_STREAM_END;
-        const json_stream_state state = read_more(s, r);
+        const json_stream_state state = read_available_bytes(s, r);
         if (state != JSON_STREAM_OBJECT)
             return state;
     }

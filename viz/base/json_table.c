@@ -20,7 +20,7 @@
 
 /* ---- Members ------------------------------------------------------------------------------------------------ */
 
-static bool is_member(const json_member *table, const char *name)
+static bool has_member(const json_member *table, const char *name)
 {
     while (table->name && strcmp(table->name, name) != 0)
         table++;
@@ -76,8 +76,8 @@ bool json_read_members(json_reader *r, json_t *object, const json_place *at, con
     for (; row < rest; row++)
         if (!read_member(r, object, at, row, into))
             return false;
-    json_object_foreach(object, name, value) if (!is_member(table, name)) return fail_unknown_member(r, at, table,
-                                                                                                     name);
+    json_object_foreach(object, name, value) if (!has_member(table, name)) return fail_unknown_member(r, at, table,
+                                                                                                      name);
     for (; row->name; row++)
         if (!read_member(r, object, at, row, into))
             return false;
@@ -92,7 +92,7 @@ bool json_has_nonzero_byte(const void *bytes, size_t size)
     return false;
 }
 
-static bool is_member_set(const json_member *row, const void *structure)
+static bool meets_conditions(const json_member *row, const void *structure)
 {
     const char *from = structure;
     return (!row->given || *(const bool *)(from + row->given)) && (!row->is_set || row->is_set(structure)) &&
@@ -102,7 +102,7 @@ static bool is_member_set(const json_member *row, const void *structure)
 void json_write_members(json_writer *w, const json_member *table, const void *from)
 {
     for (; table->name; table++) {
-        const bool set = is_member_set(table, from);
+        const bool set = meets_conditions(table, from);
         if (!table->codec->write || !(set || table->nullable))
             continue;
         if (table->line)
@@ -170,7 +170,7 @@ const json_codec json_structures = {NULL, write_structures};
 
 /* Lists the forms that an object may have, for an error message: {"range": ...}, {"nearest": ...} or {"radius":
  * ...}. */
-static const char *list_kinds(json_name *kinds, char *text, size_t size)
+static const char *format_kinds(json_name *kinds, char *text, size_t size)
 {
     size_t length = 0;
     for (int i = 0; kinds(i) && length < size; i++) {
@@ -189,13 +189,13 @@ int json_read_kind(json_reader *r, json_t *object, const json_place *at, json_na
             continue;
         if (found >= 0) {
             json_fail(r, at, "expected one of %s, found \"%s\" and \"%s\" together",
-                      list_kinds(kinds, forms, sizeof forms), kinds(found), kinds(kind));
+                      format_kinds(kinds, forms, sizeof forms), kinds(found), kinds(kind));
             return -1;
         }
         found = kind;
     }
     if (found < 0)
-        json_fail(r, at, "expected %s", list_kinds(kinds, forms, sizeof forms));
+        json_fail(r, at, "expected %s", format_kinds(kinds, forms, sizeof forms));
     return found;
 }
 
@@ -235,7 +235,7 @@ static void write_choice(json_writer *w, const void *from)
 
 const json_codec json_choice = {json_read_choice, write_choice};
 
-static bool read_name_of_set(json_reader *r, json_t *value, const json_place *at, void *into)
+static bool read_set_element(json_reader *r, json_t *value, const json_place *at, void *into)
 {
     const int found = json_find_name(r->row->names, json_string_value(value));
     if (found >= 0)
@@ -246,7 +246,7 @@ static bool read_name_of_set(json_reader *r, json_t *value, const json_place *at
 static bool read_set(json_reader *r, json_t *value, const json_place *at, void *into)
 {
     *(unsigned *)into = 0;
-    return json_read_elements(r, value, at, r->row->about, read_name_of_set, into);
+    return json_read_elements(r, value, at, r->row->about, read_set_element, into);
 }
 
 static void write_set(json_writer *w, const void *from)

@@ -21,8 +21,8 @@ typedef struct json_codec {
 /* Returns the n-th name of a list. Returns null if n is beyond the last name. */
 typedef const char *json_name(int n);
 
-/* Defines the function `names`, a json_name, which returns the name of each value of an enumeration as `name_of`
- * does. */
+/* Defines a json_name function with the name `names`. Its results are the names that `name_of` returns for the values
+ * of an enumeration. */
 #define JSON_NAMES(names, name_of, enumeration)                                                                        \
     static const char *names(int n)                                                                                    \
     {                                                                                                                  \
@@ -41,7 +41,7 @@ typedef struct json_member {
     size_t given;
     size_t nonzero, nonzero_size; /* offset and size of bytes in the structure that must not all be 0; see JSON_IF() */
     bool (*is_set)(const void *structure); /* a function that must return true; null: no condition */
-    /* true: if a condition fails, the member is written as null; null can then also be read */
+    /* true: if a condition fails, the member is written as null, not left out; reading accepts null, too */
     bool nullable;
     bool line; /* true: the member is written on a line of its own */
 
@@ -76,7 +76,7 @@ typedef struct json_member {
 /* Reads the members of an object in the order of the table. An unknown member is an error. */
 bool json_read_members(json_reader *r, json_t *object, const json_place *at, const json_member *table, void *into);
 
-/* json_write_members() writes the members into an object that was begun, in the order of the table.
+/* json_write_members() writes the members into an object that the caller has begun, in the order of the table.
  * json_write_object() writes a whole object. */
 void json_write_members(json_writer *w, const json_member *table, const void *from);
 void json_write_object(json_writer *w, const json_member *table, const void *from);
@@ -85,14 +85,15 @@ void json_write_object(json_writer *w, const json_member *table, const void *fro
 bool json_read_elements(json_reader *r, json_t *list, const json_place *at, const char *expected, json_read_value *read,
                         void *into);
 
-/* Returns the kind of an object: the index in `kinds` of the only name that is a member of the object. If the object
- * has no such member, or more than one, returns -1 with an error. */
+/* Returns the kind of an object, an index into `kinds`. An object of a kind has a member with the name of this kind,
+ * and no member with the name of another kind; otherwise the function returns -1 with an error. */
 int json_read_kind(json_reader *r, json_t *object, const json_place *at, json_name *kinds);
 
 /* Returns the index of a name in `names`. Returns -1 if the name is unknown or null. */
 int json_find_name(json_name *names, const char *name);
 
-/* An array in a structure: a pointer member, then a count member. */
+/* An array in a structure: a pointer member, directly followed by a count member. json_get_counted_array() returns the
+ * array whose two members begin at `from`. */
 typedef struct json_counted_array {
     const void *items;
     size_t count;
@@ -128,7 +129,7 @@ extern const json_codec json_uint64, json_size, json_int;
 extern const json_codec json_ints; /* a codec of an array of row->size ints from row->min to row->max */
 /* A codec of a json_counted_array of uint64_t. Reading fills the array, or allocates it if it is null. */
 extern const json_codec json_ids;
-/* a codec of a double; if row->max is greater than row->min, the two are its limits */
+/* a codec of a double from row->min to row->max, or of any double if row->min equals row->max */
 extern const json_codec json_number;
 extern const json_codec json_nonnegative; /* a codec of a double that is at least 0 */
 extern const json_codec json_numbers;     /* a codec of an array of row->size doubles */

@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-static void break_line(json_writer *writer)
+static void write_pending_newline(json_writer *writer)
 {
     if (writer->newline)
         putc_unlocked('\n', writer->out);
@@ -22,40 +22,40 @@ static void write_separator(json_writer *writer)
     if (writer->comma && !writer->newline)
         putc_unlocked(' ', writer->out);
     writer->comma = false;
-    break_line(writer);
+    write_pending_newline(writer);
 }
 
-static void write_opening(json_writer *writer, char bracket)
+static void write_opening_bracket(json_writer *writer, char bracket)
 {
     write_separator(writer);
     putc_unlocked(bracket, writer->out);
 }
 
-static void write_closing(json_writer *writer, char bracket)
+static void write_closing_bracket(json_writer *writer, char bracket)
 {
-    break_line(writer);
+    write_pending_newline(writer);
     putc_unlocked(bracket, writer->out);
     writer->comma = true;
 }
 
 void json_write_begin_object(json_writer *writer)
 {
-    write_opening(writer, '{');
+    write_opening_bracket(writer, '{');
 }
 
 void json_write_end_object(json_writer *writer)
 {
-    write_closing(writer, '}');
+    write_closing_bracket(writer, '}');
 }
 
 void json_write_begin_array(json_writer *writer)
 {
-    write_opening(writer, '[');
+    write_opening_bracket(writer, '[');
 }
 
 void json_write_end_array(json_writer *writer)
 {
-    write_closing(writer, ']');
+    write_closing_bracket(writer, ']');
 }
 
 /* Writes a value that is a single word, such as true. */
@@ -116,7 +116,7 @@ static void write_escape(FILE *out, unsigned char c)
         fprintf(out, "\\u%04x", (unsigned)c);
 }
 
-/* Returns the number of characters from `at` on that need no escape. */
+/* Returns the number of characters at `at` that can be copied unchanged: ASCII characters that need no escape. */
 static size_t count_unescaped(const unsigned char *at)
 {
     size_t count = 0;

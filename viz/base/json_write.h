@@ -42,8 +42,8 @@ void json_write_integer(json_writer *writer, uint64_t value);
 void json_write_bool(json_writer *writer, bool value);
 void json_write_null(json_writer *writer);
 
-/* Write several numbers faster than one by one. json_write_elements() writes them as elements of an array that the
- * caller has begun. json_write_numbers() writes a whole array. */
+/* Write several numbers. One call is faster than many calls of json_write_number(). json_write_elements() writes them
+ * as elements of an array that the caller has begun. json_write_numbers() writes a whole array. */
 void json_write_elements(json_writer *writer, const double *values, size_t count);
 void json_write_numbers(json_writer *writer, const double *values, size_t count);
 

@@ -89,7 +89,7 @@ static bool convert_exactly(const decimal *d, double *value)
 
 /* Converts a number with strtod(). strtod() needs a final zero, and the decimal point of the locale, which may be
  * several bytes long. Returns false if the number is larger than the largest double, or if memory runs out. */
-static bool convert_by_library(const char *begin, const char *end, double *value)
+static bool convert_with_strtod(const char *begin, const char *end, double *value)
 {
     char few[128];
     const char *point = localeconv()->decimal_point;
@@ -117,7 +117,7 @@ bool number_parse(const char *begin, const char *limit, const char **end, double
     decimal d;
     const char *stop = scan_number(begin, limit, &d);
     *end = stop ? stop : begin;
-    return stop && (convert_exactly(&d, value) || convert_by_library(begin, stop, value));
+    return stop && (convert_exactly(&d, value) || convert_with_strtod(begin, stop, value));
 }
 
 bool numbers_parse(const char *text, double *values, size_t count)

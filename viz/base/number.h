@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* number.h - converts doubles to decimal text and back, independently of the locale.
  *
- * Reading is correctly rounded. Text that number_print() wrote reads back to the same bits.
+ * number_parse() rounds correctly. Text that number_print() wrote reads back to the same bits.
  */
 #ifndef BASE_NUMBER_H
 #define BASE_NUMBER_H
@@ -10,12 +10,13 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Read a decimal number at `begin`: an optional sign, digits with an optional point, and an optional exponent ("1",
+/* Parses a decimal number at `begin`: an optional sign, digits with an optional point, and an optional exponent ("1",
  * "-.5", "+2.", "1e-3"). No whitespace is skipped, and no character at `limit` or beyond is read. *end becomes the
  * first character after the number. Returns false and leaves *value unchanged if
  * - there is no number, as in "nan" and "inf": *end is `begin` (in "0x10" the number is 0);
- * - the number is larger than the largest double: *end is after it, and errno is ERANGE;
- * - memory runs out, which needs more than about 100 characters: *end is after it, and errno is ENOMEM. */
+ * - the number is larger than the largest double: *end is after the number, and errno is ERANGE;
+ * - memory runs out, possible for numbers of more than about 100 characters: *end is after the number, errno is
+ * ENOMEM. */
 bool number_parse(const char *begin, const char *limit, const char **end, double *value);
 
 /* Returns whether the text at `begin` is a NaN or an infinity as C prints them, in upper or lower case: "nan",

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /* number_print.c - prints doubles as the shortest of %.15g, %.16g and %.17g that reads back to the same bits.
  *
- * The plain method prints 15 digits, reads them back with strtod(), and tries 16 and 17 digits if the bits differ. This
- * method doubles the time for recording 100,000 points.
+ * The plain method prints 15 digits, reads them back with strtod(), and tries 16 and 17 digits if the bits differ. That
+ * doubles the time for recording 100,000 points.
  *
- * Numbers from 2^-7 to 1e14 are therefore printed with integers. The fraction becomes a 60-bit fixed-point number,
- * which represents it exactly. Multiplying it by ten moves the next digit in front of the point, and nothing is rounded
- * on the way. `half_last`, half of the double's last bit, is multiplied by ten as well. The digits read back to the
- * same double exactly if the remaining fraction is at most `half_last`. No strtod() is needed.
+ * Numbers from 2^-7 to 1e14 are therefore printed with integer arithmetic. The fraction becomes a 60-bit fixed-point
+ * number, which represents it exactly. Multiplying the fraction by ten moves the next digit in front of the point, and
+ * nothing is rounded on the way. `half_last`, half of the double's last bit, is multiplied by ten as well. The digits
+ * read back to the same double if their error is less than `half_last`, so no strtod() is needed.
  *
  * All other numbers are printed with printf. General algorithms (Ryu, Grisu) need tables of large powers for exponents
  * that are rare here. Cost: a few divisions.
@@ -27,7 +27,7 @@ enum {
     FEWEST_DIGITS = 15, /* a decimal number of 15 digits always survives conversion to double and back */
     HALF_BITS = 30,     /* number of bits in half of the fraction: such a half times 10^9 fits into 64 bits */
     FRACTION_BITS = 2 * HALF_BITS,
-    MOST_AT_ONCE = 9,
+    MOST_AT_ONCE = 9, /* maximum number of digits that append_digits() moves at once */
 };
 
 #define FRACTION_ONE (UINT64_C(1) << FRACTION_BITS)
@@ -46,11 +46,13 @@ static const uint64_t powers[] = {1,           10,           100,           1000
  * and the remaining fraction. */
 typedef struct expansion {
     uint64_t digits;
-    /* the number of significant digits found so far; if negative, the number of zeros after the decimal point still to
-     * skip */
+    /* the number of significant digits found so far; a negative number -n: n zeros directly after the decimal point are
+     * still to be skipped */
     int count;
-    int places;         /* the number of digits after the decimal point */
-    uint64_t rest;      /* the remaining fraction of one unit of the last digit, in units of 1 / FRACTION_ONE */
+    int places; /* the number of digits after the decimal point */
+    /* the part of the number after the digits found so far, as a fraction of one unit of the last digit; FRACTION_ONE
+     * is 1 */
+    uint64_t rest;
     uint64_t half_last; /* half of the double's last bit, in the same unit as `rest` */
     bool even;          /* true: the double's last bit is 0, so that a tie reads back as this double */
 } expansion;
@@ -87,7 +89,7 @@ static void append_digits(expansion *x, int count)
 }
 
 /* Returns whether the remaining fraction rounds the digits up. A tie rounds to the even digit, as in printf. */
-static bool rounds_up(const expansion *x)
+static bool is_rounded_up(const expansion *x)
 {
     return x->rest > FRACTION_ONE / 2 || (x->rest == FRACTION_ONE / 2 && x->digits % 2 != 0);
 }
@@ -97,7 +99,7 @@ static bool rounds_up(const expansion *x)
  * between SMALLEST_PLAIN and LARGEST_PLAIN, they have at most 14 digits. */
 static bool has_enough_digits(const expansion *x)
 {
-    const uint64_t off = rounds_up(x) ? FRACTION_ONE - x->rest : x->rest;
+    const uint64_t off = is_rounded_up(x) ? FRACTION_ONE - x->rest : x->rest;
     return off < x->half_last || (off == x->half_last && x->even);
 }
 
@@ -111,7 +113,7 @@ static expansion find_shortest_digits(double magnitude)
     }
     while (x.count < DBL_DECIMAL_DIG && !has_enough_digits(&x))
         append_digits(&x, 1);
-    x.digits += rounds_up(&x);
+    x.digits += is_rounded_up(&x);
     for (; x.places > 0 && x.digits % 10 == 0; x.places--)
         x.digits /= 10;
     return x;
@@ -135,7 +137,7 @@ static char *write_digits(char *end, uint64_t *digits, int count)
 
 /* Prints a number as %g does, without an exponent. Returns the length, or 0 if the number is not between
  * SMALLEST_PLAIN and LARGEST_PLAIN. */
-static size_t print_exactly(double value, char text[NUMBER_TEXT])
+static size_t print_with_integers(double value, char text[NUMBER_TEXT])
 {
     expansion x = {.digits = 0};
     const double magnitude = fabs(value);
@@ -175,7 +177,7 @@ static size_t replace_locale_point(char *text)
 
 size_t number_print(double value, char text[NUMBER_TEXT])
 {
-    const size_t size = print_exactly(value, text);
+    const size_t size = print_with_integers(value, text);
     if (size > 0)
         return size;
     for (int digits = FEWEST_DIGITS; digits < DBL_DECIMAL_DIG; digits++) {

@@ -23,10 +23,11 @@ static ssize_t append_bytes(void *stream, const char *bytes, size_t size)
     return (ssize_t)size;
 }
 
-/* If memory runs out, open_memstream() of glibc 2.36 leaves out a part of the text and reports no error. */
+/* open_memstream() of glibc 2.36 is not used: if memory runs out, it leaves out a part of the text and reports no
+ * error. */
 static FILE *open_stream(text_stream *s)
 {
-    append_bytes(s, "", 0); /* the text of a stream to which nothing is printed */
+    append_bytes(s, "", 0); /* allocate the text, in case nothing is printed to the stream */
     FILE *stream = s->text ? fopencookie(s, "w", (cookie_io_functions_t){.write = append_bytes}) : NULL;
     if (!stream) {
         free(s->text);
@@ -116,7 +117,7 @@ void print_remaining_count(FILE *out, uint64_t count, uint64_t shown, const char
 
 /* ---- Escaping ------------------------------------------------------------------------------------------------ */
 
-static const char *write_character_reference(char c, char room[ESCAPE_ROOM])
+static const char *format_character_reference(char c, char room[ESCAPE_ROOM])
 {
     snprintf(room, ESCAPE_ROOM, "&#%d;", c);
     return room;
@@ -132,7 +133,7 @@ const char *escape_nothing(const char *text, const char *at, char room[ESCAPE_RO
 const char *escape_xml_character(const char *text, const char *at, char room[ESCAPE_ROOM])
 {
     (void)text;
-    return strchr("<>&\"'\n\t", *at) ? write_character_reference(*at, room) : NULL;
+    return strchr("<>&\"'\n\t", *at) ? format_character_reference(*at, room) : NULL;
 }
 
 const char *escape_xml_text(const char *text, const char *at, char room[ESCAPE_ROOM])
@@ -153,7 +154,7 @@ const char *escape_markdown_character(const char *text, const char *at, char roo
         return NULL;
     if (*at == '\n' || *at == '\t')
         return " ";
-    return strchr("\\`*_{}[]<>#+!|~&@$\"'", *at) ? write_character_reference(*at, room) : NULL;
+    return strchr("\\`*_{}[]<>#+!|~&@$\"'", *at) ? format_character_reference(*at, room) : NULL;
 }
 
 bool utf8_is_unprintable(const unsigned char *at)

@@ -9,7 +9,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
-/* A stream that prints into memory. It must not move in memory before text_stream_end(). */
+/* A stream that prints into memory. The struct must keep its address until text_stream_end(). */
 typedef struct text_stream {
     FILE *stream; /* null: memory ran out */
     char *text;
@@ -18,8 +18,8 @@ typedef struct text_stream {
 
 bool text_stream_begin(text_stream *s);
 
-/* Closes the stream. Sets *text to the printed text, which the caller frees, or to null if nothing was printed. Returns
- * false if memory has run out. */
+/* Closes the stream. Sets *text to the printed text, which the caller frees, or to null if nothing was printed. If
+ * memory has run out, sets *text to null and returns false. */
 bool text_stream_end(text_stream *s, char **text);
 
 /* U+FFFD, which replaces bytes that are not valid UTF-8. */
@@ -56,8 +56,8 @@ escape escape_xml_character;      /* for text in an XML attribute or element */
 escape escape_xml_text;           /* for text in an XML element that may contain line ends */
 escape escape_markdown_character; /* for text in a Markdown line, a table cell or an HTML element */
 
-/* Writes UTF-8 text. `how` escapes its ASCII characters. Invalid bytes, unprintable characters, and control characters
- * that `how` does not escape become U+FFFD. */
+/* Writes UTF-8 text. `how` escapes ASCII characters of the text. Invalid bytes, unprintable characters, and control
+ * characters that `how` does not escape become U+FFFD. */
 void write_escaped(FILE *out, const char *text, escape *how);
 
 /* Returns the next line of a text, and moves *at past the line. The line end is replaced by a zero byte. Returns null

@@ -13,12 +13,14 @@ typedef struct watcher {
     void *context;
 } watcher;
 
+/* Reports progress. `w` may be null. */
 static inline void watcher_report(const watcher *w, uint64_t done, uint64_t total)
 {
     if (w && w->progress)
         w->progress(done, total, w->context);
 }
 
+/* Returns whether the task should continue. `w` may be null. */
 static inline bool watcher_continues(const watcher *w)
 {
     return !w || !w->keep_going || w->keep_going(w->context);

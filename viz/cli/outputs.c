@@ -31,7 +31,7 @@ bool is_standard_output_taken(const output_file *outputs, size_t count)
 static bool is_same_new_path(const char *a, const char *b)
 {
     struct stat folders[2];
-    if (!stat_parent(a, &folders[0]) || !stat_parent(b, &folders[1]))
+    if (!stat_parent_folder(a, &folders[0]) || !stat_parent_folder(b, &folders[1]))
         return strcmp(a, b) == 0;
     return is_same_file(&folders[0], &folders[1]) && strcmp(path_base_name(a), path_base_name(b)) == 0;
 }
