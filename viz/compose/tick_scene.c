@@ -77,7 +77,7 @@ static void begin_results(tick_history *h, layer_source *in)
     if (h->state == 0 || h->built != tick) {
         h->check.done = h->arrows.known = false;
         h->built = tick;
-        h->state = kept_tree_make_name();
+        h->state = kept_tree_make_unique_name();
     }
     in->state = h->state;
 }

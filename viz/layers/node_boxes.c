@@ -27,7 +27,7 @@ bool is_small_below_shown(const scene *s, const octree_box *box, unsigned depth)
 {
     const view_filter *f = &s->view.filter;
     return s->view.lod > 0 && !f->leaves && depth > (f->by_depth ? f->min_depth : 0) &&
-           camera_is_box_below(&s->camera, box, s->view.lod);
+           camera_is_box_smaller_than(&s->camera, box, s->view.lod);
 }
 
 bool find_shown_node(scene *s, const octree *tree, octree_address address, octree_node *node)

@@ -206,7 +206,7 @@ static bool show_box(tree_walk *w, const scene_box *box, bool by_filter)
     const scene *s = w->scene;
     const unsigned depth = box->depth;
     const bool under_drawn = w->drawn[depth], /* a box inside a small box is small too, so it need not be measured */
-        small = w->small[depth] || (s->view.lod > 0 && camera_is_box_below(&s->camera, &box->box, s->view.lod));
+        small = w->small[depth] || (s->view.lod > 0 && camera_is_box_smaller_than(&s->camera, &box->box, s->view.lod));
     const bool out = by_filter && small && under_drawn;
     w->small[depth + 1] = small;
     w->drawn[depth + 1] = under_drawn || (by_filter && !out);
@@ -264,7 +264,7 @@ static void close_kept_subtree(tree_walk *w)
  * store the subtree, unless it has too many points or lies inside a subtree that is already being stored. */
 static bool reuse_kept_subtree(tree_walk *w, const octree_node *node)
 {
-    if (kept_tree_collects(w->kept, node))
+    if (kept_tree_is_collecting(w->kept, node))
         return false;
     close_kept_subtree(w);
     if (node->count > KEPT_POINTS && !node->leaf)

@@ -25,7 +25,7 @@ bool node_reason_find(node_reason *r, const octree_game *game, const node_change
                        .points = node->count,
                        .capacity = octree_definition(octree_game_tree(game)).leaf_capacity,
                        .split = !node->leaf,
-                       .maker = node_changes_find_maker(changes, node->address)};
+                       .maker = node_changes_find_origin(changes, node->address)};
     return node_changes_list_points(changes, game, node, &r->arrived, &r->left);
 }
 

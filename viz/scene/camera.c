@@ -13,21 +13,22 @@
 /* The camera zooms so that the window is this many times as large as the framed box in the picture. The margin is room
  * for labels. */
 #define MARGIN 1.1
-/* the least extent of the framed box, in unit coordinates, that find_zoom() and find_orbit_zoom() assume; it limits the
- * zoom */
+/* the least extent of the framed box, in unit coordinates, that find_zoom() and find_orbit_zoom() assume, so that the
+ * zoom is limited */
 #define THINNEST 1e-3
 #define ORBIT_TICKS 480 /* the number of ticks in which the orbiting camera turns once */
 #define FOCAL 1.6       /* the focal length of the camera that follows the player, in units of half the window's size */
 
-/* Limits of the fast path of is_small_box_below(). ASIDE: the greatest distance of a box from the view axis, divided by
- * the box's depth. FARTHEST: the greatest depth. Within these limits, rounding errors stay below ROUNDING pixels. */
+/* Limits of the fast path of is_perspective_box_smaller_than(). ASIDE: the greatest distance of a box from the view
+ * axis, divided by the box's depth. FARTHEST: the greatest depth. Within these limits, rounding errors stay below
+ * ROUNDING pixels. */
 #define ASIDE 1e3
 #define FARTHEST 1e100
 #define ROUNDING 1e-6
 
 /* Compute the cosine and sine of an angle in [0, pi/4] from their Taylor series. In this range, eight terms are enough
  * for the precision of a double. */
-static void compute_octant_turn(double angle, double *cosine, double *sine)
+static void compute_octant_cosine_sine(double angle, double *cosine, double *sine)
 {
     const double square = angle * angle;
     double c = 1, s = 1;
@@ -43,7 +44,7 @@ void camera_compute_cosine_sine(double turns, double *cosine, double *sine)
 {
     const double whole = floor(turns * 4 + 0.5); /* the number of quarter turns, rounded to an integer */
     double c, s;
-    compute_octant_turn(fabs(turns * 4 - whole) * 1.5707963267948966, &c, &s);
+    compute_octant_cosine_sine(fabs(turns * 4 - whole) * 1.5707963267948966, &c, &s);
     s = turns * 4 < whole ? -s : s;
     /* The cosine after 0, 1, 2 and 3 quarter turns. The sine equals the cosine one quarter turn earlier. */
     const double cosines[4] = {c, -s, -c, s};
@@ -64,7 +65,7 @@ static void set_axes(camera *c, double azimuth, double elevation)
     memcpy(c->forward, (double[3]){-sa * ce, ca * ce, -se}, sizeof c->forward);
 }
 
-/* Place the eye behind a target, at a distance from it. Target and distance are in unit coordinates. */
+/* Place the eye behind a target, at a distance from the target. Target and distance are in unit coordinates. */
 static void place_eye(camera *c, const double target[3], double distance)
 {
     for (int i = 0; i < 3; i++)
@@ -127,7 +128,7 @@ static double find_zoom(const camera *c, camera_window window)
     return x < y ? x : y;
 }
 
-static void set_box_scale(camera *c, const octree_box *world)
+static void set_framed_box(camera *c, const octree_box *world)
 {
     double extent[3];
     c->scale = 1;
@@ -146,7 +147,7 @@ static void set_box_scale(camera *c, const octree_box *world)
 camera camera_make(const view *v, camera_window window, const octree_box *world, const double player[3], uint64_t tick)
 {
     camera c = {.perspective = cameras[v->camera].perspective, .near = 0.02};
-    set_box_scale(&c, v->fit == FIT_BOX ? &v->focus : world);
+    set_framed_box(&c, v->fit == FIT_BOX ? &v->focus : world);
     const bool placed = v->center.given || v->camera == CAMERA_FOLLOW;
     const double orbit = v->camera == CAMERA_ORBIT ? (double)(tick % ORBIT_TICKS) / ORBIT_TICKS : 0;
     set_axes(&c, v->look.given ? v->look.azimuth / 360 : cameras[v->camera].azimuth + orbit,
@@ -212,7 +213,7 @@ bool camera_find_pixel(const camera *c, const double position[3], double pixel[2
 }
 
 /* Returns the size of a box on screen under orthographic projection, where the size does not depend on the position. */
-static double parallel_box_pixels(const camera *c, const octree_box *box)
+static double find_orthographic_box_size(const camera *c, const octree_box *box)
 {
     double half[3];
     for (int i = 0; i < 3; i++)
@@ -224,7 +225,7 @@ double camera_box_size_in_pixels(const camera *c, const octree_box *box)
 {
     double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
     if (!c->perspective)
-        return parallel_box_pixels(c, box);
+        return find_orthographic_box_size(c, box);
     for (unsigned corner = 0; corner < 8; corner++) {
         double position[3], seen[3], pixel[2];
         box_corner(box, corner, position);
@@ -240,18 +241,18 @@ double camera_box_size_in_pixels(const camera *c, const octree_box *box)
     return fmax(high[0] - low[0], high[1] - low[1]);
 }
 
-/* Returns whether a box appears smaller than `pixels`, under perspective. Let (x, y, depth) be the camera coordinates
- * of the box's middle. A corner at offset d from the middle is projected at this distance in x from the middle's pixel,
+/* Returns whether a box appears smaller than `pixels` under perspective. Let (x, y, depth) be the camera coordinates of
+ * the box's middle. A corner at offset d from the middle is projected at this distance in x from the middle's pixel,
  * and likewise in y:
  *
  *   zoom (d.right - x / depth d.forward) / (depth + d.forward)
  *
  * The absolute value of the numerator is largest at two opposite corners. The denominator lies between the depths of
  * the nearest and the farthest corner. Numerator and denominator give a lower and an upper bound of the box's size on
- * screen. For a small box the two bounds are nearly equal, so that one of the bounds usually decides.
+ * screen. For a small box the two bounds are nearly equal, so that one of the bounds usually decides the result.
  *
  * Rounding errors are far below ROUNDING if no corner is beside or behind the eye. */
-static bool is_small_box_below(const camera *c, const octree_box *box, double pixels)
+static bool is_perspective_box_smaller_than(const camera *c, const octree_box *box, double pixels)
 {
     double middle[3], half[3], across = 0, along = 0;
     const double per_unit = 1 / c->size;
@@ -276,15 +277,16 @@ static bool is_small_box_below(const camera *c, const octree_box *box, double pi
     return !(widest > (pixels + slack) * (depth + reach) * depth) && camera_box_size_in_pixels(c, box) < pixels;
 }
 
-bool camera_is_box_below(const camera *c, const octree_box *box, double pixels)
+bool camera_is_box_smaller_than(const camera *c, const octree_box *box, double pixels)
 {
-    return c->perspective ? is_small_box_below(c, box, pixels) : parallel_box_pixels(c, box) < pixels;
+    return c->perspective ? is_perspective_box_smaller_than(c, box, pixels)
+                          : find_orthographic_box_size(c, box) < pixels;
 }
 
 /* ---- Framing points ------------------------------------------------------------------------------------------ */
 
-/* The least extent of a fitted box on an axis, as a part of its longest side. If all points lie on a line or a plane,
- * the picture thus shows some space around them. */
+/* The least extent of a fitted box on an axis, as a part of the box's longest side. So there is some space around
+ * points that all lie on a line or a plane. */
 #define THINNEST_FIT (1.0 / 16)
 
 typedef struct bounds {
@@ -321,7 +323,7 @@ static double half_extent(const octree_box *box, int axis)
     return box->max[axis] / 2 - box->min[axis] / 2;
 }
 
-static void widen_box(octree_box *box)
+static void widen_thin_sides(octree_box *box)
 {
     double longest = 0;
     for (int i = 0; i < 3; i++)
@@ -350,6 +352,6 @@ void camera_fit_points(view *v, const octree *tree)
     octree_node leaf;
     if (b.count && is_single_position(&b.box) && octree_locate(tree, b.box.min, &leaf) == OCTREE_OK)
         b.box = leaf.box;
-    widen_box(&b.box);
+    widen_thin_sides(&b.box);
     v->focus = b.box;
 }

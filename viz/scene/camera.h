@@ -4,9 +4,9 @@
  * A camera frames a box: the world, or the box that --fit points computes. A world position becomes a pixel in three
  * steps:
  *
- * 1. camera_to_unit_coordinates(): subtract the lowest corner of the box and divide by its size. The box then lies
- * within [-1, 1] on every axis. Subtracting first keeps precision: a scene at 1e15, or with an extent of 1e-300, looks
- * like the same scene at 0.
+ * 1. camera_to_unit_coordinates(): subtract the lowest corner of the box, divide by half the box's longest side, and
+ * centre the box on 0. The box then lies within [-1, 1] on every axis. Subtracting first keeps precision: a scene at
+ * 1e15, or with an extent of 1e-300, looks like the same scene at 0.
  *
  * 2. camera_transform(): camera coordinates, relative to the eye, along the axes right, up and forward (depth).
  *
@@ -35,12 +35,13 @@ typedef struct camera {
     bool perspective;
     /* pixels per unit of length in unit coordinates; under perspective, for a length at distance 1 from the eye */
     double zoom;
-    double middle[2];             /* the pixel at which the view axis meets the picture */
-    double center[3];             /* the world position that the camera looks at; it appears at the pixel `middle` */
-    double distance;              /* the distance from the eye to the center, in unit coordinates */
-    double near;                  /* geometry at a depth less than this is clipped */
-    double near_depth, far_depth; /* the range of depths of the framed box; the depth bands divide it */
-    bool clips_depth;             /* geometry outside near_depth to far_depth is clipped */
+    double middle[2]; /* the pixel at which the view axis meets the picture */
+    double center[3]; /* the world position that the camera looks at; it appears at the pixel `middle` */
+    double distance;  /* the distance from the eye to the center, in unit coordinates */
+    double near;      /* geometry at a depth less than this is clipped */
+    double near_depth,
+        far_depth;    /* the range of depths of the framed box; fading with distance divides this range into bands */
+    bool clips_depth; /* geometry outside near_depth to far_depth is clipped */
 } camera;
 
 /* Returns the camera of a tick. The view's `look`, `center` and `zoom`, if given, override the camera kind view.camera.
@@ -49,7 +50,7 @@ camera camera_make(const view *v, camera_window window, const octree_box *world,
 
 /* Returns the camera of a close-up. The new camera looks in the same direction as `c`, at the world position `place`.
  * `place` appears in the middle of `window`, magnified `times` as much as the center of `c`. The new camera clips
- * geometry that is farther in front of or behind `place` than the window reaches to its sides. */
+ * geometry whose depth differs from the depth of `place` by more than half the window's longer side. */
 camera camera_make_close_up(const camera *c, camera_window window, const double place[3], double times);
 
 /* Returns the side of a pixel in world units, at the camera's center. */
@@ -73,8 +74,8 @@ static inline void camera_to_unit_coordinates(const camera *c, const double posi
         result[i] = camera_to_unit_coordinate(c, i, position[i]);
 }
 
-/* Convert a world position to camera coordinates: distances from the eye along right, up and forward, in unit
- * lengths. */
+/* Convert a world position to camera coordinates: distances from the eye along right, up and forward, with the lengths
+ * of unit coordinates. */
 static inline void camera_transform(const camera *c, const double position[3], double result[3])
 {
     double from_eye[3];
@@ -99,23 +100,25 @@ static inline void camera_project(const camera *c, const double seen[3], double 
 bool camera_find_pixel(const camera *c, const double position[3], double pixel[2]);
 
 /* Returns the size of a box on screen in pixels: the longer side of the axis-aligned rectangle around the box's
- * projection. Infinite if a part of the box is nearer than `near`. Nothing inside the box appears larger. */
+ * projection. The size is infinite if a corner of the box is nearer than `near`. Nothing inside the box appears
+ * larger. */
 double camera_box_size_in_pixels(const camera *c, const octree_box *box);
 
-/* Returns whether camera_box_size_in_pixels() is below `pixels`. This function is faster than computing the size,
- * unless the size is close to `pixels`. */
-bool camera_is_box_below(const camera *c, const octree_box *box, double pixels);
+/* Returns whether camera_box_size_in_pixels() is below `pixels`. Faster than computing the size, unless the size is
+ * close to `pixels`. */
+bool camera_is_box_smaller_than(const camera *c, const octree_box *box, double pixels);
 
-/* If the view has FIT_POINTS, replace FIT_POINTS by FIT_BOX with the box of the points that the view shows in the tree
- * of tick 0. If all these points are equal, use the box of their leaf; if there are no such points, set FIT_WORLD. All
- * ticks use the box of tick 0, so that the camera does not move between ticks. A view without FIT_POINTS is not
- * changed. Cost: O(points). */
+/* If v->fit is FIT_POINTS, set it to FIT_BOX, and v->focus to the box of the points that the view shows in the tree of
+ * tick 0. If all these points are equal, use the box of their leaf; if there are no such points, set FIT_WORLD. All
+ * ticks use the box of tick 0, so that the camera does not move between ticks. If v->fit is not FIT_POINTS, change
+ * nothing. Cost: O(points). */
 void camera_fit_points(view *v, const octree *tree);
 
 /* Compute the cosine and sine of an angle in turns, from polynomials, so that every machine gets the same bits. */
 void camera_compute_cosine_sine(double turns, double *cosine, double *sine);
 
-/* Compute the position of a corner of a box. Bit i of the corner's number is set at the upper end of axis i. */
+/* Compute the position of a corner of a box. Bit i of the number `corner` is set if the corner is at the upper end of
+ * axis i. */
 static inline void box_corner(const octree_box *box, unsigned corner, double position[3])
 {
     for (unsigned i = 0; i < 3; i++)

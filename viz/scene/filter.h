@@ -2,12 +2,12 @@
 /* filter.h - which nodes and points of a tree a view shows.
  *
  * A node is shown if it passes every part of the filter that is set:
- *   slice    The slice's plane runs through the node's cell. The rule is that of points: min <= at < max, and the
- *            world's greatest face belongs to the last cell. So a slice is one layer of cells, even where its
- *            plane is also a splitting plane of the tree.
+ *   slice    The slice's plane runs through the node's cell. A cell is half-open, as for points: min <= at < max; only
+ *            the last cell contains the world's greatest face. So a slice is one layer of cells, even where its plane
+ *            is also a splitting plane of the tree.
  *   depth    The node's depth is in the range of depths.
  *   leaves   The node is a leaf.
- *   region   The node's box meets the region. Both are closed.
+ *   region   The node's box and the region intersect or touch.
  *
  * A point is shown if it lies in the region, and its leaf passes these tests:
  *   slice    The slice's plane runs through the leaf's cell.
@@ -29,7 +29,7 @@ typedef struct view_filter {
     bool by_depth;   /* true: show only nodes whose depth is from min_depth to max_depth */
     unsigned min_depth, max_depth; /* limits of the range of depths, each from 0 to OCTREE_MAX_DEPTH */
     bool leaves;                   /* true: show only leaves */
-    bool by_region;                /* true: show only nodes and points that meet the box `region` */
+    bool by_region;                /* true: show only nodes and points in or at the box `region` */
     octree_box region;
 } view_filter;
 
@@ -40,13 +40,13 @@ bool filter_shows_node(const view_filter *f, const octree_box *world, const octr
  * subtrees. */
 bool filter_shows_subtree(const view_filter *f, const octree_box *world, const octree_node *node);
 
-/* Returns whether the view shows a foreign node's box. Unlike a node of Octreel's tree, a foreign node has a closed
- * box, which may be flat: the view shows the box if the slice's plane meets the box or its boundary. A range of depths
- * that ends at OCTREE_MAX_DEPTH includes all greater depths. */
+/* Returns whether the view shows a foreign node's box. Unlike the cell of a node of Octreel's tree, a foreign box
+ * contains all its faces and may be flat: the view also shows the box if the slice's plane only touches it. A range of
+ * depths that ends at OCTREE_MAX_DEPTH includes all greater depths. */
 bool filter_shows_box(const view_filter *f, const octree_box *box, unsigned depth, bool leaf);
 
-/* The view shows a point if both functions return true: filter_shows_points_of() for the point's leaf, and
- * filter_shows_point() for its position. */
+/* The view shows a point if filter_shows_points_of() returns true for the point's leaf, and filter_shows_point()
+ * returns true for the point's position. */
 bool filter_shows_points_of(const view_filter *f, const octree_box *world, const octree_node *leaf);
 bool filter_shows_point(const view_filter *f, const double position[3]);
 

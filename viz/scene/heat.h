@@ -13,7 +13,8 @@
 /* The heat of one node address. Ticks in which no node has this address add nothing. */
 typedef struct heat_cell {
     octree_address node;
-    /* the number of ticks in which a query visited the node, or took whole the node or one of its ancestors */
+    /* the number of ticks in which a query visited the node; if a query takes a node whole, all descendants count as
+     * visited */
     uint64_t visits;
     uint64_t points; /* the number of points in the node's subtree, summed over the ticks */
 } heat_cell;

@@ -87,11 +87,11 @@ static void add_change(const octree_change *change, void *context)
         add_key(k, change->to);
 }
 
-uint64_t kept_tree_make_name(void)
+uint64_t kept_tree_make_unique_name(void)
 {
     static atomic_size_t names;
     const uint64_t name = octree_digest_word((uintptr_t)&names, atomic_fetch_add(&names, 1));
-    return (size_t)name ? name : 1; /* a name of a change log is a size_t */
+    return (size_t)name ? name : 1; /* never 0, also after conversion to size_t, the type of the names of change logs */
 }
 
 static bool read_changes(kept_tree *k, const octree *tree)
@@ -99,7 +99,7 @@ static bool read_changes(kept_tree *k, const octree *tree)
     k->changed_count = k->next_changed = 0;
     k->lost = false;
     k->tree = tree;
-    return octree_changes_since(tree, (size_t)kept_tree_make_name(), &k->cursor, add_change, k) && !k->lost;
+    return octree_changes_since(tree, (size_t)kept_tree_make_unique_name(), &k->cursor, add_change, k) && !k->lost;
 }
 
 /* Read the changes since the last walk from the tree's change log. Returns false if the log does not have all of these
@@ -107,7 +107,7 @@ static bool read_changes(kept_tree *k, const octree *tree)
  *
  * Reading the log makes the tree keep logging. Logging is wasted work if there are too many changes to use. So after
  * each failure, the log is not read for a number of ticks, which grows with each further failure. */
-static bool update_changes(kept_tree *k, const octree *tree)
+static bool read_changes_unless_waiting(kept_tree *k, const octree *tree)
 {
     enum { LONGEST_WAIT = 63 };
     if (k->wait > 0 && --k->wait > 0)
@@ -127,7 +127,8 @@ static bool update_changes(kept_tree *k, const octree *tree)
     return false;
 }
 
-static bool is_changed(kept_tree *k, octree_address address)
+/* Returns whether a changed position lies in the cell at `address`. Calls must come in the order of the walk. */
+static bool is_cell_changed(kept_tree *k, octree_address address)
 {
     const uint64_t first = first_key_in_cell(address);
     while (k->next_changed < k->changed_count && k->changed[k->next_changed] < first)
@@ -139,14 +140,14 @@ static bool is_changed(kept_tree *k, octree_address address)
 
 static bool are_looks_equal(const kept_look *a, const kept_look *b)
 {
-    const bool as_colorful = a->paints == b->paints && a->point_color == b->point_color && a->values == b->values &&
+    const bool same_colors = a->paints == b->paints && a->point_color == b->point_color && a->values == b->values &&
                              memcmp(&a->scale, &b->scale, sizeof a->scale) == 0;
     return a->coloring == b->coloring && a->boxes == b->boxes && a->points == b->points && a->capacity == b->capacity &&
-           a->point_width == b->point_width && (!a->paints || as_colorful) && a->paints == b->paints;
+           a->point_width == b->point_width && (!a->paints || same_colors) && a->paints == b->paints;
 }
 
-/* Find the changes since the last walk. If the state is the same, there are none. Returns false if the changes are not
- * known. */
+/* Find the changes since the last walk. If the state is the same as in the last walk, there are no changes. Returns
+ * false if the changes are unknown. */
 static bool find_changes(kept_tree *k, const octree *tree, uint64_t state)
 {
     const bool same = state != 0 && k->state == state;
@@ -156,8 +157,8 @@ static bool find_changes(kept_tree *k, const octree *tree, uint64_t state)
         return true;
     }
     if (k->cursor.log == 0)
-        kept_tree_clear(k); /* a new log does not tell what changed before */
-    return update_changes(k, tree);
+        kept_tree_clear(k); /* a new log does not list earlier changes */
+    return read_changes_unless_waiting(k, tree);
 }
 
 bool kept_tree_begin_walk(kept_tree *k, const octree *tree, const kept_look *look, uint64_t state)
@@ -179,7 +180,7 @@ bool kept_tree_begin_walk(kept_tree *k, const octree *tree, const kept_look *loo
 
 const kept_subtree *kept_tree_find_subtree(kept_tree *k, octree_address address)
 {
-    const bool changed = is_changed(k, address);
+    const bool changed = is_cell_changed(k, address);
     const uint64_t first = first_key_in_cell(address);
     for (; k->passed < k->before.count && first_key_in_cell(k->before.items[k->passed].address) < first; k->passed++)
         free(k->before.items[k->passed].nodes);
@@ -207,7 +208,7 @@ bool kept_tree_add_node(kept_tree *k, const scene_box *box)
     return true;
 }
 
-bool kept_tree_collects(const kept_tree *k, const octree_node *node)
+bool kept_tree_is_collecting(const kept_tree *k, const octree_node *node)
 {
     if (!k->open.address)
         return false;
@@ -215,9 +216,9 @@ bool kept_tree_collects(const kept_tree *k, const octree_node *node)
     return node->depth >= above && node->address >> 3 * (node->depth - above) == k->open.address;
 }
 
-/* Set the subtree size (`count`) of each node. The nodes are visited from the last to the first, so that the counts of
- * a node's children are known before the node's own count. */
-static void count_nodes(kept_subtree *subtree)
+/* Set the subtree size (`count`) of each node. The nodes are visited from last to first, so that the counts of a node's
+ * children are known before the count of the node. */
+static void set_subtree_sizes(kept_subtree *subtree)
 {
     for (uint32_t i = subtree->node_count; i-- > 0;) {
         uint32_t next = i + 1;
@@ -262,7 +263,7 @@ bool kept_tree_end_subtree(kept_tree *k, const scene *s)
         memcpy(made.nodes, k->nodes, nodes);
     if (markers > 0)
         memcpy(made.markers, s->markers.items + k->first_marker, markers);
-    count_nodes(&made);
+    set_subtree_sizes(&made);
     made.run = digest_markers(&k->names, made.markers, made.marker_count);
     k->now.items[k->now.count++] = made;
     return true;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* kept_tree.h - a cache of subtrees as they appear in a scene, kept from one picture to the next.
+/* kept_tree.h - a cache of the scene elements of subtrees, kept from one picture to the next.
  *
  * The problem: drawing a tick walks the whole tree, although most ticks change few points, and a moving camera changes
  * none.
@@ -34,7 +34,7 @@
 typedef struct kept_look {
     view_coloring coloring;
     bool boxes, points; /* boxes: true if the view shows boxes of nodes; points: true if the view shows points */
-    bool paints;        /* true: the points have colours of their own, from the next three members */
+    bool paints;        /* true: the points have colours of their own, which the next three members determine */
     view_point_color point_color;
     point_scale scale;
     const point_values *values;
@@ -70,7 +70,7 @@ typedef struct kept_tree {
     octree_cursor cursor;  /* the position in the tree's change log */
     /* `wait`: the number of ticks until the change log is read again; `backoff`: the length of the last such wait */
     unsigned wait, backoff;
-    uint64_t state;     /* the name of the tree's state in the last walk; 0: unknown */
+    uint64_t state;     /* the state of the tree in the last walk, as passed to kept_tree_begin_walk(); 0: unknown */
     const octree *tree; /* the tree whose changes are being read */
     uint64_t *changed;  /* the keys of changed positions, sorted */
     size_t changed_count, changed_room, next_changed;
@@ -89,29 +89,30 @@ void kept_tree_clear(kept_tree *k);
 void kept_tree_release(kept_tree *k);
 
 /* Begin a walk. If this function returns true, the walk calls kept_tree_find_subtree() for each subtree that may be
- * kept. If it returns false, the cache is empty, and the walk must not use the cache. `state` is 0 or a name of the
- * tree's state, which changes with the tree: a walk of the same state needs no change log. Cost: O(c log c) for c
- * changes. */
+ * kept. If it returns false, the cache is empty, and the walk must not use the cache. `state` is a number that names
+ * the tree's state and differs whenever the tree does; 0: unknown. If the state is the same as in the last walk, the
+ * change log is not read. Cost: O(c log c) for c changes. */
 bool kept_tree_begin_walk(kept_tree *k, const octree *tree, const kept_look *look, uint64_t state);
 
-/* Returns a name that no other call in this process has returned. It is never 0. */
-uint64_t kept_tree_make_name(void);
+/* Returns a number that names a state or a change log. No other call in this process returns the same number. The
+ * number is never 0. */
+uint64_t kept_tree_make_unique_name(void);
 
 /* Find the kept subtree at an address, and keep it for the next walk. Returns null if the subtree has changed or was
  * not kept. Calls must come in the order of the walk. */
 const kept_subtree *kept_tree_find_subtree(kept_tree *k, octree_address address);
 
 /* Collect a subtree for the cache: begin the subtree, add its nodes in the order of the walk, and end the subtree.
- * Markers that are appended to the scene between begin and end belong to the subtree. Returns false if memory runs out;
- * the caller then clears the cache. */
+ * Markers that are appended to the scene between these two calls belong to the subtree. Returns false if memory runs
+ * out; the caller then clears the cache. */
 void kept_tree_begin_subtree(kept_tree *k, octree_address address, const scene *s);
 bool kept_tree_add_node(kept_tree *k, const scene_box *box);
 bool kept_tree_end_subtree(kept_tree *k, const scene *s);
 
 /* Returns whether a node belongs to the subtree that is being collected. */
-bool kept_tree_collects(const kept_tree *k, const octree_node *node);
+bool kept_tree_is_collecting(const kept_tree *k, const octree_node *node);
 
-/* Record the digest of a run of elements. The elements were copied to the scene, and the run begins at index
+/* Record the digest of a run of elements that were copied to the scene. The first copied element has the index
  * `first`. */
 void kept_tree_add_run(digest_runs *runs, size_t first, digest_run run);
 

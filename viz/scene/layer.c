@@ -8,7 +8,7 @@
 const layer_row layer_rows[LAYER_ALL] = {LAYER_MAP(LAYER_ROW)};
 
 /* Find the layer bits of a name, given by its start and length. Returns false if the name is unknown. */
-static bool find_layers(const char *name, size_t length, unsigned *bits)
+static bool find_layer_bits(const char *name, size_t length, unsigned *bits)
 {
     static const struct {
         const char *name;
@@ -34,7 +34,7 @@ bool view_layers_parse(const char *list, unsigned *layers, const char **bad)
         at += without;
         const size_t length = strcspn(at, ",");
         unsigned bits;
-        if (!find_layers(at, length, &bits))
+        if (!find_layer_bits(at, length, &bits))
             return false;
         result = without ? result & ~bits : result | bits;
         at += length;

@@ -8,8 +8,8 @@
  *   4. a row in the tables of test_describe.c, test_legend.c and test_picture.c (tests/viz)
  *   5. a row in tests/support/viz/golden_frames.c, with the layer's golden frame
  *   6. a row in test_view.c, if the layer is hidden by default
- * If the layer shows data that octree_tick does not have, add the data to octree_tick first. If it needs a new colour,
- * add a row to theme.h. If a recording's page is to plot a curve of it, add a line to CURVES in
+ * If the layer shows data that octree_tick does not have, add the data to octree_tick first. If the layer needs a new
+ * colour, add a row to theme.h. If a recording's page is to plot a curve of the layer's data, add a line to CURVES in
  * viz/page/viewer/facts.js.
  */
 #ifndef SCENE_LAYER_H
@@ -90,7 +90,8 @@ static inline bool view_shows_layer(const view *v, view_layer layer)
                                     : v->layers >> layer & 1;
 }
 
-/* Return the style of an element. The colour is that of a role or, with make_layer_style(), that of the layer. */
+/* Return the style of an element. make_role_style() uses the colour of `role`, make_layer_style() the colour of the
+ * layer. */
 static inline scene_style make_role_style(view_layer layer, unsigned role, scene_stroke stroke, unsigned width)
 {
     return (scene_style){(uint8_t)layer, (uint8_t)role, (uint8_t)stroke, (uint8_t)width};

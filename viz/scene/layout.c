@@ -187,9 +187,9 @@ bool text_space_add_label_beside(text_space *t, scene *s, scene_label label, con
         return true;
     const double aside = (half / 2.0 + 3) * s->unit + (double)strlen(label.text) * s->text.width / 2;
     const double above = half / 2.0 * s->unit + s->text.height;
-    const double ways[][2] = {{aside, 0}, {-aside, 0}, {0, -above}, {0, above}};
-    for (size_t i = 0; i < sizeof ways / sizeof ways[0]; i++) {
-        const double middle[2] = {pixel[0] + ways[i][0], pixel[1] + ways[i][1]};
+    const double offsets[][2] = {{aside, 0}, {-aside, 0}, {0, -above}, {0, above}};
+    for (size_t i = 0; i < sizeof offsets / sizeof offsets[0]; i++) {
+        const double middle[2] = {pixel[0] + offsets[i][0], pixel[1] + offsets[i][1]};
         if (!text_space_reserve_text(t, s, label.text, middle, label.at))
             continue;
         scene_add_label_on_ground(s, &label, ROLE_BACKGROUND);

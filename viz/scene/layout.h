@@ -11,12 +11,12 @@
 #define LAYOUT_LETTERS 28
 #define LAYOUT_MARGIN 2
 
-/* Returns the width of the column of text in pixels. Returns 0 if the view has no text or has it apart, or if the
- * picture is too small for the column. */
+/* Returns the width of the column of text in pixels. Returns 0 if the view has no text, if the text is not part of the
+ * picture (view.text_apart), or if the picture is too small for the column. */
 int layout_panel_width(const view *v);
 
-/* Returns the height of the strip below the space view and the diagram, which holds the caption, in pixels. Returns 0
- * if the picture has no column of text or is too low. */
+/* Returns the height, in pixels, of the strip for the caption below the space view and the diagram. Returns 0 if the
+ * picture has no column of text or is not high enough. */
 int layout_caption_height(const view *v);
 
 /* Returns the area of the space view, in which the world is drawn. */
@@ -35,8 +35,8 @@ camera_window layout_camera_area(const scene *s, const octree_box *world);
 camera_window layout_closeup_area(const view *v);
 
 /* Returns the area of the diagram, which is empty if the view shows no diagram. With DIAGRAM_BESIDE the diagram takes
- * half of the picture without the column of text: the right half, or the lower half if this part of the picture is
- * higher than wide. */
+ * half of the area that the column of text and the caption leave free: the right half, or the lower half if this area
+ * is higher than wide. */
 camera_window layout_diagram_area(const view *v);
 
 /* ---- Placement of labels ------------------------------------------------------------------------------------ */
@@ -66,7 +66,7 @@ void text_space_reserve_mark(text_space *t, const scene *s, const double at[3], 
  * returns true without adding a label. */
 bool text_space_add_label_beside(text_space *t, scene *s, scene_label label, const double at[3], unsigned half);
 
-/* Add a label on a filled rectangle, so that lines and points behind the label do not make it hard to read. The
+/* Add a label on a filled rectangle, so that lines and points behind the label do not make the label hard to read. The
  * rectangle has the label's id and layer. */
 void scene_add_label_on_ground(scene *s, const scene_label *label, theme_role ground);
 

@@ -17,8 +17,8 @@ static const struct lettering_row {
     {900, FACE_12X24, 4, FACE_12X24, 2}, {1280, FACE_16X32, 6, FACE_16X32, 2},
 };
 
-/* At a picture height of MULTIPLIED pixels or more, face 12x24 is used. It is enlarged by the picture height divided by
- * 1080, rounded to the nearest integer. */
+/* At a picture height of MULTIPLIED pixels or more, face 12x24 is used. It is enlarged by the factor height /
+ * LINES_A_MULTIPLE, rounded to the nearest integer. */
 enum { MULTIPLIED = 1700, LINES_A_MULTIPLE = 1080, MULTIPLE_LEADING = 4 };
 
 static lettering make_lettering(text_face face, int multiple, int leading)

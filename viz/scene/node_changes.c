@@ -23,7 +23,7 @@ bool is_descendant_or_self(octree_address address, octree_address node)
 
 /* ---- Before a tick ------------------------------------------------------------------------------------------ */
 
-static bool add_point(node_changes *c, const octree_game *game, uint64_t id)
+static bool store_point(node_changes *c, const octree_game *game, uint64_t id)
 {
     octree_point point;
     if (!ARRAY_GROW(&c->before, 1))
@@ -35,7 +35,7 @@ static bool add_point(node_changes *c, const octree_game *game, uint64_t id)
     return true;
 }
 
-static bool add_movers(node_changes *c, const octree_tick *tick)
+static bool store_movers(node_changes *c, const octree_tick *tick)
 {
     if (!ARRAY_GROW(&c->before, tick->mover_count))
         return false;
@@ -54,12 +54,12 @@ bool node_changes_begin_tick(node_changes *c, const octree_game *game, const oct
     if (!c->tracked)
         return true;
     c->before.count = 0;
-    bool ok = add_movers(c, tick) && add_point(c, game, session->player.id);
+    bool ok = store_movers(c, tick) && store_point(c, game, session->player.id);
     for (size_t i = 0; ok && input && i < input->edit_count; i++)
-        ok = add_point(c, game, input->edits[i].body.id);
+        ok = store_point(c, game, input->edits[i].body.id);
     for (; ok && c->next_edit < session->edit_count && session->edits[c->next_edit].tick <= tick->number + 1;
          c->next_edit++)
-        ok = input || add_point(c, game, session->edits[c->next_edit].body.id);
+        ok = input || store_point(c, game, session->edits[c->next_edit].body.id);
     return ok;
 }
 
@@ -99,7 +99,7 @@ bool node_changes_end_tick(node_changes *c, const octree_game *game)
     return ok;
 }
 
-node_change node_changes_find_maker(const node_changes *c, octree_address node)
+node_change node_changes_find_origin(const node_changes *c, octree_address node)
 {
     const node_change *own = find_change(c, node), *parent = find_change(c, node >> 3);
     if (own && !own->split && own->points > 0 && (!parent || own->tick >= parent->tick))
@@ -107,7 +107,7 @@ node_change node_changes_find_maker(const node_changes *c, octree_address node)
     return parent && parent->split ? *parent : (node_change){0};
 }
 
-static bool is_inside(const octree_game *game, const double position[3], const octree_node *node)
+static bool is_position_in_node(const octree_game *game, const double position[3], const octree_node *node)
 {
     octree_node leaf;
     for (int i = 0; i < 3; i++) /* avoids octree_locate() for most points */
@@ -125,7 +125,7 @@ static bool add_id(id_list *ids, uint64_t id)
     return true;
 }
 
-static void sort_ids(id_list *ids)
+static void sort_unique_ids(id_list *ids)
 {
     size_t kept = 0;
     if (ids->count > 0)
@@ -144,11 +144,11 @@ bool node_changes_list_points(const node_changes *c, const octree_game *game, co
     for (size_t i = 0; ok && i < c->before.count; i++) {
         octree_point now;
         const earlier_point *then = &c->before.items[i];
-        const bool was = then->existed && is_inside(game, then->position, node);
-        const bool is = octree_game_find(game, then->id, &now) && is_inside(game, now.position, node);
+        const bool was = then->existed && is_position_in_node(game, then->position, node);
+        const bool is = octree_game_find(game, then->id, &now) && is_position_in_node(game, now.position, node);
         ok = was == is || add_id(is ? arrived : left, then->id);
     }
-    sort_ids(arrived);
-    sort_ids(left);
+    sort_unique_ids(arrived);
+    sort_unique_ids(left);
     return ok;
 }

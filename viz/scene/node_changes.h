@@ -9,7 +9,7 @@
  * octree_locate() tells which of the old and new positions lie in a node.
  *
  * The cost: O(splits + merges + bodies with a velocity + edits) for each tick, and 32 bytes for each address at which a
- * node ever split or merged. So only the programs that explain nodes track them. */
+ * node ever split or merged. So only the programs that explain nodes track the changes. */
 #ifndef SCENE_NODE_CHANGES_H
 #define SCENE_NODE_CHANGES_H
 
@@ -19,12 +19,12 @@
 
 #include <stdbool.h>
 
-/* A split or a merge of a node. A zeroed struct is none. */
+/* A split or a merge of a node. A zeroed struct means no change. */
 typedef struct node_change {
     octree_address node;
     uint64_t tick;
     size_t points; /* the number of points in the node after the tick; 0: the node no longer existed */
-    bool split;    /* true: the node became an inner node; false: it ceased to be one */
+    bool split;    /* true: the node became an inner node; false: the node ceased to be an inner node */
 } node_change;
 
 /* A point before a tick. */
@@ -48,19 +48,19 @@ typedef ARRAY(uint64_t) id_list;
 
 void node_changes_release(node_changes *c);
 
-/* Store the points that the game's next tick may change. `input` is the input of that tick; null: the session's own.
- * Returns false if memory runs out. */
+/* Store the points that the game's next tick may change. `input` is the input of that tick; if it is null, the session
+ * has the input. Returns false if memory runs out. */
 bool node_changes_begin_tick(node_changes *c, const octree_game *game, const octree_input *input);
 
 /* Store the splits and merges of the game's last tick. Returns false if memory runs out. */
 bool node_changes_end_tick(node_changes *c, const octree_game *game);
 
 /* Returns the change that made the cell of a node: the last split of its parent or, if it is later, the merge of its
- * own children. All members are 0 if the cell exists since tick 0. */
-node_change node_changes_find_maker(const node_changes *c, octree_address node);
+ * own children. All members are 0 if the cell has existed since tick 0. */
+node_change node_changes_find_origin(const node_changes *c, octree_address node);
 
-/* List the ids, in ascending order, of the points that arrived in a node of the game's last tick, and of those that
- * left it. The caller frees the items of both lists. Returns false if memory runs out. */
+/* List the ids of the points that arrived in a node in the game's last tick, and of the points that left the node. Both
+ * lists are in ascending order. The caller frees the items of both lists. Returns false if memory runs out. */
 bool node_changes_list_points(const node_changes *c, const octree_game *game, const octree_node *node, id_list *arrived,
                               id_list *left);
 

@@ -118,7 +118,7 @@ static void add_sample(gathering *g, const octree_point *point)
     discard_samples(s);
 }
 
-static void add_leaf(gathering *g, const octree_node *leaf)
+static void measure_leaf(gathering *g, const octree_node *leaf)
 {
     double low[3] = {0}, high[3] = {0};
     size_t count = 0;
@@ -152,7 +152,7 @@ static octree_walk_order gather_leaf(const octree_node *node, void *context)
     if (!filter_shows_subtree(g->filter, &g->world, node))
         return OCTREE_WALK_SKIP;
     if (node->leaf && filter_shows_points_of(g->filter, &g->world, node))
-        add_leaf(g, node);
+        measure_leaf(g, node);
     return g->out_of_memory ? OCTREE_WALK_STOP : OCTREE_WALK_ON;
 }
 
@@ -213,8 +213,7 @@ static double select_value(weighted *values, size_t count, size_t rank)
     }
 }
 
-/* Find the two percentiles of values[which] that are the ends of its range. `room` is scratch memory for all
- * samples. */
+/* Find the 1st and the 99th percentile of values[which] over all samples. `room` is scratch memory for all samples. */
 static void find_percentiles(const samples *s, int which, weighted *room, double *low, double *high)
 {
     size_t count = 0;

@@ -25,7 +25,7 @@ const char *point_scale_missing_value(const view *v, const point_values *values)
 #define POINT_OVERLAP 1.5
 #define POINT_WIDEST 8
 
-/* Returns a length in world units as a number of pixels; under perspective, for a length at distance 1 from the eye. */
+/* Converts a length in world units to pixels; under perspective, for a length at distance 1 from the eye. */
 double point_scale_length_in_pixels(const camera *c, double length);
 
 #endif

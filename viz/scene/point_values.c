@@ -28,7 +28,7 @@ point_value point_values_get(const point_values *v, uint64_t id)
     return found ? *found : (point_value){0};
 }
 
-static unsigned list_value_kinds(const point_value *value)
+static unsigned find_value_kinds(const point_value *value)
 {
     unsigned bits = 0;
     for (int kind = 0; kind < POINT_VALUE_KINDS; kind++)
@@ -38,7 +38,7 @@ static unsigned list_value_kinds(const point_value *value)
 
 bool point_value_has_any(const point_value *value)
 {
-    return list_value_kinds(value) != 0;
+    return find_value_kinds(value) != 0;
 }
 
 _Static_assert(sizeof(point_value) == 12, "point_value_equals() compares bytes: no padding");
@@ -55,7 +55,7 @@ bool point_values_append_row(point_values *v, const point_value *value)
     if (!array_grow(&v->rows, v->count + 1, &v->room, sizeof *v->rows))
         return false;
     v->rows[v->count++] = *value;
-    v->kinds |= list_value_kinds(value);
+    v->kinds |= find_value_kinds(value);
     return true;
 }
 
@@ -68,8 +68,8 @@ bool point_values_insert_empty_row(point_values *v, size_t at)
     return true;
 }
 
-/* Build a table from entries in ascending order of their ids. If there are few gaps between the ids, the table also has
- * rows without values for the missing ids. */
+/* Build a table from entries in ascending order of their ids. If the ids have few gaps, the table also gets empty rows
+ * for the ids in the gaps, and needs no list of ids. */
 static bool build_rows(point_values *v, const point_entry *entries, size_t count)
 {
     const uint64_t span = entries[count - 1].id - entries[0].id;
@@ -89,7 +89,7 @@ static bool build_rows(point_values *v, const point_entry *entries, size_t count
 
 /* Returns whether the ids of the entries continue the ids of the table's rows without a gap, as in a stream of
  * points. */
-static bool continue_ids_of_rows(const point_values *v, const point_entry *entries, size_t count)
+static bool do_ids_continue_rows(const point_values *v, const point_entry *entries, size_t count)
 {
     bool next = v->count > 0 && !v->ids;
     for (size_t i = 0; next && i < count; i++)
@@ -110,7 +110,7 @@ bool point_values_add_entries(point_values *v, const point_entry *entries, size_
 {
     point_values made = {0};
     size_t all = v->count + count;
-    if (count == 0 || continue_ids_of_rows(v, entries, count))
+    if (count == 0 || do_ids_continue_rows(v, entries, count))
         return append_entries(v, entries, count);
     point_entry *sorted = all <= SIZE_MAX / sizeof *sorted ? malloc(all * sizeof *sorted) : NULL;
     if (!sorted)

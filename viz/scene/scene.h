@@ -153,12 +153,12 @@ typedef struct scene {
     bool has_closeup;
     /* only in a close-up: the pixel of the picture at which the close-up's top left pixel lies */
     int place[2];
-    double times;           /* only in a close-up: the magnification at its middle; 0 in other scenes */
+    double times;           /* only in a close-up: the magnification in the middle of the close-up; 0 in other scenes */
     struct kept_tree *kept; /* the cache of subtrees from the previous tick; may be null */
-    /* if the view has its text apart: receives the rows of the text column as elements of an array (pen.h); null: no
-     * rows are written */
+    /* if view.text_apart is true: receives the rows of the text column as elements of an array (pen.h); null: no rows
+     * are written */
     struct json_writer *rows;
-    size_t refused;     /* the number of elements with NaN or infinite geometry, which are never drawn */
+    size_t refused; /* the number of elements that scene_add_*() refused, because their geometry is NaN or infinite */
     bool out_of_memory; /* true: the scene is incomplete, because memory ran out in scene_add_*() */
 } scene;
 
@@ -175,7 +175,8 @@ void scene_release(scene *s);
 /* Set the view, and compute the sizes that depend on the view. The caller sets the camera. */
 void scene_set_view(scene *s, const view *v);
 
-/* Append an element, unless the view hides the element's layer. Callers need not test the layer. */
+/* Append an element, unless the view hides the element's layer, or its geometry is not finite. The caller need not test
+ * these conditions. */
 void scene_add_box(scene *s, scene_box box);
 void scene_add_segment(scene *s, scene_segment segment);
 void scene_add_marker(scene *s, scene_marker marker);

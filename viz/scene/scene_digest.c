@@ -109,8 +109,9 @@ static uint64_t digest_panel(const digest_names *n, const scene_panel *panel)
     return octree_digest_word(digest, (uint64_t)(uint32_t)panel->width << 32 | (uint32_t)panel->height);
 }
 
-/* Add an array to a digest. `known` is the polynomial (scene_digest.h) of the elements before index `first`. Each
- * element is hashed separately, so that a processor can work on several elements at once. */
+/* Add an array to a digest. The elements before index `first` are not hashed: `known` is their polynomial
+ * (scene_digest.h). Each other element is hashed separately, so that a processor can work on several elements at
+ * once. */
 #define DIGEST_FROM(first, known, digest, array, digest_one)                                                           \
     do {                                                                                                               \
         uint64_t all = known;                                                                                          \

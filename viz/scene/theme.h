@@ -16,8 +16,9 @@
  *
  * Roles with a single meaning have colours close to those of Okabe and Ito (2008), chosen by a search so that they
  * differ under every kind of colour blindness. Depths of nodes have a ramp from blue to pale yellow with growing
- * lightness, after cividis (Nunez et al. 2018), so that depths also differ in grey. Kinds of nodes have colours, chosen
- * by a search, that differ for every kind of vision from each other and from the elements drawn over the nodes.
+ * lightness, after cividis (Nunez et al. 2018), so that depths also differ in grey. Kinds of foreign nodes have colours
+ * chosen by a search: for every kind of colour vision, they differ from each other and from the colours of elements
+ * that are drawn over nodes.
  *
  * To add a role, add a row before the kinds: `test_theme --propose` prints colours that differ visibly from all
  * others. */
@@ -94,8 +95,8 @@ static inline uint8_t theme_color_index(unsigned role, unsigned shade)
                                       : THEME_FIRST_KIND + (role - ROLE_KIND) * THEME_KIND_SHADES + shade / 2);
 }
 
-/* ROLE_OWN: the role of an element whose colour is not in this table. THEME_OWN: the index of the pixels of such an
- * element. */
+/* ROLE_OWN: the role of an element with a colour of its own, which is not in the table. THEME_OWN: the table index of
+ * the pixels of such an element. */
 #define ROLE_OWN ROLE_COUNT
 #define THEME_OWN THEME_COLORS
 
@@ -111,12 +112,12 @@ theme_color theme_fade_color(theme_color full, int parts);
  * look equal, and larger values are lighter. */
 theme_color theme_ramp_color(double part);
 
-/* If a pixel has this number of points or more, the colour of its density does not change further. The number is a
- * power of two. */
+/* A pixel with this many points or more has the last colour of the density ramp. A power of two. */
 #define THEME_MOST_DENSITY 64
 
-/* Returns the colour of a class of points. The colours can be told apart under every kind of colour blindness: the
- * colours of Okabe and Ito without their red, and two greys. */
+/* Returns the colour of a kind of class; find_class_color_kind() groups the classes of points into kinds. The colours
+ * can be told apart under every kind of colour blindness: the colours of Okabe and Ito without their red, and two
+ * greys. */
 #define THEME_KINDS 8
 theme_color theme_kind_color(unsigned kind);
 
@@ -130,8 +131,8 @@ theme_role theme_node_kind_role(unsigned kind);
  * begins. With a shift of 1 the steps are 0, 1, 2 to 3, 4 to 7 ... 256 and more. */
 unsigned theme_step_of_doubling_ramp(uint64_t amount, unsigned shift);
 
-/* Returns the step of the ramp for the part `amount` of `whole`. Only the amount 0 has the first step. The other steps
- * divide the whole into equal parts; an amount above `whole` has the last step. `whole` must be below 2^60. */
+/* Returns the step of the ramp for an amount from 0 to `whole`. Only the amount 0 has the first step. The other steps
+ * divide the amounts up to `whole` into equal parts; greater amounts have the last step. `whole` must be below 2^60. */
 unsigned theme_step_of_even_ramp(uint64_t amount, uint64_t whole);
 
 /* The least amount in the last step of theme_step_of_doubling_ramp() with a shift of 1. */

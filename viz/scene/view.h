@@ -88,8 +88,9 @@ typedef enum view_fit {
 
 typedef struct view {
     int width, height; /* the size of the picture in pixels */
-    /* the picture height that lines, markers and characters suit; 0: the height of a 16:9 picture of this size. It is
-     * set where a picture has another resolution than a recorded one: in a page. */
+    /* the picture height from which the sizes of lines, markers and characters follow; 0: the height that
+     * view_height_at_16_9() computes. Only pages set this member, because their pictures differ in resolution from
+     * recorded frames. */
     int suited_height;
     /* true: the column of text is not part of the picture; scene.rows receives its rows */
     bool text_apart;
@@ -127,15 +128,15 @@ typedef struct view {
     double lod;
     int aa; /* samples per pixel on each axis: 1, 2 or 4 */
     /* the maximum number of boxes in a frame (for each tree), and the maximum number of points; the maximum number of
-     * velocity arrows is a thousandth of it. 0: no limits */
+     * velocity arrows is a thousandth of this number. 0: no limits */
     uint64_t budget;
 } view;
 
 /* The longest side of a picture in samples: llvmpipe clamps longer sides. */
 #define VIEW_MAX_SIDE 16384
 
-/* Returns the height of a picture, or the height of a 16:9 picture of the same width if that height is less, or the
- * view's suited_height. The sizes of lines and characters depend on the result. */
+/* Returns the height from which the sizes of lines and characters follow: the view's suited_height or, if this is 0,
+ * the height of the picture, but at most the height of a 16:9 picture of the same width. */
 int view_height_at_16_9(const view *v);
 
 /* Returns the size of a picture unit in pixels: 1 if view_height_at_16_9() is below 640, 2 from 640 on, 6 at 2160.

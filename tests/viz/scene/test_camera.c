@@ -324,7 +324,7 @@ static void a_box_is_below_a_size_if_it_appears_smaller(void **state)
         const double pixels[] = {
             size, nextafter(size, 0), nextafter(size, 1e300), size * (1 + off), size * (1 - off), 0, 2};
         for (size_t j = 0; j < sizeof pixels / sizeof pixels[0]; j++)
-            assert_int_equal(camera_is_box_below(&c, &box, pixels[j]), size < pixels[j]);
+            assert_int_equal(camera_is_box_smaller_than(&c, &box, pixels[j]), size < pixels[j]);
     }
 }
 

@@ -86,7 +86,7 @@ static void check_ids(const octree_box *world, octree_address node, const tree_c
 /* Returns 1 if the maker is a split, 2 if it is a merge, 0 if there is none. */
 static int check_maker(const node_changes *c, uint64_t tick, octree_address node)
 {
-    const node_change maker = node_changes_find_maker(c, node);
+    const node_change maker = node_changes_find_origin(c, node);
     const octree_address parent = node >> 3;
     for (uint64_t t = maker.tick; t <= tick; t++)
         assert_true(maker.node && !maker.split ? points_in_inner(t, node) == 0
