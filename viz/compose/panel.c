@@ -152,7 +152,7 @@ static void write_events(pen *p, const layer_source *in)
     }
     const bool warns = tick->events & (OCTREE_EVENT_REFUSED | OCTREE_EVENT_FULL | OCTREE_EVENT_WRONG);
     const theme_role role = tick->hit_count ? ROLE_COLLISION : warns ? ROLE_WARNING : ROLE_TEXT;
-    write_wrapped(p, role, words[0] ? words : no_event_text(in));
+    write_wrapped_text(p, role, words[0] ? words : no_event_text(in));
 }
 
 /* Write a row for each answer, in the colour of the layer that shows the answer. */
@@ -191,7 +191,7 @@ static void write_wrong_nodes(pen *p, const layer_source *in)
     p->name = ROLE_WRONG;
     write_row(p, "wrong nodes", "", "%zu", in->tick->foreign.wrong_count);
     p->name = ROLE_FAINT;
-    write_wrapped(p, ROLE_WARNING, wrong_node_text(&in->tick->foreign, text));
+    write_wrapped_text(p, ROLE_WARNING, wrong_node_text(&in->tick->foreign, text));
 }
 
 static void write_refusals(pen *p, const octree_tick *tick)
@@ -243,7 +243,7 @@ static void write_broken_node(pen *p, const layer_source *in)
         return;
     write_gap(p);
     write_row(p, "broken", "", "%s", octree_address_format(in->broken_at, text));
-    write_wrapped(p, ROLE_WARNING, in->broken);
+    write_wrapped_text(p, ROLE_WARNING, in->broken);
 }
 
 /* Write a title. Its characters are large if the large title leaves room for `beside` small characters at the right,
@@ -471,7 +471,7 @@ static void write_tree_rows(pen *p, const layer_source *in)
 /* Write only the most important lines, on top of a picture that has no room for the column. */
 static void add_corner_lines(scene *s, const layer_source *in, const char *title)
 {
-    pen p = pen_in_corner(s);
+    pen p = make_corner_pen(s);
     if (in->tick) {
         write_line(&p, ROLE_TEXT, title);
         write_events(&p, in);
@@ -506,7 +506,7 @@ static void add_caption(pen *p, const layer_source *in)
 
 static void add_column(scene *s, const layer_source *in, const char *title)
 {
-    pen p = pen_in_column(s);
+    pen p = make_column_pen(s);
     if (!p.rows)
         fill_rectangle(&p, -p.left, -p.y, layout_panel_width(&s->view), s->view.height, ROLE_PANEL);
     if (in->tick) {

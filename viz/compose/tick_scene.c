@@ -11,7 +11,7 @@
 #define LAYER_TYPE(layer, ...) &layer_##layer,
 const layer_type *const layer_types[LAYER_ALL] = {LAYER_MAP(LAYER_TYPE)};
 
-bool is_layer_of_games(const layer_source *in)
+bool is_game_scene(const layer_source *in)
 {
     return in->game != NULL;
 }

@@ -16,7 +16,7 @@
 #define BALL_CIRCLES 3   /* number of great circles that are drawn for a ball */
 #define BALL_CHORDS 96   /* number of chords that are drawn for a circle */
 #define NUMBERED_RANKS 9 /* the nearest 9 neighbours get a number, their rank */
-#define NEIGHBOR_HALF 2  /* half the size of the mark that a rank keeps free, in halves of a picture unit */
+#define NEIGHBOR_HALF 2  /* half the side of a neighbour's square, which no rank covers, in halves of a picture unit */
 
 /* ---- All kinds of queries ----------------------------------------------------------------------------------- */
 
@@ -94,7 +94,7 @@ const layer_type layer_RANGE = {
 
 /* Compute a corner of the polygon that approximates a great circle of the ball. The circle lies in the plane normal to
  * the axis `plane`. */
-static void point_on_circle(const octree_answer *ball, int plane, int part, double position[3])
+static void compute_circle_point(const octree_answer *ball, int plane, int part, double position[3])
 {
     double cosine, sine;
     camera_compute_cosine_sine((double)part / BALL_CHORDS, &cosine, &sine);
@@ -106,9 +106,9 @@ static void point_on_circle(const octree_answer *ball, int plane, int part, doub
 static void add_circle(scene *s, const octree_answer *ball, size_t place, int plane, scene_style style)
 {
     double from[3], to[3];
-    point_on_circle(ball, plane, 0, from);
+    compute_circle_point(ball, plane, 0, from);
     for (int i = 0; i < BALL_CHORDS; i++) {
-        point_on_circle(ball, plane, (i + 1) % BALL_CHORDS, to);
+        compute_circle_point(ball, plane, (i + 1) % BALL_CHORDS, to);
         scene_add_line(s, make_part_id(place, (size_t)(plane * BALL_CHORDS + i)), from, to, style);
         memcpy(from, to, sizeof from);
     }
@@ -146,8 +146,8 @@ const layer_type layer_RADIUS = {
 
 /* ---- Queries for k nearest points --------------------------------------------------------------------------- */
 
-/* Write the rank of each of the nearest neighbours beside its point, on a background that hides points and lines behind
- * the rank. A rank without free room beside its point is left out; nearer neighbours come first. */
+/* Write the ranks of the nearest neighbours beside their points, on a background that hides points and lines behind the
+ * rank. Nearer neighbours come first; if there is no free room beside a point, its rank is left out. */
 static void add_ranks(scene *s, const octree_answer *answer, size_t place, scene_style style)
 {
     text_space words = text_space_make(s);

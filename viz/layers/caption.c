@@ -59,12 +59,13 @@ static void append_points(words *w, const octree_point *points, size_t count)
 static void append_world_limit(words *w, const layer_source *in)
 {
     static const char keys[] = "adswfe"; /* lower and upper direction of each axis */
-    const size_t way = (size_t)(strchr(keys, in->tick->key) - keys);
+    const size_t direction = (size_t)(strchr(keys, in->tick->key) - keys);
     char bound[NUMBER_TEXT];
-    append(w, "%c = %s", "xyz"[way / 2], number_format((way % 2 ? in->world.max : in->world.min)[way / 2], 6, bound));
+    append(w, "%c = %s", "xyz"[direction / 2],
+           number_format((direction % 2 ? in->world.max : in->world.min)[direction / 2], 6, bound));
 }
 
-/* Append a step that a key press caused, or the reason why the player does not stand at its end. */
+/* Append the step that a key press caused or, if the player did not make the step, the reason. */
 static void append_step(words *w, const layer_source *in)
 {
     const octree_tick *tick = in->tick;
@@ -82,7 +83,7 @@ static void append_step(words *w, const layer_source *in)
     }
 }
 
-/* Append the answer to the query that the key n asked. */
+/* Append the answer to the query that the key n asks: which point is nearest to the player. */
 static void append_nearest_point(words *w, const octree_tick *tick)
 {
     char away[NUMBER_TEXT];
@@ -206,7 +207,7 @@ static void append_tree(words *w, const octree_stats *stats, size_t capacity)
            plural_ending(stats->points), stats->leaves, capacity, stats->depth);
 }
 
-static void append_start(words *w, const layer_source *in)
+static void append_initial_tree(words *w, const layer_source *in)
 {
     octree_stats stats;
     octree_statistics(in->tree, &stats);
@@ -227,7 +228,7 @@ void caption_write(const layer_source *in, char text[CAPTION_TEXT])
         if (shows_octreel_nodes(in))
             append_changes_of_nodes(&w, in);
     } else if (shows_octreel_nodes(in)) {
-        append_start(&w, in);
+        append_initial_tree(&w, in);
         if (in->tick)
             append_changes_of_points(&w, in->tick);
     }

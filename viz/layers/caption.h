@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* caption.h - one line of plain words about a tick: "w: player to (0, 50, 0); leaf 5/3 splits, 3 points for capacity
- * 2". Frames show it below the scene, and the page above its picture. */
+ * 2". Frames show the caption below the scene, and pages show it above the picture. */
 #ifndef LAYERS_CAPTION_H
 #define LAYERS_CAPTION_H
 

@@ -13,7 +13,7 @@
  * octants cross. The middle of the node is the lowest corner of the node's last octant. The id of a line is the node's
  * address shifted left, plus the line's axis. The shift loses no bits: only nodes at the greatest depth have addresses
  * of 64 bits, and such nodes never split. */
-static void add_planes(scene *s, const layer_source *in, octree_address address, scene_style style)
+static void add_plane_lines(scene *s, const layer_source *in, octree_address address, scene_style style)
 {
     octree_node node;
     if (!find_shown_node(s, in->tree, address, &node))
@@ -42,7 +42,7 @@ static void add_changes(scene *s, const layer_source *in, view_layer layer)
     size_t count;
     const octree_address *nodes = get_changed_nodes(in->tick, layer, &count);
     for (size_t i = 0; view_shows_layer(&s->view, layer) && i < count; i++)
-        add_planes(s, in, nodes[i], style);
+        add_plane_lines(s, in, nodes[i], style);
 }
 
 /* Add a legend line such as "2 nodes split, last 7/7/0". The address is left out if it does not fit completely. */

@@ -43,7 +43,7 @@ void append_box(description *d, const char *before, const octree_box *box)
     append_position(d, " to ", box->max);
 }
 
-static void find_node(description *d, octree_address address)
+static void set_subject_node(description *d, octree_address address)
 {
     element_subject *subject = d->subject;
     const octree *tree = octree_game_tree(d->game);
@@ -64,7 +64,7 @@ void describe_node(description *d, const char *before, uint64_t id)
         describe_foreign_node(d, before, id);
         return;
     }
-    find_node(d, id);
+    set_subject_node(d, id);
     append_text(d, "%snode %s: ", before, octree_address_format(id, path));
     if (d->subject->gone)
         append_text(d, "an empty cell at depth %u (its node no longer exists)", node->depth);

@@ -37,7 +37,7 @@ typedef struct description {
     size_t length; /* length of subject.text in bytes */
 } description;
 
-/* The facts about an element that a layer's function `describe` uses. */
+/* The facts about an element that are passed to the member `describe` of a layer_type. */
 typedef struct described_element {
     scene_kind kind;
     scene_style style;
@@ -52,7 +52,7 @@ void append_text(description *d, const char *format, ...);
 
 /* Append the text `before`, and then the number `value`. */
 void append_number(description *d, const char *before, double value);
-/* appends `before` and a position, such as "(1, 2, 3)" */
+/* Append the text `before`, and then a position, such as "(1, 2, 3)". */
 void append_position(description *d, const char *before, const double position[3]);
 /* Append the text `before`, and then a box, such as "(0, 0, 0) to (5, 5, 5)". */
 void append_box(description *d, const char *before, const octree_box *box);

@@ -47,7 +47,7 @@ static unsigned clamped_depth(const octree_foreign_place *place)
 
 static void add_box(scene *s, const octree_foreign_place *place, scene_style style)
 {
-    const uint64_t id = foreign_element(place->node->id);
+    const uint64_t id = foreign_element_id(place->node->id);
     scene_add_box(s, (scene_box){id, style, (uint8_t)clamped_depth(place), place->node->box});
 }
 
@@ -59,14 +59,14 @@ static bool passes_filter(const scene *s, const octree_foreign_place *place)
 /* Return whether a node is smaller than the view's lod and has an ancestor that the view may show. */
 static bool is_below_lod(const scene *s, const octree_foreign_place *place)
 {
-    return place->parent != SIZE_MAX && is_small_below_shown(s, &place->node->box, place->depth);
+    return place->parent != SIZE_MAX && is_left_out_by_lod(s, &place->node->box, place->depth);
 }
 
 /* ---- All nodes ---------------------------------------------------------------------------------------------- */
 
 /* Return the deepest level that fits into the budget together with all levels above it. Return -1 if not even the root
  * level fits. */
-static int deepest_in_budget(scene *s, const octree_foreign_state *foreign)
+static int find_deepest_level_in_budget(scene *s, const octree_foreign_state *foreign)
 {
     size_t at_level[UINT8_MAX + 1] = {0}, sum = 0;
     int level = 0;
@@ -83,7 +83,7 @@ void add_foreign_nodes(scene *s, const layer_source *in)
     const octree_foreign_state *foreign = &in->tick->foreign;
     if (!view_shows_layer(&s->view, LAYER_NODES))
         return;
-    const int deepest = deepest_in_budget(s, foreign);
+    const int deepest = find_deepest_level_in_budget(s, foreign);
     const size_t beyond = s->tally.beyond;
     for (size_t i = 0; i < foreign->node_count; i++) {
         const octree_foreign_place *place = &foreign->nodes[i];
@@ -105,7 +105,7 @@ void add_foreign_nodes(scene *s, const layer_source *in)
 
 /* Return whether the layer `layer` shows a node. If one query pruned the node and another query visited it, only the
  * layer of visited nodes shows the node. */
-static bool matches_layer(const octree_foreign_place *place, unsigned layer)
+static bool is_shown_by_layer(const octree_foreign_place *place, unsigned layer)
 {
     const unsigned visited = 1u << OCTREE_NODE_VISITED, pruned = 1u << OCTREE_NODE_PRUNED, hit = 1u << OCTREE_NODE_HIT;
     if (layer == LAYER_PRUNED)
@@ -118,7 +118,7 @@ void add_visited_foreign_nodes(scene *s, const layer_source *in, scene_style sty
     const octree_foreign_state *foreign = &in->tick->foreign;
     for (size_t i = 0; i < foreign->node_count; i++) {
         const octree_foreign_place *place = &foreign->nodes[i];
-        if (!matches_layer(place, style.layer) || !passes_filter(s, place))
+        if (!is_shown_by_layer(place, style.layer) || !passes_filter(s, place))
             continue;
         const bool small = is_below_lod(s, place);
         s->tally.small_marked += small;
@@ -151,7 +151,7 @@ wrong_marks find_marks_of_wrong_nodes(const layer_source *in)
         const double *at = node->node->box.max;
         if (node->wrong)
             marks.items[marks.count++] =
-                (wrong_mark){foreign_element(node->node->id), node, kind, {at[0], at[1], at[2]}};
+                (wrong_mark){foreign_element_id(node->node->id), node, kind, {at[0], at[1], at[2]}};
     }
     for (size_t i = 0; i < foreign->listed_count; i++) {
         octree_point point;
@@ -205,8 +205,8 @@ static const octree_foreign_place *find_foreign_node(const octree_foreign_state 
 
 void describe_foreign_node(description *d, const char *before, uint64_t element)
 {
-    const octree_foreign_place *place = find_foreign_node(&d->tick->foreign, foreign_node_of(element));
-    append_text(d, "%sforeign node %" PRIu64, before, foreign_node_of(element));
+    const octree_foreign_place *place = find_foreign_node(&d->tick->foreign, foreign_node_id(element));
+    append_text(d, "%sforeign node %" PRIu64, before, foreign_node_id(element));
     if (!place)
         return;
     const octree_foreign_node *node = place->node;

@@ -5,11 +5,12 @@
 
 #include "layer_type.h"
 
-/* The element id of a foreign node is the node's own id with bit 62 set. In an address of Octreel's tree, the highest
- * set bit is always a multiple of 3. Since 62 is not a multiple of 3, no address can be mistaken for such an id. */
+/* The element id of a foreign node is the node's own id with bit 62 set. In an address of Octreel's tree, the number of
+ * the highest set bit is always a multiple of 3, and 62 is not. So no address can be mistaken for the element id of a
+ * foreign node. */
 #define FOREIGN_ELEMENT (UINT64_C(1) << 62)
 
-static inline uint64_t foreign_element(uint64_t node)
+static inline uint64_t foreign_element_id(uint64_t node)
 {
     return FOREIGN_ELEMENT | node;
 }
@@ -19,8 +20,8 @@ static inline bool is_foreign_element(uint64_t id)
     return id >> 62 == 1;
 }
 
-/* Return the id of the foreign node that an element with this id shows. */
-static inline uint64_t foreign_node_of(uint64_t id)
+/* Return the foreign node's own id, from the id of an element that shows the node. */
+static inline uint64_t foreign_node_id(uint64_t id)
 {
     return id & ~FOREIGN_ELEMENT;
 }

@@ -25,8 +25,8 @@ static unsigned heat_shift(view_layer layer)
     return layer == LAYER_VISIT_HEAT ? HEAT_VISITS_SHIFT : HEAT_POINTS_SHIFT;
 }
 
-/* Return half the width of a leaf's marker. It is at most half the leaf's size on screen, so that markers do not cover
- * each other. */
+/* Return half the width of a leaf's marker. The result is at most half the leaf's size on screen, so that markers do
+ * not cover each other. */
 static unsigned mark_width(const scene *s, const octree_box *leaf, unsigned step)
 {
     const double most = camera_box_size_in_pixels(&s->camera, leaf) / (2 * s->unit);
@@ -83,12 +83,12 @@ static void describe_heat(description *d, const described_element *element)
     describe_node(d, ", ", element->id);
 }
 
-const layer_type layer_VISIT_HEAT = {.applies = is_layer_of_games,
+const layer_type layer_VISIT_HEAT = {.applies = is_game_scene,
                                      .add = add_heat,
                                      .legend = {.order = 170, .add_lines = add_heat_legend},
                                      .describe = describe_heat};
 
-const layer_type layer_POINT_HEAT = {.applies = is_layer_of_games,
+const layer_type layer_POINT_HEAT = {.applies = is_game_scene,
                                      .add = add_heat,
                                      .legend = {.order = 180, .add_lines = add_heat_legend},
                                      .describe = describe_heat};

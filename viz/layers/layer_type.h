@@ -27,8 +27,9 @@ typedef struct layer_source {
     const octree_game *game; /* the game; null: the scene shows a tree without a game */
     const octree_session *session;
     const octree_tick *tick;
-    struct arrow_counts *arrows; /* see velocity_layer.h; null: the arrows are counted for each picture */
-    const heat *heat;            /* visits and points of the nodes so far; null: the heat layers have no elements */
+    /* counts that the pictures of a tick share, see velocity_layer.h; null: each picture counts its arrows */
+    struct arrow_counts *arrows;
+    const heat *heat; /* visits and points of the nodes so far; null: the heat layers have no elements */
 
     const char *title; /* the title of the text column; only for a tree without a game */
     /* the node that the user asked to mark (octreel inspect --node), or 0; only for a tree without a game */
@@ -58,7 +59,7 @@ typedef struct layer_type {
     bool (*applies)(const layer_source *in);
 
     /* Return whether a session can have elements for the layer. Null means that every session can. If neither of two
-     * compared sessions can, `octreel diff` ignores that one recording shows the layer and the other does not. */
+     * compared sessions can, `octreel diff` does not report that only one of the recordings shows the layer. */
     bool (*in_session)(const octree_session *session);
 
     /* add() adds the layer's elements. add_answer() adds the elements of one answer. These functions need not check
@@ -83,8 +84,8 @@ LAYER_MAP(LAYER_TYPE_DECLARE)
 
 extern const layer_type *const layer_types[LAYER_ALL];
 
-/* The member `applies` of layers whose elements exist only in scenes of a game, not in scenes of a tree. */
-bool is_layer_of_games(const layer_source *in);
+/* Return whether the scene shows a game, not a tree without a game. For the member `applies` of a layer_type. */
+bool is_game_scene(const layer_source *in);
 
 /* Return the layer that shows the answers of a query kind. */
 view_layer layer_of_query(octree_query_kind kind);

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* legend.c - collects the lines of the legend, drops lines that do not fit, and draws the other lines.
  *
- * The legend lists only layers that have elements in the frame. It stands at the bottom of the text column, so that
- * the number of rows above it does not move it. Layers that nearly every frame has come last, so lines that come and go
- * do not move their lines.
+ * The legend lists only layers that have elements in the frame. It stands at the bottom of the text column, so that the
+ * number of rows above it does not move it. The lines of layers that occur in nearly every frame stand lowest, so that
+ * lines that come and go do not move them.
  *
  * If there are too many lines, whole groups are dropped; a group is a line with its continuation lines. Groups that
  * readers understand without the legend are dropped first, and then groups of layers whose answer the panel shows. If
@@ -32,7 +32,7 @@ legend_line *legend_add(legend *l, legend_sign sign, const char *format, ...)
 /* ---- Choosing lines ------------------------------------------------------------------------------------------ */
 
 /* Return the layers that have elements in this frame or its close-up: bit i for layer i. */
-static unsigned layers_in_frame(const scene *s)
+static unsigned find_layers_in_frame(const scene *s)
 {
     unsigned layers = 0;
     for (size_t i = 0; i < s->boxes.count; i++)
@@ -41,7 +41,7 @@ static unsigned layers_in_frame(const scene *s)
         layers |= 1u << s->segments.items[i].style.layer;
     for (size_t i = 0; i < s->markers.count; i++)
         layers |= 1u << s->markers.items[i].style.layer;
-    return s->has_closeup ? layers | layers_in_frame(s->closeup) : layers;
+    return s->has_closeup ? layers | find_layers_in_frame(s->closeup) : layers;
 }
 
 /* Return whether the diagram shows a layer. The diagram uses the colours of nodes, and draws visited and pruned nodes
@@ -198,7 +198,7 @@ void legend_add_scale(legend *l, legend_scale scale)
     legend_add(l, SIGN_NONE, "");
 }
 
-/* Write a line at the position of the pen, or as a row. */
+/* Write a legend line at the position of the pen or, for a page, as a row. */
 static void write_legend_line(pen *p, const legend_line *line)
 {
     if (p->rows)
@@ -215,7 +215,7 @@ void write_legend(pen *p, const layer_source *in)
     const scene *s = p->scene;
     const int line = p->text.line, foot = s->view.height - LAYOUT_MARGIN * s->text.width;
     const int room = (foot - p->y - line / 2) / line;
-    legend l = {.scene = s, .in_frame = layers_in_frame(s)};
+    legend l = {.scene = s, .in_frame = find_layers_in_frame(s)};
     for (int order = LEGEND_LAST; order > 0; order--)
         for (int i = 0; i < LAYER_ALL; i++)
             if (layer_types[i]->legend.order == order)

@@ -68,8 +68,8 @@ typedef struct legend_line {
 
 typedef struct legend {
     const scene *scene;
-    unsigned in_frame; /* bit i: layer i has elements in this frame */
-    legend_line next;  /* the line that legend_add() will add next: a copy of it becomes the new line */
+    unsigned in_frame; /* bit i is set if layer i has elements in this frame */
+    legend_line next;  /* a template for the next line: legend_add() copies it, and sets sign and text */
     legend_line lines[LEGEND_MOST_LINES];
     size_t count;
 } legend;
@@ -82,12 +82,12 @@ typedef struct legend {
 /* Add a line in the layer's colour. Return the line, so that the caller can change its role, steps or colour. */
 legend_line *legend_add(legend *l, legend_sign sign, const char *format, ...);
 
-/* Add a colour bar and its numbers, which are two lines. They are kept or dropped together with the line before
- * them. */
+/* Add a colour bar and its numbers, which are two lines. The two lines are kept or dropped together with the line
+ * before them. */
 void legend_add_scale(legend *l, legend_scale scale);
 
-/* Add a line that explains the colours of depths, such as "nodes, depth 0-9+". All depths beyond the last colour share
- * this colour. */
+/* Add a line that explains the colours of depths, such as "nodes, depth 0-9+". All depths beyond the last colour have
+ * the last colour. */
 void legend_add_depths(legend *l, const char *what, size_t deepest);
 
 /* Draw a colour bar and its numbers at the position of the pen. */

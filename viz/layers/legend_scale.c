@@ -70,7 +70,7 @@ static int left_end_of_number(const pen *p, const scale_number *m, int width)
 }
 
 /* Return whether all numbers fit below the bar with room for a character between them. */
-static bool numbers_fit(const pen *p, const scale_numbers *m, int width)
+static bool do_numbers_fit(const pen *p, const scale_numbers *m, int width)
 {
     for (int i = 0; i < m->count; i++) {
         const int left = left_end_of_number(p, &m->items[i], width), letter = p->text.width;
@@ -92,7 +92,7 @@ static scale_numbers choose_numbers(const pen *p, const legend_scale *scale, int
     }
     for (int count = MOST_NUMBERS; count > 0; count--) {
         m = make_numbers_at_round_steps(scale, count);
-        if (m.count > 0 && numbers_fit(p, &m, width))
+        if (m.count > 0 && do_numbers_fit(p, &m, width))
             return m;
     }
     m.count = 0;

@@ -23,7 +23,7 @@ void add_node_box(scene *s, const octree_node *node, scene_style style)
     scene_add_box(s, (scene_box){.id = node->address, .box = node->box, .style = style, .depth = (uint8_t)node->depth});
 }
 
-bool is_small_below_shown(const scene *s, const octree_box *box, unsigned depth)
+bool is_left_out_by_lod(const scene *s, const octree_box *box, unsigned depth)
 {
     const view_filter *f = &s->view.filter;
     return s->view.lod > 0 && !f->leaves && depth > (f->by_depth ? f->min_depth : 0) &&
@@ -40,7 +40,7 @@ bool find_shown_node(scene *s, const octree *tree, octree_address address, octre
                               .box = octree_cell_box(&world, address)};
     if (!filter_shows_node(&s->view.filter, &world, node))
         return false;
-    const bool small = is_small_below_shown(s, &node->box, node->depth);
+    const bool small = is_left_out_by_lod(s, &node->box, node->depth);
     s->tally.small_marked += small;
     return !small;
 }

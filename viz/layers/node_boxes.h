@@ -24,9 +24,9 @@ theme_role node_role(const view *v, node_traits node);
 void add_node_box(scene *s, const octree_node *node, scene_style style);
 
 /* Return whether a box is smaller than the view's lod and belongs to a node with an ancestor that the filter shows.
- * Every query that visits a node also visits the node's ancestors. So if the layer of visited nodes leaves out the
- * node, it still shows such an ancestor. */
-bool is_small_below_shown(const scene *s, const octree_box *box, unsigned depth);
+ * Every query that visits a node also visits the node's ancestors. So a layer of visited nodes that leaves out the node
+ * still shows this ancestor. */
+bool is_left_out_by_lod(const scene *s, const octree_box *box, unsigned depth);
 
 /* Find the node at an address. If the tree no longer has the node, *node becomes its empty cell. Return false if the
  * scene must not show the node: the view's filter hides it, or it is smaller than the view's lod and an ancestor is
@@ -39,8 +39,8 @@ void add_crossed_faces(scene *s, const octree_box *box, scene_style style);
 #define CROSS_LINES 12
 
 /* Return whether a sieve drops an id. A sieve is a bit mask that decides which points are dropped if there are more
- * points than the budget. The decision depends only on the point's id. So a moving point does not flicker, and its
- * velocity arrow is dropped together with it. A sieve whose n lowest bits are set keeps about one id in 2^n. A sieve
+ * points than the budget. The decision depends only on the point's id. So a moving point does not flicker, and a point
+ * and its velocity arrow are dropped together. A sieve whose n lowest bits are set keeps about one id in 2^n. A sieve
  * with more bits, called finer, keeps a subset of the ids that a coarser sieve keeps. */
 static inline bool sieve_rejects_id(uint64_t sieve, uint64_t id)
 {

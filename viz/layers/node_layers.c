@@ -53,14 +53,14 @@ typedef struct tree_walk {
     size_t at_depth[OCTREE_MAX_DEPTH + 1]; /* at_depth[d]: number of boxes in the scene at depth d */
     int deepest;                           /* boxes deeper than this are beyond the budget */
     uint64_t sieve;                        /* points that this sieve drops are beyond the budget */
-    /* drawn[d + 1]: the box at depth d or one of its ancestors is drawn; on the path from the root to the current
-     * node. */
+    /* On the path from the root to the current node: drawn[d + 1] is true if the box at depth d or the box of one of
+     * its ancestors is drawn. */
     bool drawn[OCTREE_MAX_DEPTH + 2];
     bool small[OCTREE_MAX_DEPTH + 2]; /* small[d + 1]: the box at depth d on the path is smaller than the view's lod */
     kept_tree *kept;                  /* the store of unchanged subtrees; null: not in use */
     /* Number of points that a sieve with one bit fewer would keep; counted only if `kept` is not null. */
     size_t looser_count;
-    bool keeping_failed; /* true: no memory for the store, so the walk must start again without it */
+    bool keeping_failed; /* true: no memory for the store, so the walk must start again without the store */
 } tree_walk;
 
 static void abandon_kept_tree(tree_walk *w)
@@ -294,7 +294,8 @@ static octree_walk_order add_node(const octree_node *node, void *context)
 }
 
 /* Return the store of subtrees, or null if the store must not be used. The store has only nodes of Octreel's tree, and
- * the changes of this tree must be known. It is not used with a filter, or for a small tree, which does not need it. */
+ * the changes of this tree must be known. The store is not used with a filter, nor for a small tree, which is walked as
+ * fast without the store. */
 static kept_tree *get_kept_tree(const tree_walk *w, const layer_source *in)
 {
     scene *s = w->scene;
@@ -365,7 +366,7 @@ static bool add_label(scene *s, text_space *words, const scene_box *box)
     double middle[3], pixel[2];
     scene_box_middle(&box->box, middle);
     if (is_foreign_element(box->id))
-        snprintf(address, sizeof address, "%" PRIu64, foreign_node_of(box->id));
+        snprintf(address, sizeof address, "%" PRIu64, foreign_node_id(box->id));
     else
         octree_address_format(box->id, address);
     scene_label label =
@@ -397,8 +398,8 @@ static void add_labels(scene *s)
 /* ---- The layers --------------------------------------------------------------------------------------------- */
 
 /* Return the factor by which the distance between points grows if a sieve keeps one point in `one_in`. The factor
- * contains 1.3 because a sieve keeps points at random, which leaves wider gaps than the regular points of a scan. */
-static double thinned_spacing(uint64_t one_in)
+ * includes 1.3 because a sieve keeps points at random, which leaves wider gaps than the regular points of a scan. */
+static double find_spacing_factor(uint64_t one_in)
 {
     return one_in > 1 ? 1.3 * sqrt((double)one_in) : 1;
 }
@@ -423,7 +424,8 @@ static void add_nodes_and_points(scene *s, const layer_source *in, view_layer la
     if (shows_foreign_nodes(in))
         add_foreign_nodes(s, in);
     s->tally.one_in = w.sieve + 1;
-    s->spacing = view_paints_points(&s->view) ? s->view.point_scale.of.spacing * thinned_spacing(s->tally.one_in) : 0;
+    s->spacing =
+        view_paints_points(&s->view) ? s->view.point_scale.of.spacing * find_spacing_factor(s->tally.one_in) : 0;
     if (s->view.labels && view_shows_layer(&s->view, layer))
         add_labels(s);
 }

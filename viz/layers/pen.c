@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-pen pen_in_column(scene *s)
+pen make_column_pen(scene *s)
 {
     const int margin = LAYOUT_MARGIN * s->text.width;
     const bool apart = s->view.text_apart;
@@ -22,9 +22,9 @@ pen pen_in_column(scene *s)
                  .value = ROLE_TEXT};
 }
 
-pen pen_in_corner(scene *s)
+pen make_corner_pen(scene *s)
 {
-    pen p = pen_in_column(s);
+    pen p = make_column_pen(s);
     p.left = p.y = s->text.width;
     const int fits = (s->view.width - 2 * p.left) / s->text.width;
     p.letters = fits < 1 ? 1 : fits < LAYOUT_LETTERS ? fits : LAYOUT_LETTERS;
@@ -33,7 +33,7 @@ pen pen_in_corner(scene *s)
 
 /* ---- Rows ---------------------------------------------------------------------------------------------------- */
 
-/* Write a color as a member, unless it is the usual one. */
+/* Write the colour of a role as a member, unless the role is `usual`. */
 static void write_color(pen *p, const char *key, theme_role role, theme_role usual)
 {
     char text[THEME_COLOR_TEXT];
@@ -243,7 +243,7 @@ void fill_rectangle(pen *p, int x, int y, int width, int height, unsigned role)
                             role);
 }
 
-void write_wrapped(pen *p, theme_role role, const char *text)
+void write_wrapped_text(pen *p, theme_role role, const char *text)
 {
     const size_t most = (size_t)p->letters;
     if (p->rows) {

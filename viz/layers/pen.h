@@ -14,14 +14,14 @@
 
 /* The position of the next line of text in a scene.
  *
- * If the view has its text apart, the pen writes rows for a page in place of labels. Each row is one of these objects:
+ * If view.text_apart is true, the pen writes rows for a page in place of labels. Each row is one of these objects:
  *   {"title": "tick 41"}
  *   {"text": "moved", "color": "#rrggbb"}
  *   {"name": "depth", "detail": "...", "value": "5 of max 5", "name_color": "#rrggbb", "color": "#rrggbb"}
  *   {"sign": [[x, y, width, height, "#rrggbb"], [x, "text"], ...], "text": "point"}
  *   {"rule": true}
- * Usual colours and empty details are left out. A sign, a symbol of the legend, has rectangles, and texts whose left
- * end is given; they suit characters of PEN_ROW_LETTERING. Texts are not cut. */
+ * Usual colours and empty details are left out. A sign is a symbol of the legend: rectangles, and texts with the x of
+ * their left end. Its numbers are pixels for characters of PEN_ROW_LETTERING. Texts are not cut. */
 typedef struct pen {
     scene *scene;
     lettering text;         /* the lettering of the lines */
@@ -35,10 +35,10 @@ typedef struct pen {
 /* The lettering of a pen that writes rows. */
 #define PEN_ROW_LETTERING ((lettering){.face = FACE_8X16, .multiple = 1, .width = 8, .height = 16, .line = 19})
 
-/* pen_in_column() returns a pen at the top of the column. pen_in_corner() returns a pen in the corner of a picture
+/* make_column_pen() returns a pen at the top of the column. make_corner_pen() returns a pen in the corner of a picture
  * without a column. */
-pen pen_in_column(scene *s);
-pen pen_in_corner(scene *s);
+pen make_column_pen(scene *s);
+pen make_corner_pen(scene *s);
 
 /* write_text() writes a text that begins at character `at` of the line. write_right_aligned() writes a text that ends
  * at the end of the line. A text that does not fit is cut and ends in two dots. */
@@ -54,7 +54,7 @@ void write_caption(pen *p, const char *text);
 /* Write a line of text and move to the next line. */
 void write_line(pen *p, theme_role role, const char *text);
 
-/* Return how many characters a row has left for its detail, beside a value of `value_length` characters. */
+/* Return the number of characters that a row has for its detail if its value has `value_length` characters. */
 static inline int detail_room(const pen *p, size_t value_length)
 {
     const int room = p->letters - DETAIL - 1 - (int)value_length;
@@ -78,8 +78,8 @@ void write_ids(pen *p, const char *name, const octree_point *points, size_t coun
 /* Print a number with as many significant digits as fit into `letters` characters, at most 9 digits. Return `text`. */
 const char *format_number_within(double value, size_t letters, char text[NUMBER_TEXT]);
 
-/* Write a row of the legend for a page: begin a sign, whose rectangles and texts follow, or end it with the row's
- * text. */
+/* Write a row of the legend for a page. begin_sign() begins the row; the caller then writes the rectangles and texts of
+ * the sign, and end_sign() ends the row with the row's text. */
 void begin_sign(pen *p);
 void end_sign(pen *p, const char *text);
 
@@ -92,6 +92,6 @@ void fill_rectangle(pen *p, int x, int y, int width, int height, unsigned role);
 void fill_rectangle_in_color(pen *p, int x, int y, int width, int height, theme_color color);
 
 /* Write a text in as many lines as it needs, broken at spaces. */
-void write_wrapped(pen *p, theme_role role, const char *text);
+void write_wrapped_text(pen *p, theme_role role, const char *text);
 
 #endif

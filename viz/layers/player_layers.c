@@ -43,8 +43,8 @@ const layer_type layer_PLAYER = {
  * instead. */
 #define COLLISION_ID UINT64_MAX
 
-/* The lines of a collision have these ids, in this order: CROSS_LINES lines that cross out the box, one path for each
- * of the box's CORNERS corners, and one path for each hit point. */
+/* The lines of a collision have the ids 0, 1, 2 ... in this order: CROSS_LINES lines that cross out the box, one path
+ * for each of the box's CORNERS corners, and one path for each hit point. */
 enum { CORNERS = 8 };
 
 static octree_box box_around(const double center[3], double size)

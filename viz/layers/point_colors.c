@@ -36,15 +36,14 @@ unsigned find_class_color_kind(unsigned class)
 
 /* How the points of one leaf are coloured. */
 typedef struct painting {
-    /* What the colour shows. POINTS_BY_LEAF has no colour of its own: points then have the colours of the file, or the
-     * colours of their height. */
+    /* What the colour shows. Never POINTS_BY_LEAF, which colours points as POINTS_BY_FILE or POINTS_BY_HEIGHT does. */
     view_point_color by;
     const point_scale *scale;
     const point_values *values;
     theme_color plain; /* the colour of points whose value is missing */
 } painting;
 
-/* Return the axis whose coordinate decides the colour: x, y, z or height. */
+/* Return the axis whose coordinate decides the colour: 0, 1 or 2. The height is the coordinate on axis 2. */
 static int axis_of_coloring(view_point_color by)
 {
     return by == POINTS_BY_X ? 0 : by == POINTS_BY_Y ? 1 : 2;

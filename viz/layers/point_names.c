@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* point_names.c - see point_names.h. */
+/* point_names.c - writes the ids of points beside the points; see point_names.h. */
 #include "point_names.h"
 #include "layout.h"
 #include "octree/octree.h"

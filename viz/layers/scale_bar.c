@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* scale_bar.c - see scale_bar.h. */
+/* scale_bar.c - draws a bar with a round length; see scale_bar.h. */
 #include "scale_bar.h"
 #include "layer.h"
 #include "number.h"
@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Return the largest length of the form 1, 2 or 5 times a power of ten that is not above `limit`. Return 0 if that
+/* Return the largest length of the form 1, 2 or 5 times a power of ten that is not above `limit`. Return 0 if the
  * length is too small for a double. */
 static double round_down_length(double limit)
 {

@@ -48,7 +48,7 @@ static double clamp(double value, double low, double high)
 
 /* Compute a body's position after a number of ticks. If the body meets the world's bounds earlier, compute the position
  * where it meets the bounds. */
-static void extrapolate(const octree_game_body *body, const octree_box *world, double ticks, double end[3])
+static void extrapolate_position(const octree_game_body *body, const octree_box *world, double ticks, double end[3])
 {
     int stops = -1; /* the axis whose bound the body meets first; -1: it meets none */
     for (int i = 0; i < 3; i++) {
@@ -76,7 +76,7 @@ static bool is_arrow_below_lod(const scene *s, double ends[2][3])
 typedef struct arrow_context {
     const scene *scene;
     const layer_source *in;
-    double ticks; /* an arrow is as long as the movement in this many ticks */
+    double ticks; /* an arrow shows the movement of this many ticks */
 } arrow_context;
 
 /* Return whether the view's filter shows both the position of a body and its leaf. */
@@ -92,12 +92,12 @@ static bool is_body_shown(const arrow_context *a, const octree_game_body *body)
 /* Compute the end of a body's arrow. Return false if the arrow would have no length. */
 static bool find_arrow_end(const arrow_context *a, const octree_game_body *body, double end[3])
 {
-    extrapolate(body, &a->in->world, a->ticks, end);
+    extrapolate_position(body, &a->in->world, a->ticks, end);
     return memcmp(body->position, end, sizeof body->position) != 0;
 }
 
-/* Return whether a body gets an arrow: the view shows the body, and the arrow has a length. The exact end of the arrow
- * is computed only if the body may leave the world's bounds, or moves so little that rounding could hide the
+/* Return whether a body gets an arrow: the view shows the body, and the arrow's length is not 0. The exact end of the
+ * arrow is computed only if the body may leave the world's bounds, or moves so little that rounding could hide the
  * movement. */
 static bool has_arrow(const arrow_context *a, const octree_game_body *body)
 {
@@ -105,9 +105,9 @@ static bool has_arrow(const arrow_context *a, const octree_game_body *body)
     bool within = true, far = false;
     double end[3];
     for (int i = 0; i < 3; i++) {
-        const double at = body->position[i], way = body->velocity[i] * a->ticks;
-        within &= (at + way > world->min[i]) & (at + way < world->max[i]);
-        far |= fabs(way) > fabs(at) * 1e-9;
+        const double at = body->position[i], step = body->velocity[i] * a->ticks;
+        within &= (at + step > world->min[i]) & (at + step < world->max[i]);
+        far |= fabs(step) > fabs(at) * 1e-9;
     }
     return ((within && far) || find_arrow_end(a, body, end)) && is_body_shown(a, body);
 }
@@ -135,7 +135,8 @@ static void count_arrows(const arrow_context *a, size_t passing[ARROW_SIEVES])
         passing[bits] += passing[bits + 1];
 }
 
-/* Return the counts of all sieves: those that were counted before for this tick, or new ones in *own. */
+/* Return the number of arrows that each sieve keeps. If the view has no filter, the counts are kept in in->arrows for
+ * the other pictures of the tick; otherwise, or if in->arrows is null, they are stored in *own. */
 static const size_t *find_arrow_counts(const arrow_context *a, arrow_counts *own)
 {
     const bool shared = a->in->arrows && !filter_is_set(&a->scene->view.filter);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* visit_layers.c - the layers of the nodes that a tick's queries pruned, the nodes that they visited, and the leaves in
- * which they found points. */
+/* visit_layers.c - the layers of the nodes that a tick's queries pruned or visited, and of the leaves in which the
+ * queries found points. */
 #include "foreign_nodes.h"
 #include "layer_type.h"
 #include "octree/octree.h"
@@ -10,8 +10,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Return the address of the i-th node that queries reached, or 0 if `layer` does not show this node. The layer of hits
- * shows leaves in which a query found points; the other layers show pruned nodes or visited nodes. */
+/* Return the address of a node that `layer` shows: for the layer of hits, the i-th leaf in which a query found points;
+ * for the other layers the i-th visit's node, or 0 if the layer does not show this kind of visit. */
 static octree_address find_visited_node(const octree_tick *tick, view_layer layer, size_t i)
 {
     if (layer == LAYER_HIT)
@@ -44,7 +44,8 @@ static void add_visits(scene *s, const layer_source *in, view_layer layer)
         add_visited_foreign_nodes(s, in, style);
 }
 
-/* Return how many nodes had a visit of the kind `visit`, in the trees that the view shows. */
+/* Return the number of nodes with a visit of the kind `visit` in the trees that the view shows. `octreel` is the number
+ * of such nodes in Octreel's own tree. */
 static size_t count_shown_visits(const layer_source *in, size_t octreel, octree_node_visit visit)
 {
     return (shows_octreel_nodes(in) ? octreel : 0) + (shows_foreign_nodes(in) ? in->tick->foreign.visits[visit] : 0);
@@ -86,17 +87,17 @@ static void describe_visit(description *d, const described_element *element)
                                             : "; it holds points that this tick's queries found");
 }
 
-const layer_type layer_PRUNED = {.applies = is_layer_of_games,
+const layer_type layer_PRUNED = {.applies = is_game_scene,
                                  .add = add_visits,
                                  .legend = {.order = 80, .add_lines = add_pruned_legend},
                                  .describe = describe_visit};
 
-const layer_type layer_VISITED = {.applies = is_layer_of_games,
+const layer_type layer_VISITED = {.applies = is_game_scene,
                                   .add = add_visits,
                                   .legend = {.order = 70, .add_lines = add_visited_legend},
                                   .describe = describe_visit};
 
-const layer_type layer_HIT = {.applies = is_layer_of_games,
+const layer_type layer_HIT = {.applies = is_game_scene,
                               .add = add_visits,
                               .legend = {.order = 90, .add_lines = add_hit_legend},
                               .describe = describe_visit};

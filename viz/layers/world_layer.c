@@ -2,9 +2,10 @@
 /* world_layer.c - the layer of the world. It shows the world's box, the view's slice and region, and axes with numbers
  * along the box that the camera frames.
  *
- * A zoomed picture shows a part of that box, and its edges may lie outside the picture. So the axes of a view with a
- * zoom or a center run along a box around the center that is smaller by the zoom. That box takes as much of the picture
- * as the framed box without zoom, with as much room for numbers. A bar shows the scale. */
+ * A zoomed picture shows only a part of the framed box, whose edges may lie outside the picture. So the axes of a view
+ * with a zoom or a center run along a smaller box around the center: the framed box divided by the zoom. In the picture
+ * the smaller box is as large as the framed box would be without zoom, so that there is as much room for numbers. A bar
+ * shows the scale. */
 #include "layer_type.h"
 #include "layout.h"
 #include "number.h"
@@ -25,19 +26,19 @@
 #define FIRST_ID 1000 /* the id of the first tick mark of the x axis */
 /* rounding tolerance: a corner may lie this many pixels beyond the line of an edge on the outline */
 #define OUTLINE 1e-3
-/* Weight of a low position when choose_edge() rates the edges for a level axis; the weight of a position at the left is
+/* Weight of a low position when choose_edge() rates the edges for a level axis; a position at the left has the weight
  * 1. */
 #define LOWEST 16
 #define SCALE_ID 100
 /* The part of the framed box that a zoomed picture of the follow camera shows. The other cameras show the whole box. */
 #define FOLLOWED_PART 0.3
-#define ROOM 40 /* weight of room for a number at an end of the edge, when choose_edge() rates the edges */
+#define ROOM 40 /* weight of room for a number at one end of the edge when choose_edge() rates the edges */
 
 /* The axes of one scene. In the number of a corner, bit i is set if the corner is at the upper end of axis i. */
 typedef struct axes {
     scene *scene;
     octree_box box;       /* the box that the axes run along */
-    double half[3];       /* half its extent on each axis, in unit coordinates */
+    double half[3];       /* half the extent of `box` on each axis, in unit coordinates */
     double corners[8][2]; /* pixel of each corner */
     bool whole;           /* true: all corners are in front of the camera */
     text_space words;     /* the part of the picture that labels already cover */
@@ -127,10 +128,9 @@ static axis_edge choose_edge(const axes *a, int axis)
     return edge;
 }
 
-/* Return whether an axis gets no numbers. An axis that is seen end on gets none, because all its numbers would be at
- * the same place. An axis gets none either if no edge lies on the outline, because its numbers would stand on the
- * contents of the box. */
-static bool is_seen_end_on(const axes *a, const axis_edge *e)
+/* Return whether an axis gets neither a name nor numbers. The numbers of an axis that is seen end on would all be at
+ * the same place. If no edge lies on the outline, the numbers would stand on the contents of the box. */
+static bool is_axis_unlabelled(const axes *a, const axis_edge *e)
 {
     const double *from = a->corners[e->corner], *to = a->corners[e->corner | 1u << e->axis];
     const double x = to[0] - from[0], y = to[1] - from[1];
@@ -186,7 +186,7 @@ static void add_ticks(axes *a, const axis_edge *e)
 {
     const int axis = e->axis;
     const double step = choose_number_step(a, axis);
-    if (step == 0 || is_seen_end_on(a, e) || !isfinite(longest_side(a)))
+    if (step == 0 || is_axis_unlabelled(a, e) || !isfinite(longest_side(a)))
         return;
     const double first = ceil(a->box.min[axis] / step), last = floor(a->box.max[axis] / step);
     for (double i = first; i <= last; i++) /* adding 0.0 turns -0 into 0 */
@@ -194,35 +194,35 @@ static void add_ticks(axes *a, const axis_edge *e)
 }
 
 /* Place the name of an axis, x, y or z, beyond the end of the axis. Return false if there is no room. */
-static bool place_letter(axes *a, double ends[2][3], scene_label *letter)
+static bool place_axis_name(axes *a, double ends[2][3], scene_label *letter)
 {
     const scene *s = a->scene;
-    double from[2], pixel[2], way[2];
+    double from[2], pixel[2], direction[2];
     if (!camera_find_pixel(&s->camera, ends[0], from) || !camera_find_pixel(&s->camera, ends[1], pixel))
         return false;
     for (int i = 0; i < 2; i++)
-        way[i] = pixel[i] - from[i];
-    const double length = sqrt(way[0] * way[0] + way[1] * way[1]);
+        direction[i] = pixel[i] - from[i];
+    const double length = sqrt(direction[0] * direction[0] + direction[1] * direction[1]);
     for (int i = 0; i < 2; i++)
-        pixel[i] += length > 0 ? way[i] / length * s->text.height * 1.25 : 0;
+        pixel[i] += length > 0 ? direction[i] / length * s->text.height * 1.25 : 0;
     return text_space_reserve_text(&a->words, s, letter->text, pixel, letter->at);
 }
 
-/* Add the name of an axis, x, y or z, at its end, unless the axis is seen end on. Numbers do not cover the name. If
- * there is no room beyond the end, the name stands at the end itself. `drawn` is true if the box is not the world's
- * box: then also draw the axis's edge, because no other function draws it. */
-static void add_axis(axes *a, const axis_edge *e, bool drawn)
+/* Add the name of an axis, x, y or z, at the axis's end, unless is_axis_unlabelled() is true. Numbers do not cover the
+ * name. If there is no room beyond the end, the name stands at the end itself. If `draws_edge` is true, also draw the
+ * axis's edge; no other function draws the edges of a box that is not the world's box. */
+static void add_axis(axes *a, const axis_edge *e, bool draws_edge)
 {
     scene_label letter = scene_make_label((uint64_t)e->axis, axis_style, "%c", "xyz"[e->axis]);
     double ends[2][3];
     box_corner(&a->box, e->corner, ends[0]);
     box_corner(&a->box, e->corner | 1u << e->axis, ends[1]);
-    if (drawn)
+    if (draws_edge)
         scene_add_line(a->scene, (uint64_t)e->axis, ends[0], ends[1], axis_style);
-    if (is_seen_end_on(a, e))
+    if (is_axis_unlabelled(a, e))
         return;
     letter.style.stroke = STROKE_CUT;
-    letter.in_world = !place_letter(a, ends, &letter);
+    letter.in_world = !place_axis_name(a, ends, &letter);
     if (letter.in_world)
         memcpy(letter.at, ends[1], sizeof letter.at);
     scene_add_label(a->scene, letter);
@@ -245,7 +245,7 @@ static void narrow_to_picture(axes *a)
 }
 
 /* Add a bar with a round length at the lower left of the space view. */
-static void add_scale(scene *s)
+static void add_scale_bar(scene *s)
 {
     const camera_window w = layout_space_area(s);
     const int margin = SCALE_BAR_MARGIN * s->unit;
@@ -254,8 +254,8 @@ static void add_scale(scene *s)
 }
 
 /* Add three axes along edges of the box that the camera frames; in a zoomed picture, along edges of the visible part of
- * this box. Each axis has its name. If the view shows text, it also has tick marks with round numbers. The step between
- * numbers depends only on the box and the kind of camera, so that it stays the same while the camera orbits. */
+ * this box. Each axis has its name and, if the view shows text, tick marks with round numbers. The step between numbers
+ * depends only on the box and the kind of camera, so that it stays the same while the camera orbits. */
 static void add_axes(scene *s, const octree_box *world)
 {
     const bool fitted = s->view.fit == FIT_BOX, zoomed = s->view.zoom > 1 || s->view.center.given,
@@ -264,7 +264,7 @@ static void add_axes(scene *s, const octree_box *world)
     axis_edge edges[3];
     memcpy(a.half, s->camera.half, sizeof a.half);
     if (zoomed && numbered)
-        add_scale(s);
+        add_scale_bar(s);
     if (zoomed)
         narrow_to_picture(&a);
     a.words = text_space_make(s);

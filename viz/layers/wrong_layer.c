@@ -14,8 +14,8 @@
 #define RING 28
 #define LINE_WIDTH 3
 
-/* If there are more markers or rings than this, they are drawn smaller, so that they hide less. The ring of the worst
- * answer keeps its size. */
+/* If there are more than FEW_MARKS markers or FEW_RINGS rings, they are drawn smaller, so that they hide less. The ring
+ * of the worst answer keeps its size. */
 #define FEW_MARKS 50
 #define FEW_RINGS 3
 
@@ -33,7 +33,7 @@ static bool has_judged_tick(const layer_source *in)
     return in->tick && (in->tick->judged || shows_foreign_nodes(in));
 }
 
-static bool is_in_session(const octree_session *session)
+static bool can_have_wrong_answers(const octree_session *session)
 {
     for (size_t i = 0; i < session->query_count; i++)
         if (session->queries[i].answered)
@@ -107,7 +107,7 @@ static void add_left_out_count(scene *s, size_t count, text_space *occupied)
 }
 
 /* Add markers, rings and texts. Markers come first, so that texts do not cover them. Texts of answers are placed before
- * texts of nodes, and so find room first. */
+ * texts of nodes, so texts of nodes are the first for which there is no room. */
 static void add_wrong_answers(scene *s, const layer_source *in, view_layer layer)
 {
     (void)layer;
@@ -207,7 +207,7 @@ static void describe_mark(description *d, const described_element *element)
 }
 
 const layer_type layer_WRONG = {.applies = has_judged_tick,
-                                .in_session = is_in_session,
+                                .in_session = can_have_wrong_answers,
                                 .add = add_wrong_answers,
                                 .legend = {.order = 195, .add_lines = add_wrong_legend},
                                 .describe = describe_mark};

@@ -439,7 +439,7 @@ static void describe_named(element_subject *subject, const char *name, const pla
     if (node && octree_address_parse(node, &address))
         describe_node(&d, "", address);
     else if (parse_id(skip_word(name, "foreign"), &id) && id < OCTREE_NODE_ID_LIMIT)
-        describe_node(&d, "", foreign_element(id));
+        describe_node(&d, "", foreign_element_id(id));
     else if (parse_id(skip_word(name, "point"), &id) && octree_game_find(from->game, id, &point))
         describe_point(&d, "", id, point.position);
 }

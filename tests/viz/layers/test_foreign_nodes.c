@@ -96,7 +96,7 @@ static void foreign_nodes_look_like_own_nodes(void **state)
     show(&v, 0);
     const octree_foreign_node *nodes = session.foreign[0].nodes;
     for (size_t i = 0; i < FOREIGN_NODES; i++) {
-        const scene_box *box = find_only_box(&shown, LAYER_NODES, foreign_element(nodes[i].id));
+        const scene_box *box = find_only_box(&shown, LAYER_NODES, foreign_element_id(nodes[i].id));
         const unsigned depth = i == 0 ? 0 : i < 3 ? 1 : 2;
         assert_true(same_box(&box->box, &nodes[i].box));
         assert_int_equal(box->depth, depth);
@@ -105,9 +105,9 @@ static void foreign_nodes_look_like_own_nodes(void **state)
     assert_int_equal(BOXES_OF(LAYER_VISITED), 3);
     assert_int_equal(BOXES_OF(LAYER_PRUNED), 2);
     assert_int_equal(BOXES_OF(LAYER_HIT), 1);
-    assert_int_equal(find_only_box(&shown, LAYER_PRUNED, foreign_element(FOREIGN_LOW))->style.stroke, STROKE_CUT);
-    assert_int_equal(find_only_box(&shown, LAYER_VISITED, foreign_element(FOREIGN_ROOT))->style.width, 2);
-    assert_int_equal(find_only_box(&shown, LAYER_HIT, foreign_element(FOREIGN_HIGH))->style.role, ROLE_HIT);
+    assert_int_equal(find_only_box(&shown, LAYER_PRUNED, foreign_element_id(FOREIGN_LOW))->style.stroke, STROKE_CUT);
+    assert_int_equal(find_only_box(&shown, LAYER_VISITED, foreign_element_id(FOREIGN_ROOT))->style.width, 2);
+    assert_int_equal(find_only_box(&shown, LAYER_HIT, foreign_element_id(FOREIGN_HIGH))->style.role, ROLE_HIT);
     assert_true(says("3 nodes visited") && says("2 nodes pruned") && says("1 leaf hit"));
 }
 
@@ -117,16 +117,16 @@ static void foreign_nodes_are_coloured_by_kind_and_by_occupancy(void **state)
     view v = view_by(TREE_AUTO);
     v.coloring = COLORING_KIND;
     show(&v, 0);
-    const theme_role leaf = find_only_box(&shown, LAYER_NODES, foreign_element(FOREIGN_LOW))->style.role;
-    assert_int_equal(find_only_box(&shown, LAYER_NODES, foreign_element(FOREIGN_RIGHT))->style.role, leaf);
-    assert_int_not_equal(find_only_box(&shown, LAYER_NODES, foreign_element(FOREIGN_ROOT))->style.role, leaf);
-    assert_int_not_equal(find_only_box(&shown, LAYER_NODES, foreign_element(FOREIGN_LEFT))->style.role, leaf);
+    const theme_role leaf = find_only_box(&shown, LAYER_NODES, foreign_element_id(FOREIGN_LOW))->style.role;
+    assert_int_equal(find_only_box(&shown, LAYER_NODES, foreign_element_id(FOREIGN_RIGHT))->style.role, leaf);
+    assert_int_not_equal(find_only_box(&shown, LAYER_NODES, foreign_element_id(FOREIGN_ROOT))->style.role, leaf);
+    assert_int_not_equal(find_only_box(&shown, LAYER_NODES, foreign_element_id(FOREIGN_LEFT))->style.role, leaf);
     assert_true(says("node: leaf") && says("node: split x"));
     v.coloring = COLORING_OCCUPANCY;
     show(&v, 0);
-    assert_int_equal(find_only_box(&shown, LAYER_NODES, foreign_element(FOREIGN_ROOT))->style.role,
+    assert_int_equal(find_only_box(&shown, LAYER_NODES, foreign_element_id(FOREIGN_ROOT))->style.role,
                      theme_node_role(theme_step_of_doubling_ramp(8, 1)));
-    assert_int_equal(find_only_box(&shown, LAYER_NODES, foreign_element(FOREIGN_LOW))->style.role,
+    assert_int_equal(find_only_box(&shown, LAYER_NODES, foreign_element_id(FOREIGN_LOW))->style.role,
                      theme_node_role(theme_step_of_doubling_ramp(2, 1)));
     assert_true(says("foreign, 0-256+ points"));
     v.tree = TREE_BOTH;
@@ -192,8 +192,8 @@ static void faults_of_foreign_nodes_are_marked_and_described(void **state)
     assert_int_equal(BOXES_OF(LAYER_WRONG), 0);
     show(&v, 1);
     assert_int_equal(BOXES_OF(LAYER_WRONG), 2);
-    find_only_box(&shown, LAYER_WRONG, foreign_element(FOREIGN_LOW));
-    find_only_box(&shown, LAYER_WRONG, foreign_element(FOREIGN_HIGH));
+    find_only_box(&shown, LAYER_WRONG, foreign_element_id(FOREIGN_LOW));
+    find_only_box(&shown, LAYER_WRONG, foreign_element_id(FOREIGN_HIGH));
     assert_int_equal(count_markers_at(&shown, LAYER_WRONG, LOST | 8, session.bodies[7].position), 1);
     assert_true(says("outside parent") && says("wrongly pruned") && says("in no node"));
     assert_true(says("wrong nodes"));
@@ -226,18 +226,18 @@ static void foreign_nodes_are_described(void **state)
     view v = view_by(TREE_AUTO);
     v.labels = true;
     show(&v, 1);
-    assert_string_equal(told(LAYER_NODES, SCENE_BOX, foreign_element(FOREIGN_LEFT)),
+    assert_string_equal(told(LAYER_NODES, SCENE_BOX, foreign_element_id(FOREIGN_LEFT)),
                         "foreign node 2: inner node at depth 1 of kind \"split z\" under node 1, 4 points listed, "
                         "box (-900, -700, -800) to (-200, 400, 900)");
-    assert_string_equal(told(LAYER_WRONG, SCENE_BOX, foreign_element(FOREIGN_LOW)),
+    assert_string_equal(told(LAYER_WRONG, SCENE_BOX, foreign_element_id(FOREIGN_LOW)),
                         "foreign node 4: leaf at depth 2 of kind \"leaf\" under node 2, 2 points listed, "
                         "box (-900, -700, -800) to (100, 400, -200); wrong: its box extends outside its parent's box");
     assert_non_null(
-        strstr(told(LAYER_PRUNED, SCENE_BOX, foreign_element(FOREIGN_RIGHT)), "; this tick's queries pruned it"));
+        strstr(told(LAYER_PRUNED, SCENE_BOX, foreign_element_id(FOREIGN_RIGHT)), "; this tick's queries pruned it"));
     assert_non_null(
-        strstr(told(LAYER_VISITED, SCENE_BOX, foreign_element(FOREIGN_ROOT)), "; this tick's queries visited it"));
+        strstr(told(LAYER_VISITED, SCENE_BOX, foreign_element_id(FOREIGN_ROOT)), "; this tick's queries visited it"));
     assert_non_null(
-        strstr(told(LAYER_NODES, SCENE_LABEL, foreign_element(FOREIGN_RIGHT)), "text \"3\" on foreign node 3"));
+        strstr(told(LAYER_NODES, SCENE_LABEL, foreign_element_id(FOREIGN_RIGHT)), "text \"3\" on foreign node 3"));
     assert_string_equal(told(LAYER_WRONG, SCENE_MARKER, LOST | 8),
                         "point 8 at (900, -100, 600), which is in no foreign node");
 }
@@ -251,9 +251,9 @@ static void element_ids_of_foreign_nodes_differ_from_all_addresses(void **state)
         assert_false(is_foreign_element(first));
         assert_false(is_foreign_element(first | (first - 1)));
     }
-    assert_true(is_foreign_element(foreign_element(0)) &&
-                is_foreign_element(foreign_element(OCTREE_NODE_ID_LIMIT - 1)));
-    assert_int_equal(foreign_node_of(foreign_element(OCTREE_NODE_ID_LIMIT - 1)), OCTREE_NODE_ID_LIMIT - 1);
+    assert_true(is_foreign_element(foreign_element_id(0)) &&
+                is_foreign_element(foreign_element_id(OCTREE_NODE_ID_LIMIT - 1)));
+    assert_int_equal(foreign_node_id(foreign_element_id(OCTREE_NODE_ID_LIMIT - 1)), OCTREE_NODE_ID_LIMIT - 1);
 }
 
 static int end(void **state)
