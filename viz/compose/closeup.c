@@ -2,10 +2,10 @@
 /* closeup.c - the layer of the close-up.
  *
  * A close-up is a scene of its own, built from the same layers as the main scene. Its camera looks in the same
- * direction as the camera of the main scene, at the middle of the subject. It cuts off everything that is farther in
- * front of or behind the subject than the close-up reaches to its sides. The main scene gets a frame around the
- * close-up, and an outline of the enlarged area in the same colour. A short pointer shows the way from the area to the
- * close-up; a line as far as the frame would cross the scene. The close-up gets a scale. */
+ * direction as the camera of the main scene, at the middle of the subject. It clips everything whose depth differs from
+ * the subject's depth by more than half the close-up's longer side. The main scene gets a frame around the close-up,
+ * and an outline of the enlarged area in the same colour. A short line points from the outline to the close-up; a line
+ * that reached the frame would cross the scene. The close-up gets a scale bar. */
 #include "closeup.h"
 #include "number.h"
 #include "scale_bar.h"

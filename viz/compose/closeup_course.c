@@ -12,9 +12,9 @@
  * The first small subject fixes the magnification of all ticks, so that viewers can compare sizes from tick to tick.
  * The magnification is a round number that makes the subject about WANTED of the picture's height.
  *
- * The place follows the player or the queries at every tick. A close-up that stood still until its subject left it
- * would jump by its whole width. In a tick without queries the changes are the subject. Changes are spread over the
- * world, so the close-up moves only if it does not already show all changes of the tick. The box of a moving point
+ * The place follows the player or the queries at every tick. A close-up that stood still until the subject left it
+ * would then jump by its whole width. In a tick without queries the changes are the subject. Changes are spread over
+ * the world, so the close-up moves only if it does not already show all changes of the tick. The box of a moving point
  * contains its position at the next tick too, so that the point does not leave the close-up at once. */
 #include "closeup_course.h"
 #include "layer_type.h"
@@ -40,18 +40,19 @@
 
 static const octree_box nothing = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
 
-static void widen_by_segment(octree_box *box, const double from[3], const double to[3])
+/* Widen a box so that it contains the box with the corners `min` and `max`. */
+static void widen_by_box(octree_box *box, const double min[3], const double max[3])
 {
     for (int i = 0; i < 3; i++) {
-        box->min[i] = from[i] < box->min[i] ? from[i] : box->min[i];
-        box->max[i] = to[i] > box->max[i] ? to[i] : box->max[i];
+        box->min[i] = min[i] < box->min[i] ? min[i] : box->min[i];
+        box->max[i] = max[i] > box->max[i] ? max[i] : box->max[i];
     }
 }
 
 static void widen_by_cell(octree_box *box, const octree_box *world, octree_address node)
 {
     const octree_box cell = octree_cell_box(world, node);
-    widen_by_segment(box, cell.min, cell.max);
+    widen_by_box(box, cell.min, cell.max);
 }
 
 /* Return half the longest side of a box. The whole side could overflow. */
@@ -67,14 +68,14 @@ static double half_extent(const octree_box *box)
 
 /* Return the box of an answer: the region of the query. A query for neighbours has no region; its box contains the
  * target and the neighbours found. */
-static octree_box answer_box(const octree_answer *answer)
+static octree_box find_answer_box(const octree_answer *answer)
 {
     octree_box box = nothing;
     if (octree_answer_bound(answer, &box))
         return box;
-    widen_by_segment(&box, answer->target, answer->target);
+    widen_by_box(&box, answer->target, answer->target);
     for (size_t i = 0; answer->neighbors && i < answer->count; i++)
-        widen_by_segment(&box, answer->neighbors[i].point.position, answer->neighbors[i].point.position);
+        widen_by_box(&box, answer->neighbors[i].point.position, answer->neighbors[i].point.position);
     return box;
 }
 
@@ -84,12 +85,12 @@ static void widen_by_movement(octree_box *box, const octree_game_body *mover)
     double next[3];
     for (int i = 0; i < 3; i++)
         next[i] = mover->position[i] + mover->velocity[i];
-    widen_by_segment(box, mover->position, mover->position);
-    widen_by_segment(box, next, next);
+    widen_by_box(box, mover->position, mover->position);
+    widen_by_box(box, next, next);
 }
 
 /* Return a box that contains all points that a tick edits or moves, and all nodes that it splits or merges. */
-static octree_box changes_box(const layer_source *in)
+static octree_box find_changes_box(const layer_source *in)
 {
     const octree_tick *tick = in->tick;
     octree_box box = tick->edit_count ? tick->edited : nothing;
@@ -112,7 +113,7 @@ typedef struct view_scale {
 static view_scale make_view_scale(const layer_source *in)
 {
     scene with = {.has_closeup = true};
-    double center[3]; /* any position: only the camera's distance from it matters */
+    double center[3]; /* any position: only the camera's distance from the position matters */
     scene_set_view(&with, in->view);
     scene_box_middle(&in->world, center);
     const camera c = camera_make(in->view, layout_camera_area(&with, &in->world), &in->world, center, 0);
@@ -121,6 +122,7 @@ static view_scale make_view_scale(const layer_source *in)
     return (view_scale){view_height_at_16_9(&own), camera_world_length_of_pixel(&c)};
 }
 
+/* Return the size of a box with the half extent `reach`, as a part of the picture's height. */
 static double find_part_of_height(const view_scale *m, double reach)
 {
     return 2 * reach / m->pixel / m->height;
@@ -128,7 +130,7 @@ static double find_part_of_height(const view_scale *m, double reach)
 
 /* Return true if the subjects of the close-up are queries, or if the scene shows a tree without a game. Return false if
  * the subjects are the changes of the tick. */
-static bool has_queries(const layer_source *in)
+static bool are_queries_subjects(const layer_source *in)
 {
     return in->answer_count > 0 || !in->tick;
 }
@@ -137,7 +139,7 @@ static bool has_queries(const layer_source *in)
 
 /* Return the greatest number not above `limit` that is 1, 2, 3, 4, 5, 6 or 8 times a power of ten. `limit` must be at
  * least 1. */
-static double round_down(double limit)
+static double round_down_magnification(double limit)
 {
     static const double steps[] = {8, 6, 5, 4, 3, 2, 1};
     double power = 1;
@@ -158,17 +160,17 @@ static double find_visible_part(const layer_source *in, const view_scale *m, dou
 
 /* Return the magnification for a subject with the half extent `reach`. Return 0 if the subject has no extent or appears
  * large enough already. Without a game the subject may fill more of the close-up. */
-static double magnification_for(double reach, const layer_source *in, const view_scale *m)
+static double find_magnification(double reach, const layer_source *in, const view_scale *m)
 {
     const double part = find_part_of_height(m, reach),
                  wanted = in->game ? WANTED : fmax(WANTED, STILL * find_visible_part(in, m, 1));
-    return part > 0 && part < SMALL ? round_down(fmin(wanted / part, MAX_MAGNIFICATION)) : 0;
+    return part > 0 && part < SMALL ? round_down_magnification(fmin(wanted / part, MAX_MAGNIFICATION)) : 0;
 }
 
 double closeup_magnification(const closeup_course *course, const layer_source *in)
 {
     const view_scale m = make_view_scale(in);
-    return in->view->closeup && layout_closeup_area(in->view).width > 0 ? magnification_for(course->reach, in, &m) : 0;
+    return in->view->closeup && layout_closeup_area(in->view).width > 0 ? find_magnification(course->reach, in, &m) : 0;
 }
 
 /* Return the half extent of a subject with a margin around it. The margin keeps the leaf visible when neighbours lie at
@@ -179,7 +181,7 @@ static double half_extent_with_leaf(const layer_source *in, const octree_box *se
     octree_node leaf;
     scene_box_middle(seen, middle);
     const bool has_leaf = octree_locate(in->tree, middle, &leaf) == OCTREE_OK && leaf.leaf;
-    const double around = (has_queries(in) ? SURROUNDED : CHANGED) * m->height / 2 * m->pixel;
+    const double around = (are_queries_subjects(in) ? SURROUNDED : CHANGED) * m->height / 2 * m->pixel;
     return fmax(half_extent(seen), fmin(has_leaf ? LEAF_PART * half_extent(&leaf.box) : INFINITY, around));
 }
 
@@ -195,8 +197,8 @@ typedef struct group_search {
 } group_search;
 
 /* Add a subject to the group if the whole group then still fits into the close-up. The first subject sets g->reach.
- * `is_sized` is true if the user chose the size of the subject; a subject of any other size gets a margin that shows
- * its leaf. */
+ * `is_sized` is true if the user chose the size of the subject; otherwise the subject gets a margin that shows its
+ * leaf. */
 static void add_to_group(group_search *g, const octree_box *more, bool is_sized)
 {
     octree_box both = g->group;
@@ -209,8 +211,8 @@ static void add_to_group(group_search *g, const octree_box *more, bool is_sized)
     const double own =
         is_sized && half_extent(more) > 0 ? half_extent(more) : half_extent_with_leaf(g->in, more, &g->m);
     const double reach = g->reach > 0 ? g->reach : own;
-    const double times = magnification_for(reach, g->in, &g->m);
-    widen_by_segment(&both, more->min, more->max);
+    const double times = find_magnification(reach, g->in, &g->m);
+    widen_by_box(&both, more->min, more->max);
     if (!(times > 0 && find_part_of_height(&g->m, half_extent(&both)) < find_visible_part(g->in, &g->m, times)))
         return;
     g->reach = reach;
@@ -225,11 +227,11 @@ static void add_candidates(group_search *g)
     if (in->requested && octree_node_at(in->tree, in->requested, &node) == OCTREE_OK)
         add_to_group(g, &node.box, true);
     for (size_t i = 0; i < in->answer_count; i++) {
-        box = answer_box(&in->answers[i]);
+        box = find_answer_box(&in->answers[i]);
         add_to_group(g, &box, !in->answers[i].neighbors);
     }
-    if (!has_queries(in)) {
-        box = changes_box(in);
+    if (!are_queries_subjects(in)) {
+        box = find_changes_box(in);
         add_to_group(g, &box, false);
     }
 }
@@ -251,7 +253,7 @@ static bool is_group_in_closeup(const group_search *g, const double place[3])
     for (int i = 0; i < 3; i++)
         reach = fmax(reach, fmax(g->group.max[i] - place[i], place[i] - g->group.min[i]));
     return find_part_of_height(&g->m, reach) <
-           find_visible_part(g->in, &g->m, magnification_for(g->reach, g->in, &g->m));
+           find_visible_part(g->in, &g->m, find_magnification(g->reach, g->in, &g->m));
 }
 
 /* Move the close-up to the queries of the tick. If the tick has no queries, move the close-up to the tick's changes,
@@ -260,7 +262,7 @@ static void follow_queries_or_changes(closeup_course *course, const layer_source
 {
     const group_search g = choose_group_to_show(course, in);
     const bool empty = !(g.group.min[0] <= g.group.max[0]);
-    if (empty || (course->reach > 0 && !has_queries(in) && is_group_in_closeup(&g, course->place)))
+    if (empty || (course->reach > 0 && !are_queries_subjects(in) && is_group_in_closeup(&g, course->place)))
         return;
     course->reach = g.reach;
     scene_box_middle(&g.group, course->place);
@@ -268,7 +270,7 @@ static void follow_queries_or_changes(closeup_course *course, const layer_source
         course->place[i] = fmin(fmax(course->place[i], in->world.min[i]), in->world.max[i]);
 }
 
-void closeup_follow(closeup_course *course, const layer_source *in)
+void closeup_course_update(closeup_course *course, const layer_source *in)
 {
     const octree_player *player = in->session ? &in->session->player : NULL;
     if (player && player->kind != OCTREE_PLAYER_NONE) {

@@ -5,7 +5,7 @@
 
 struct layer_source; /* defined in layer_type.h */
 
-/* What closeup_follow() remembers from tick to tick. All members are 0 before tick 0. */
+/* The state that closeup_course_update() keeps from tick to tick. All members are 0 before tick 0. */
 typedef struct closeup_course {
     double reach;    /* half extent of the subject, in world units; set once; 0: not set yet */
     double place[3]; /* position in the world that the middle of the close-up shows */
@@ -21,7 +21,7 @@ typedef struct closeup_course {
  * If the subjects are far apart, the close-up shows the first small subject (or the first subject, if none is small)
  * and the subjects that fit beside it. The close-up stays where it is if a tick changes nothing, or changes only things
  * that the close-up already shows. */
-void closeup_follow(closeup_course *course, const struct layer_source *in);
+void closeup_course_update(closeup_course *course, const struct layer_source *in);
 
 /* Return the magnification of the close-up, a round number. Return 0 if there is no close-up: the view has none, the
  * picture is too small, there is no subject, or the subject is large enough already. */

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-/* diagram.c - the layer of the diagram. The diagram shows the tree as in Figure 2 of the paper: the root at the top,
- * and each level in a row below it.
+/* diagram.c - the layer of the diagram. The diagram shows the tree as Figure 2 of "3D Spatial Partitioning and
+ * Collision Detection using Octrees" does: the root at the top, and each level in a row below it.
  *
  * The problem: a reader wants to see the whole structure, but a tree of 40,000 leaves has more nodes than the picture
  * has pixels across. The idea: draw the nodes of the upper levels one by one, and fold the lower levels.
  *    - diagram_slots.h chooses the position of each node and the levels that have room.
  *    - A node that has room is a square; the side of a leaf is half as long. Nodes have the colours of the space view,
- *      or are grey if the view's filter hides them. A line connects each node with its parent. It is bold if a query
- *      visited the node, and dashed if a query pruned it.
- *    - The other levels are folded into bars. A bar represents the nodes of one level in a column two units wide. Its
- *      height is logarithmic: twice as many nodes make it a sixteenth of the row higher.
+ *      or are grey if the view's filter hides them. A line connects each node with its parent. The line is bold if
+ *      a query visited the node, and dashed if a query pruned the node.
+ *    - The other levels are folded into bars. A bar represents the nodes of one level in a column two units wide. The
+ *      height of a bar is logarithmic: if the number of nodes doubles, the bar grows by a sixteenth of the row.
  *    - The path from the root to the player's leaf, or to the requested node, is drawn on top of nodes and bars.
  * In a game, rows are added four at a time, so that they seldom move when the tree becomes deeper. The cost is at most
  * two walks over the tree for the slots and one walk for the bars. */
@@ -28,9 +28,11 @@
 #include <string.h>
 
 /* Sizes in picture units. */
-#define NODE 6      /* side of an inner node; the side of a leaf is half as long */
-#define RING 2      /* width of the ring around a node on the path: how many units wider the ring is than the node */
-#define EDGE 8      /* margin of a diagram without text */
+#define NODE 6 /* side of an inner node; the side of a leaf is half as long */
+/* A node on the path has a dark gap around it, which is this much wider than the node, and a ring around the gap, which
+ * is this much wider than the gap. */
+#define RING 2
+#define EDGE 8      /* margin of the diagram; above and below, only if there is no text */
 #define NARROWEST 2 /* minimum width of one share of a node's slot */
 #define BAR 2       /* width of a bar that represents folded nodes */
 
@@ -123,9 +125,9 @@ static double find_row_middle(const diagram *d, unsigned depth)
     return d->top + (depth + 0.5) * d->pitch;
 }
 
-/* Return the anchor of a node. `middle` is its horizontal position, from 0 (left) to 1; `height` is its height in
- * pixels. */
-static anchor anchor_at(const diagram *d, unsigned depth, double middle, double height)
+/* Return the anchor of a node. `middle` is the horizontal position of the node, from 0 (left) to 1; `height` is the
+ * height of the node in pixels. */
+static anchor make_anchor(const diagram *d, unsigned depth, double middle, double height)
 {
     const double y = find_row_middle(d, depth);
     return (anchor){d->left + d->width * middle, y - height / 2, y + height / 2};
@@ -155,7 +157,7 @@ static int compare_in_walk_order(const void *node, const void *visit)
 
 /* Return the style of the line from a node to its parent. As in the space view, the line is bold if a query visited the
  * node, and dashed if a query pruned the node. */
-static scene_style edge_style(const diagram *d, octree_address node, unsigned role)
+static scene_style choose_edge_style(const diagram *d, octree_address node, unsigned role)
 {
     const octree_tick *tick = d->in->tick;
     const octree_visit *visit = NULL;
@@ -169,8 +171,8 @@ static scene_style edge_style(const diagram *d, octree_address node, unsigned ro
     return make_role_style(LAYER_DIAGRAM, role, pruned ? STROKE_DASHED : STROKE_SOLID, visited ? 2 : 1);
 }
 
-/* Compute the width and height of a node. The node's slot and row limit both. A leaf is half as large as an inner
- * node. */
+/* Compute the width and height of a node, which are limited by the node's slot and row. A leaf is half as large as an
+ * inner node. */
 static void measure_node(const diagram *d, const diagram_node *node, double size[2])
 {
     const int unit = d->scene->unit;
@@ -216,13 +218,13 @@ static void add_nodes(diagram *d, bool on_path)
         const unsigned depth = node->depth, role = choose_node_role(d, node);
         double size[2];
         measure_node(d, node, size);
-        anchors[depth] = anchor_at(d, depth, (node->left + node->right) / 2, size[1]);
+        anchors[depth] = make_anchor(d, depth, (node->left + node->right) / 2, size[1]);
         if (is_on_path(d, node->address, depth) != on_path)
             continue;
         if (on_path)
             d->anchors[depth] = anchors[depth];
         else if (depth)
-            add_line(d, node->address, &anchors[depth - 1], &anchors[depth], edge_style(d, node->address, role));
+            add_line(d, node->address, &anchors[depth - 1], &anchors[depth], choose_edge_style(d, node->address, role));
         if (on_path)
             add_ring(d, depth, anchors[depth].x, size);
         fill_centered_rectangle(d, node->address, anchors[depth].x, find_row_middle(d, depth), size[0], size[1], role);
@@ -261,7 +263,7 @@ typedef struct folding {
     size_t columns;
 } folding;
 
-static void count_node(const octree_node *node, double middle, void *context)
+static void add_node_to_bar(const octree_node *node, double middle, void *context)
 {
     folding *f = context;
     diagram *d = f->d;
@@ -273,12 +275,12 @@ static void count_node(const octree_node *node, double middle, void *context)
     b->points += node->leaf ? node->count : 0;
     b->shown = b->shown || filter_shows_node(&d->scene->view.filter, &d->in->world, node);
     if (is_on_path(d, node->address, node->depth))
-        d->anchors[node->depth] = anchor_at(d, node->depth, middle, fmin(NODE * d->scene->unit, d->pitch));
+        d->anchors[node->depth] = make_anchor(d, node->depth, middle, fmin(NODE * d->scene->unit, d->pitch));
 }
 
 /* Return the height of a bar in steps of a sixteenth of the row: 1 for one node, 2 for two or three nodes, 3 for four
  * to seven ... */
-static unsigned bar_steps(size_t nodes)
+static unsigned count_bar_steps(size_t nodes)
 {
     unsigned steps = 0;
     for (; nodes && steps < BAR_STEPS; nodes /= 2)
@@ -290,7 +292,7 @@ static void add_bar(const folding *f, unsigned depth, size_t column, const bar *
 {
     const diagram *d = f->d;
     const double unit = d->scene->unit, width = d->width / (double)f->columns;
-    const double height = fmax(floor((d->pitch - 2 * unit) * bar_steps(b->nodes) / BAR_STEPS), 1);
+    const double height = fmax(floor((d->pitch - 2 * unit) * count_bar_steps(b->nodes) / BAR_STEPS), 1);
     const double x = d->left + ((double)column + 0.5) * width;
     const node_traits look = {depth, b->leaves ? b->points / b->leaves : 0, d->capacity, b->leaves > 0};
     fill_centered_rectangle(d, BAR_ID | (uint64_t)depth << 32 | (uint64_t)column, x, find_row_middle(d, depth),
@@ -312,7 +314,7 @@ static void add_bars(diagram *d)
         return;
     d->scene->tally.folded_from = slots->deepest + 1;
     d->scene->tally.folded_to = slots->stats.depth;
-    diagram_visit_folded(slots, d->in->tree, count_node, &f);
+    diagram_visit_folded(slots, d->in->tree, add_node_to_bar, &f);
     for (size_t i = 0; i < levels * f.columns; i++)
         if (f.bars[i].nodes)
             add_bar(&f, slots->deepest + 1 + (unsigned)(i / f.columns), i % f.columns, &f.bars[i]);
@@ -337,7 +339,7 @@ static double right_aligned_x(const diagram *d, const char *text)
     return d->window.x + d->window.width - EDGE * s->unit - (double)strlen(text) * s->text.width;
 }
 
-static void write_rows(diagram *d)
+static void write_depths_and_counts(diagram *d)
 {
     const scene *s = d->scene;
     const double left = d->window.x + EDGE * s->unit, top = d->window.y + s->text.line / 2;
@@ -406,7 +408,7 @@ static void add_diagram(scene *s, const layer_source *in, view_layer layer)
     if (d.path)
         add_path(&d);
     if (d.has_text) {
-        write_rows(&d);
+        write_depths_and_counts(&d);
         if (d.path)
             write_path_end(&d);
     }

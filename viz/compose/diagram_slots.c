@@ -96,7 +96,7 @@ static unsigned count_empty_octants(const diagram_node *node)
 }
 
 /* Add up the shares, from the last node to the first. Return the sum of the shares of the root's octants. */
-static uint64_t add_shares(diagram_slots *slots)
+static uint64_t sum_shares(diagram_slots *slots)
 {
     /* below[d]: sum of the shares of the nodes at depth d that the pass has met since the last node at depth d - 1. */
     uint64_t below[OCTREE_MAX_DEPTH + 2] = {0};
@@ -131,7 +131,7 @@ static void assign_slot(slot_progress *d, unsigned empty, unsigned octant, uint6
     d->octant = octant + 1;
 }
 
-static void place_nodes(diagram_slots *slots)
+static void assign_slots(diagram_slots *slots)
 {
     slot_progress progress[OCTREE_MAX_DEPTH + 1];
     for (size_t i = 0; i < slots->count; i++) {
@@ -156,7 +156,7 @@ static bool arrange_levels(diagram_slots *slots, const octree *tree, unsigned em
     if (!slots->nodes)
         return false;
     octree_walk(tree, append_node, slots);
-    while (add_shares(slots) > room && slots->deepest > 0)
+    while (sum_shares(slots) > room && slots->deepest > 0)
         drop_deepest_level(slots);
     return true;
 }
@@ -171,7 +171,7 @@ bool diagram_arrange(diagram_slots *slots, const octree *tree, size_t room)
         ok = arrange_levels(slots, tree, 0, room);
     }
     if (ok)
-        place_nodes(slots);
+        assign_slots(slots);
     return ok;
 }
 

@@ -38,13 +38,13 @@ typedef struct diagram_slots {
     octree_stats stats; /* statistics of the whole tree */
 } diagram_slots;
 
-/* Arrange a tree so that the sum of the root's shares is at most `room`, which must be at least 1. Return false if
- * memory runs out. Cost: O(nodes). */
+/* Arrange a tree so that the sum of the shares of the root's octants is at most `room`, which must be at least 1.
+ * Return false if memory runs out. Cost: O(nodes). */
 bool diagram_arrange(diagram_slots *slots, const octree *tree, size_t room);
 void diagram_slots_release(diagram_slots *slots);
 
-/* Visit the folded nodes in pre-order. `middle` is the horizontal position of a node, from 0 (left) to 1. Cost:
- * O(nodes). */
+/* Call `visit` for each folded node, in pre-order. `middle` is the horizontal position of a node, from 0 (left) to 1.
+ * Cost: O(nodes). */
 typedef void (*diagram_visitor)(const octree_node *node, double middle, void *context);
 void diagram_visit_folded(const diagram_slots *slots, const octree *tree, diagram_visitor visit, void *context);
 

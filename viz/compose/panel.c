@@ -11,8 +11,8 @@
  * the picture has, the last rows are replaced by a line that counts them. A picture without room for the column shows
  * only the most important lines, in its corner.
  *
- * In a page the column is HTML text: if the view has its text apart, the pen writes the same rows as JSON, uncut, and a
- * rule may follow a rule or end the rows.
+ * In a page the column is HTML text: if view.text_apart is true, the pen writes the same rows as JSON, and does not cut
+ * them. A thin line between rows may then follow another thin line, or come last.
  *
  * This layer is added last, because it counts the elements that the other layers left out (scene_tally). */
 #include "caption.h"
@@ -115,12 +115,12 @@ static void write_statistics(pen *p, const layer_source *in, const octree_stats 
 }
 
 /* Return whether key presses move the player. */
-static bool has_keys(const layer_source *in)
+static bool is_player_moved_by_keys(const layer_source *in)
 {
     return in->session->player.kind == OCTREE_PLAYER_KEYS;
 }
 
-static const char *key_meaning(char key)
+static const char *get_key_meaning(char key)
 {
     static const char *const meanings[] = {"w+y", "s-y", "d+x", "a-x", "e+z", "f-z", "nnearest", ".wait"};
     for (size_t i = 0; i < sizeof meanings / sizeof meanings[0]; i++)
@@ -134,7 +134,7 @@ static const char *no_event_text(const layer_source *in)
 {
     if (in->tick->key == 'n')
         return "asked";
-    return !in->tick->number ? "start" : has_keys(in) ? "waited" : "no event";
+    return !in->tick->number ? "start" : is_player_moved_by_keys(in) ? "waited" : "no event";
 }
 
 /* Write the names of the tick's events. Splits and merges belong to Octreel's own tree, and are left out if the view
@@ -209,7 +209,7 @@ static void write_refusals(pen *p, const octree_tick *tick)
 }
 
 /* Write the key press of this tick in brackets, always at the same place, and the key presses of a few ticks before and
- * after it. */
+ * after this tick. */
 static void write_keys(pen *p, const layer_source *in)
 {
     const uint64_t now = in->tick->number;
@@ -266,8 +266,8 @@ static void write_tick_title(pen *p, const layer_source *in, const char *title)
     const char key = in->tick->key;
     const int y = p->y, line = p->scene->text.height;
     char text[SCENE_TEXT] = "";
-    if (key && (has_keys(in) || key == 'n'))
-        snprintf(text, sizeof text, "%c %s", key, key_meaning(key));
+    if (key && (is_player_moved_by_keys(in) || key == 'n'))
+        snprintf(text, sizeof text, "%c %s", key, get_key_meaning(key));
     if (p->rows) {
         write_title_text(p, ROLE_TEXT, title);
         if (*text)
@@ -321,8 +321,8 @@ static void write_folded_depths(pen *p, const scene_tally *tally)
         write_row(p, "drawn as bars", "", "depths %u to %u", tally->folded_from, tally->folded_to);
 }
 
-/* Write a row for each kind of element of which the view leaves out some elements because they are smaller than the
- * view's lod. */
+/* For each kind of element, write a row with the number of elements that are left out because they are smaller than the
+ * view's lod, unless the number is 0. */
 static void write_small_counts(pen *p, const scene_tally *tally)
 {
     const size_t counts[] = {tally->small, tally->small_marked, tally->arrows.small};
@@ -396,8 +396,8 @@ static void remove_separators_below(scene *s, int from)
 static void replace_rows_beyond_panel(pen *p)
 {
     scene *s = p->scene;
-    const int last = s->view.height - s->text.height,
-              line = s->text.line; /* `last`: the greatest y at which a row may begin, in pixels */
+    const int last = s->view.height - s->text.height; /* the greatest y at which a row may begin, in pixels */
+    const int line = s->text.line;
     size_t kept = 0, rows = 0;
     double at = -1, first = 0;
     if (p->rows || p->y - line <= last)
@@ -483,7 +483,7 @@ static void add_corner_lines(scene *s, const layer_source *in, const char *title
     replace_rows_beyond_panel(&p);
 }
 
-/* Write the caption on a strip below the scene. A page gets it as a row. */
+/* Write the caption on a strip below the scene or, for a page, as a row. */
 static void add_caption(pen *p, const layer_source *in)
 {
     char text[CAPTION_TEXT];

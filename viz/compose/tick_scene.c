@@ -69,9 +69,9 @@ static void add_closeup(scene *s, const layer_source *in, const double place[3],
     s->has_closeup = !(in->tick && in->tick->has_player && shows_only_player(s->closeup, in));
 }
 
-/* Forget the results for another tick. The history may end at the tick before the one that is built. The tick of a tree
- * without a game is 0. */
-static void begin_results(tick_history *h, layer_source *in)
+/* Prepare the results that the history keeps for one tick. If the scene of another tick is built, forget the old
+ * results: the history may end one tick before the tick of the scene. The tick of a tree without a game is 0. */
+static void prepare_kept_results(tick_history *h, layer_source *in)
 {
     const uint64_t tick = in->tick ? in->tick->number : 0;
     if (h->state == 0 || h->built != tick) {
@@ -102,7 +102,7 @@ static bool build_scene(scene *s, layer_source *in, const double player[3], clos
     if (v->diagram == DIAGRAM_ONLY)
         s->view.layers &= 1u << LAYER_TEXT;
     if (!(course.reach > 0))
-        closeup_follow(&course, in);
+        closeup_course_update(&course, in);
     const double times = closeup_magnification(&course, in);
     s->has_closeup = times > 0;
     s->camera = camera_make(v, layout_camera_area(s, &in->world), &in->world, player, in->tick ? in->tick->number : 0);
@@ -140,7 +140,7 @@ bool tick_history_add(tick_history *h, const view *v, const octree_game *game)
     h->state = 0;
     if (in.tick->gap)
         return true;
-    closeup_follow(&h->closeup, &in);
+    closeup_course_update(&h->closeup, &in);
     return node_changes_end_tick(&h->changes, game) &&
            (!(v->layers & VIEW_HEAT_LAYERS) || heat_add_tick(&h->heat, game));
 }
@@ -150,7 +150,7 @@ bool tick_scene_build(scene *s, const view *v, const octree_game *game, tick_his
     layer_source in = make_layer_source(v, game);
     tick_check check = {0};
     if (h)
-        begin_results(h, &in);
+        prepare_kept_results(h, &in);
     in.heat = h ? &h->heat : NULL;
     in.arrows = h ? &h->arrows : NULL;
     in.values = values;
@@ -171,6 +171,6 @@ bool tree_scene_build(scene *s, const view *v, const octree *tree, const tree_su
     double center[3]; /* the position that the camera looks at; in a game it is the player's position */
     scene_box_middle(v->fit == FIT_BOX ? &v->focus : &in.world, center);
     if (h)
-        begin_results(h, &in);
+        prepare_kept_results(h, &in);
     return build_scene(s, &in, center, (closeup_course){0}, h ? &h->check : &(tick_check){0});
 }

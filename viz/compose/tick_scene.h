@@ -21,13 +21,13 @@ typedef struct tick_check {
     octree_address where;
 } tick_check;
 
-/* What a scene needs from all ticks up to its own tick. All members are 0 before tick 0. */
+/* The facts of all ticks up to a scene's tick that the scene needs. All members are 0 before tick 0. */
 typedef struct tick_history {
     heat heat; /* number of visits and points of leaves so far; empty if the view shows no heat layer */
     closeup_course closeup;
     node_changes changes; /* empty unless changes.tracked is set at tick 0 */
     /* Results that are kept because the scene of one tick may be built for many cameras. `built` is this tick, and
-     * `state` names the state of its tree; 0: no scene was built yet. */
+     * `state` is a number that names the state of the tick's tree; 0: no scene was built yet. */
     uint64_t built, state;
     tick_check check;
     arrow_counts arrows;
@@ -42,7 +42,7 @@ bool tick_history_add(tick_history *h, const view *v, const octree_game *game);
  * null, the heat layers have no elements. `values` may be null. Return false if memory runs out. */
 bool tick_scene_build(scene *s, const view *v, const octree_game *game, tick_history *h, const point_values *values);
 
-/* What a scene of a tree shows in addition to the tree's nodes and points. */
+/* The things that a scene of a tree shows in addition to the tree's nodes and points. */
 typedef struct tree_subject {
     const char *title;
     octree_address node; /* the node that is marked in the scene, and to which the diagram shows the path; 0: none */
