@@ -60,7 +60,7 @@ static const char *format_today(char text[11])
     return text;
 }
 
-static int accept_listed(const arguments *a, char **paths, int count)
+static int accept_given_frames(const arguments *a, char **paths, int count)
 {
     char date[11];
     octreel_error error;
@@ -97,7 +97,7 @@ static int run(int argc, char **argv)
         return print_error("\"-\" is given twice, but standard input can be read only once");
     if (!check_outputs(&(output_file){"--store", NULL, a.store}, 1, NULL, 0, false, a.force))
         return EXIT_TROUBLE;
-    return accept_listed(&a, argv + optind, argc - optind);
+    return accept_given_frames(&a, argv + optind, argc - optind);
 }
 
 const command command_accept = {

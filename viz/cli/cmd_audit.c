@@ -107,7 +107,7 @@ static void print_verdict(const arguments *a, const audit_verdict *verdict)
 
 /* ---- The command -------------------------------------------------------------------------------------------- */
 
-static bool write_audit(const arguments *a, const char *path, audit_report *report, octreel_error *error)
+static bool audit_and_write_outputs(const arguments *a, const char *path, audit_report *report, octreel_error *error)
 {
     progress p = progress_start("ticks");
     const char *folder = a->outputs[HTML].folder;
@@ -126,7 +126,7 @@ static int audit_and_report(const arguments *a, const char *path)
 {
     audit_report report = {0};
     octreel_error error;
-    const bool done = write_audit(a, path, &report, &error), passes = done && audit_passes(&report);
+    const bool done = audit_and_write_outputs(a, path, &report, &error), passes = done && audit_passes(&report);
     audit_release(&report);
     return !done ? print_error("%s", error.text) : passes ? EXIT_DONE : EXIT_FINDING;
 }

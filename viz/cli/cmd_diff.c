@@ -236,7 +236,7 @@ static bool open_sides(const arguments *a, const char *paths[2], diff_side sides
     return true;
 }
 
-static int compare_folders(const arguments *a, const char *paths[2])
+static int compare_sides(const arguments *a, const char *paths[2])
 {
     diff_side sides[2] = {{0}, {0}};
     diff_result result = {0};
@@ -279,7 +279,7 @@ static int run(int argc, char **argv)
         status = print_error("out of memory");
     else if (status == COMMAND_GO_ON)
         status = check_outputs(a.outputs, OUTPUTS, argv + optind, 2, a.json, a.force)
-                     ? compare_folders(&a, (const char *[]){argv[optind], argv[optind + 1]})
+                     ? compare_sides(&a, (const char *[]){argv[optind], argv[optind + 1]})
                      : EXIT_TROUBLE;
     free(path);
     free(a.ignored);

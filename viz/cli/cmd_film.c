@@ -64,7 +64,7 @@ static const command_option options[] = {
     {0},
 };
 
-static void report_missing(const animation_frames *list)
+static void report_missing_frames(const animation_frames *list)
 {
     if (list->missing > 0)
         print_note("%" PRIu64 " frame%s missing, the first after %s %" PRIu64 "; the film leaves %s out", list->missing,
@@ -107,7 +107,8 @@ static int make_film(const arguments *a, const animation_frames *list)
     return whole ? EXIT_DONE : EXIT_TROUBLE;
 }
 
-/* Checks the output against the frames that are read, rather than against the folder: a film may lie beside them. */
+/* Checks that the output overwrites none of the frames that are read. Other files in the folder are not inputs, because
+ * a film may lie beside the frames. */
 static bool check_output(const arguments *a, const animation_frames *list)
 {
     char **inputs = malloc(list->count * sizeof *inputs);
@@ -133,7 +134,7 @@ static int run(int argc, char **argv)
     if (!animation_frames_read(argv[optind], &a.choice, &list, &error))
         return print_error("%s", error.text);
     a.film.rate = (uint16_t)a.rate;
-    report_missing(&list);
+    report_missing_frames(&list);
     const int result = check_output(&a, &list) ? make_film(&a, &list) : EXIT_TROUBLE;
     animation_frames_release(&list);
     return result;

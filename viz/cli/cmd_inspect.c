@@ -164,7 +164,7 @@ static bool write_page(const report *r, octreel_error *error)
                              .query_count = a->queries.count};
     file_writer file;
     progress bar = progress_start("");
-    progress_say(&bar, "writing %s", path);
+    progress_show_sentence(&bar, "writing %s", path);
     const bool ok =
         file_writer_open(&file, path, error) &&
         (cloud_page_write(&page, file.stream, error) ? file_writer_close(&file, error) : file_writer_discard(&file));
@@ -186,7 +186,7 @@ static bool draw_picture(const report *r, octreel_error *error)
                                 .answer_count = r->answers.count};
     const film_options options = {.view = r->view, .values = &r->made->values, .renderer = a->renderer};
     progress bar = progress_start("");
-    progress_say(&bar, "drawing %s", picture);
+    progress_show_sentence(&bar, "drawing %s", picture);
     const bool ok = film_tree(r->made->tree, &about, &options, a->outputs[PICTURE].path, &drawn, error);
     progress_end(&bar);
     if (!ok)
@@ -206,7 +206,7 @@ static bool draw_picture(const report *r, octreel_error *error)
 }
 
 /* Prints "wrote ", the path and ": ". Returns `out`. */
-static FILE *begin_wrote_line(const char *path, FILE *out)
+static FILE *print_wrote_prefix(const char *path, FILE *out)
 {
     fputs("wrote ", out);
     write_escaped(out, file_output_display_name(path), escape_nothing);
@@ -239,9 +239,9 @@ static void print_report(const report *r)
     if (!a->node && !a->queries.count && !a->advise)
         inspect_print(r->made, r->name, a->json, out);
     if (picture && !a->json && !is_quiet())
-        print_picture_size(r, begin_wrote_line(picture, out));
+        print_picture_size(r, print_wrote_prefix(picture, out));
     if (nodes && !a->json && !is_quiet())
-        fputs("all nodes\n", begin_wrote_line(nodes, out));
+        fputs("all nodes\n", print_wrote_prefix(nodes, out));
 }
 
 static bool measure_advice(report *r, octreel_error *error)
@@ -252,7 +252,7 @@ static bool measure_advice(report *r, octreel_error *error)
     return ok;
 }
 
-/* Makes the report. Before the first file is written, checks everything else that can fail. */
+/* Makes the report. All steps that can fail for other reasons come before the first file is written. */
 static bool make_report(report *r, octreel_error *error)
 {
     const arguments *a = r->a;
@@ -333,8 +333,9 @@ static int inspect_and_report(const arguments *a)
 
 /* ---- The command line --------------------------------------------------------------------------------------- */
 
-/* If -o is missing, refuses the options of the picture, because they would have no effect. */
-static bool check_picture(const arguments *a)
+/* Refuses options that would have no effect: options of the picture without -o, and options of drawing if -o names a
+ * page. */
+static bool check_picture_options(const arguments *a)
 {
     const char *first = find_first_view_option(&a->view_options),
                *drawing = a->renderer.fill != DRAW_FILL_CHECKED ? "fill"
@@ -361,7 +362,7 @@ static int run(int argc, char **argv)
     if (status != COMMAND_GO_ON)
         return status;
     a.cloud = argv[optind];
-    const bool ok = check_renderer(&a.renderer) && check_picture(&a) && read_view(&a.view_options, &a.view) &&
+    const bool ok = check_renderer(&a.renderer) && check_picture_options(&a) && read_view(&a.view_options, &a.view) &&
                     check_outputs(a.outputs, OUTPUTS, argv + optind, 1, a.json, a.force) &&
                     (!is_page(&a) || check_page_output(&a.outputs[PICTURE], a.force));
     return ok ? inspect_and_report(&a) : EXIT_TROUBLE;

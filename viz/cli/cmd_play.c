@@ -80,7 +80,7 @@ static void print_page_address(const char *page, uint64_t ticks)
 
 /* ---- The page ------------------------------------------------------------------------------------------------ */
 
-/* Writes the page. Returns false with an error if writing fails, or if a signal stops it. */
+/* Writes the page. Returns false with an error if writing fails, or if a signal stops the program. */
 static bool write_page(const arguments *a, const octree_session *session, FILE *page, film_summary *summary,
                        octreel_error *error)
 {
@@ -99,7 +99,7 @@ static bool write_file(const arguments *a, const octree_session *session, film_s
                                                                : file_writer_discard(&file);
 }
 
-static int play_into_page(arguments *a, const octree_session *session)
+static int write_page_and_report(arguments *a, const octree_session *session)
 {
     progress p = progress_start("ticks");
     film_summary summary;
@@ -128,7 +128,7 @@ static int play_session(arguments *a)
     a->film.values = &file.values;
     if (ok && *file.note)
         print_note("%s", file.note);
-    const int status = ok ? play_into_page(a, &file.session) : print_error("%s", error.text);
+    const int status = ok ? write_page_and_report(a, &file.session) : print_error("%s", error.text);
     session_release(&file);
     return status;
 }

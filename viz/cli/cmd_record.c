@@ -164,8 +164,9 @@ static const char *find_stored_session(const char *folder)
                                                           : NULL;
 }
 
-/* With --resume, takes session and view options from the recording if the command line leaves them out. If the command
- * line gives neither a session nor a view option, the folder must contain session.json and recording.json. */
+/* Completes the film options that the command line leaves out. With --resume, they are taken from the recording; if the
+ * command line gives neither a session nor any of these options, the folder must contain a session file and
+ * recording.json. */
 static bool complete_film_options(arguments *a)
 {
     octreel_error error;

@@ -31,7 +31,7 @@ typedef struct command {
     const char *negative_error;
     int min_arguments, max_arguments; /* how many arguments the command takes, not counting options */
     const char *takes;                /* the arguments in words, for errors: "one session" */
-    /* The kinds of files that the first and the second argument can be; 0: the argument is no file. */
+    /* The kinds of files that the first and the second argument can be; 0: the argument is not a file. */
     file_kinds inputs[2];
     /* True: "-" is refused as an input, because the command also reads other files in the input's folder. */
     bool refuses_standard_input;
@@ -58,16 +58,17 @@ typedef struct help_topic {
 /* Returns the n-th help topic; null if n is beyond the last. */
 const help_topic *help_topic_at(size_t n);
 
-/* Gets the n-th option of a command. The options of the command's own table come first, including those of shared
- * tables that are inserted in it. The options that every command has come last. Returns false if n is beyond the last
- * option. */
+/* Sets *option to the n-th option of a command. The options of the command's own table come first, including those of
+ * shared tables that are inserted in it. The options that every command has come last. Returns false if n is beyond the
+ * last option. */
 bool command_option_at(const command *c, size_t n, command_option *option);
 
 /* Returns the meaning of an exit status; null if the command never returns it. */
-const char *command_status(const command *c, int status);
+const char *command_status_meaning(const command *c, int status);
 
-/* Reads the options into the structure `arguments`; argv[optind] is then the first argument that is not an option.
- * Returns COMMAND_GO_ON. If help or an error was printed, returns the exit status of the program instead. */
+/* Reads the options into the structure `arguments`, and checks the other arguments; argv[optind] is then the first
+ * argument that is not an option. Returns COMMAND_GO_ON. If help or an error was printed, returns the exit status of
+ * the program instead. */
 enum { COMMAND_GO_ON = -1 };
 int command_read_arguments(const command *c, void *arguments, int argc, char **argv);
 

@@ -88,7 +88,7 @@ static void fill_getopt_tables(const command *c, struct option all[MOST_OPTIONS]
 
 /* Reports an abbreviation that fits several options: "--s is ambiguous: --size, --slice". Returns false if fewer than
  * two options begin with `name`. */
-static bool report_ambiguous(const command *c, const struct option *all, const char *name, size_t length)
+static bool refuse_if_ambiguous(const command *c, const struct option *all, const char *name, size_t length)
 {
     char matches[256] = "";
     size_t used = 0, found = 0;
@@ -123,7 +123,7 @@ static int refuse_option(const command *c, const struct option *all, bool missin
     const char *name = typed + 2;
     const size_t length = strcspn(name, "=");
     hint h = hint_create(name, length);
-    if (report_ambiguous(c, all, name, length))
+    if (refuse_if_ambiguous(c, all, name, length))
         return EXIT_TROUBLE;
     for (const struct option *o = all; o->name; o++)
         hint_add_candidate(&h, o->name);
@@ -138,8 +138,8 @@ static bool looks_like_option(const char *value)
            (value[0] == '-' && value[1] && !value[2] && strchr("ohq", value[1]));
 }
 
-/* Finds the option that getopt_long() returned. Returns false if it returned a digit, because the argument is then a
- * negative number. */
+/* Finds the option that getopt_long() returned as `number`. Returns false if `number` is a digit, because the argument
+ * is then a negative number. */
 static bool find_option(const command *c, int number, command_option *option)
 {
     return number >= OPTION ? command_option_at(c, (size_t)(number - OPTION), option)
@@ -180,7 +180,7 @@ static int read_options(const command *c, int argc, char **argv, void *arguments
 
 /* Reports that there are more arguments than the command takes. If the first surplus argument could be an output file,
  * suggests the option -o. */
-static int refuse_surplus(const command *c, const char *word, bool has_output)
+static int refuse_surplus_argument(const command *c, const char *word, bool has_output)
 {
     command_option output;
     const file_kinds kind = 1u << file_kind_of(word);
@@ -197,7 +197,7 @@ static int refuse_surplus(const command *c, const char *word, bool has_output)
 
 /* Reports that the user gave a file of a recording instead of the recording's folder, and names the folder. Returns
  * false if the path is not a file of a recording. */
-static bool refuse_recording_part(const command *c, const char *path, file_kind kind)
+static bool refuse_if_in_recording(const command *c, const char *path, file_kind kind)
 {
     char *folder = path_parent_folder(path);
     const bool found = folder && file_kind_of(folder) == KIND_RECORDING;
@@ -207,8 +207,8 @@ static bool refuse_recording_part(const command *c, const char *path, file_kind 
     return found;
 }
 
-/* Checks whether the input may be standard input. This requires that the command expects a file, and neither a folder
- * nor a file that the command may create. */
+/* Checks that the command can read the input from standard input: that it takes a file, and that the file must
+ * exist. */
 static bool check_standard_input(const command *c, file_kinds taken)
 {
     const file_kinds files = FILE_KIND(SESSION) | FILE_KIND(CLOUD) | FILE_KIND(PNG) | FILE_KIND(BASELINE);
@@ -227,7 +227,7 @@ static bool check_input(const command *c, const char *path, file_kinds taken)
         return true;
     if (kind == KIND_MISSING)
         return print_refusal("%s: no such file or folder", path);
-    if (taken == FILE_KIND(RECORDING) && kind != KIND_FOLDER && refuse_recording_part(c, path, kind))
+    if (taken == FILE_KIND(RECORDING) && kind != KIND_FOLDER && refuse_if_in_recording(c, path, kind))
         return false;
     return print_refusal("%s is %s, but %s takes %s; %s%s%s%s%s", path, row->name, c->name, c->takes,
                          row->command ? hint_program_name() : "", row->command ? " " : "",
@@ -252,7 +252,7 @@ int command_read_arguments(const command *c, void *arguments, int argc, char **a
     if (status != COMMAND_GO_ON)
         return status;
     if (count > c->max_arguments)
-        return refuse_surplus(c, argv[optind + c->max_arguments], has_output);
+        return refuse_surplus_argument(c, argv[optind + c->max_arguments], has_output);
     if (count < c->min_arguments)
         return print_error("%s needs %s; see %s %s --help", c->name, c->takes, hint_program_name(), c->name);
     if (!check_names_not_empty(c->name, argv + optind, count))

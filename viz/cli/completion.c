@@ -224,8 +224,8 @@ typedef struct script {
 
 static void write_template(const script *s, const char *template);
 
-/* Writes a text that is quoted by '. A backslash is written before each character that is special to the shell. A quote
- * character in the text becomes the characters '\'', which all three shells understand. */
+/* Writes a text for use between single quotes. A backslash is written before each character that is special to the
+ * shell. A quote character in the text becomes the characters '\'', which all three shells understand. */
 static void write_quoted(const script *s, const char *text, size_t length)
 {
     for (size_t i = 0; i < length; i++)
@@ -364,14 +364,14 @@ static void write_whole_script(script s)
     write_template(&s, s.shell->tail);
 }
 
-const char *completion_shell(int n)
+const char *completion_shell_name(int n)
 {
     return n < (int)(sizeof shells / sizeof shells[0]) ? shells[n].name : NULL;
 }
 
 bool completion_write(FILE *out, const char *shell)
 {
-    const int found = json_find_name(completion_shell, shell);
+    const int found = json_find_name(completion_shell_name, shell);
     if (found >= 0)
         write_whole_script((script){.out = out, .shell = &shells[found]});
     return found >= 0;

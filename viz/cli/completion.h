@@ -7,7 +7,7 @@
 #include <stdio.h>
 
 /* Returns the name of the n-th supported shell; null if n is beyond the last. */
-const char *completion_shell(int n);
+const char *completion_shell_name(int n);
 
 /* Writes the completion script of a shell. Returns false if the shell is not supported. */
 bool completion_write(FILE *out, const char *shell);

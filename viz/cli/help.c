@@ -13,7 +13,7 @@ enum { COMMAND_COLUMN = 18, OPTION_COLUMN = 24, CHOICE_WIDTH = 12 };
 
 static void print_wrapped(FILE *out, const char *text, int column)
 {
-    prose_fill(out, text, strlen(text), column, column);
+    prose_write_wrapped(out, text, strlen(text), column, column);
 }
 
 /* Prints the possible values of an option below its description, one on each line. */
@@ -31,7 +31,7 @@ static void print_option(FILE *out, const command_option *option)
     const char letter = option_letter(option->name), short_form[] = {'-', letter, ',', 0};
     const int width = fprintf(out, "  %-3s --%s%s%s", letter ? short_form : "", option->name, option->value ? " " : "",
                               option->value ? option->value : "");
-    prose_fill_column(out, width, option->help, strlen(option->help), OPTION_COLUMN);
+    prose_write_column(out, width, option->help, strlen(option->help), OPTION_COLUMN);
     if (option->words)
         print_choices(out, option);
 }
@@ -55,7 +55,7 @@ static void print_options(FILE *out, const command *c)
 
 static void print_row(FILE *out, const char *help, const char *name, const char *line)
 {
-    prose_fill_column(out, fprintf(out, "  %s%s", help, name), line, strlen(line), COMMAND_COLUMN);
+    prose_write_column(out, fprintf(out, "  %s%s", help, name), line, strlen(line), COMMAND_COLUMN);
 }
 
 static void print_commands(FILE *out)
@@ -69,7 +69,7 @@ static void print_commands(FILE *out)
     print_row(out, "", "--version", "print the version and the available renderers");
 }
 
-const char *command_status(const command *c, int status)
+const char *command_status_meaning(const command *c, int status)
 {
     static const char *const usual[] = {[EXIT_DONE] = "done", [EXIT_TROUBLE] = "error"};
     return c->statuses[status] ? c->statuses[status] : usual[status];
@@ -79,9 +79,9 @@ static void print_exit_statuses(FILE *out, const command *c)
 {
     fputs("\nExit status:\n", out);
     for (int i = EXIT_DONE; i <= EXIT_TROUBLE; i++)
-        if (command_status(c, i)) {
+        if (command_status_meaning(c, i)) {
             fprintf(out, "  %d  ", i);
-            prose_fill(out, command_status(c, i), strlen(command_status(c, i)), 5, 5);
+            prose_write_wrapped(out, command_status_meaning(c, i), strlen(command_status_meaning(c, i)), 5, 5);
         }
 }
 

@@ -115,16 +115,16 @@ static int print_completions(const char *shell)
 {
     char known[64], meant[HINT_TEXT];
     hint h = hint_create(shell, strlen(shell));
-    for (int i = 0; completion_shell(i); i++)
-        hint_add_candidate(&h, completion_shell(i));
+    for (int i = 0; completion_shell_name(i); i++)
+        hint_add_candidate(&h, completion_shell_name(i));
     if (completion_write(stdout, shell))
         return EXIT_DONE;
     return print_error("no completions for the shell \"%s\"%ssupported: %s", shell, hint_format(&h, "", meant),
-                       json_list_names(completion_shell, known, sizeof known));
+                       json_list_names(completion_shell_name, known, sizeof known));
 }
 
 /* Runs `octreel help [COMMAND | TOPIC]`, `octreel help --man NAME` or `octreel help --complete SHELL`. */
-static int help(int argc, char **argv)
+static int run_help(int argc, char **argv)
 {
     if (argc == 3 && strcmp(argv[1], "--man") == 0)
         return print_help(argv[2], true);
@@ -144,7 +144,7 @@ static int run(int argc, char **argv)
         return EXIT_TROUBLE;
     }
     if (strcmp(argv[1], "help") == 0 || strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0)
-        return help(argc - 1, argv + 1);
+        return run_help(argc - 1, argv + 1);
     if (strcmp(argv[1], "--version") == 0)
         return version_print();
     if (strcmp(argv[1], "digest") == 0)

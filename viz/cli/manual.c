@@ -10,7 +10,7 @@ enum { LINE = 78 }; /* the maximum number of characters in a line of roff source
 
 /* ---- Text --------------------------------------------------------------------------------------------------- */
 
-/* A character, in the notation that prints it with roff. */
+/* The notation by which roff prints a character. */
 typedef struct literal {
     char text[5];
 } literal;
@@ -124,7 +124,7 @@ static void write_lines(FILE *out, const char *text, size_t length, int indent)
 }
 
 /* Begins a section. The section's name ends at the first line end in `name`. */
-static void write_section(FILE *out, const char *name)
+static void write_section_heading(FILE *out, const char *name)
 {
     fputs(".SH ", out);
     write_code(out, name, strcspn(name, "\n"));
@@ -141,11 +141,11 @@ static void write_term(FILE *out, const char *term, size_t length)
 static void write_text(FILE *out, const char *text)
 {
     prose_block block;
-    bool begins = true; /* true: a paragraph has just begun, because the macro .SH also begins a paragraph */
+    bool begins = true; /* true: a paragraph has just begun; the macro .SH also begins a paragraph */
     for (const char *at = text; prose_next_block(&at, &block);) {
         switch (block.kind) {
         case PROSE_HEADING:
-            write_section(out, block.text);
+            write_section_heading(out, block.text);
             break;
         case PROSE_ITEM:
             write_term(out, block.term, block.term_length);
@@ -169,7 +169,7 @@ static void write_text_section(FILE *out, const char *name, const char *text)
 {
     if (!text)
         return;
-    write_section(out, name);
+    write_section_heading(out, name);
     write_text(out, text);
 }
 
@@ -254,9 +254,9 @@ static void write_options(FILE *out, const command *c)
 static void write_statuses(FILE *out, const command *c)
 {
     for (int i = EXIT_DONE; i <= EXIT_TROUBLE; i++)
-        if (command_status(c, i)) {
+        if (command_status_meaning(c, i)) {
             write_term(out, &"012"[i], 1);
-            write_sentence(out, command_status(c, i));
+            write_sentence(out, command_status_meaning(c, i));
         }
 }
 
@@ -274,7 +274,8 @@ static bool mentions_words(const command *c, const char *words)
     return false;
 }
 
-/* Writes a reference to another manual. Writes nothing if it is the manual `own`, which is being written. */
+/* Writes a reference to a manual, unless that is the manual `own`, which is being written. *begun becomes true when the
+ * first reference is written. */
 static void write_reference(FILE *out, const char *name, int section, const char *own, bool *begun)
 {
     if (strcmp(name, own) == 0)
@@ -292,7 +293,7 @@ static void write_see_also(FILE *out, const command *c, const help_topic *topic)
     const char *own = c ? c->name : topic->name;
     char words[64];
     bool begun = false;
-    write_section(out, "SEE ALSO");
+    write_section_heading(out, "SEE ALSO");
     write_reference(out, command_octreel.name, 1, own, &begun);
     for (size_t i = 0; command_at(i); i++) {
         snprintf(words, sizeof words, "octreel %s", command_at(i)->name);
@@ -308,7 +309,7 @@ static void write_see_also(FILE *out, const command *c, const help_topic *topic)
 
 static void write_commands(FILE *out)
 {
-    write_section(out, "COMMANDS");
+    write_section_heading(out, "COMMANDS");
     for (size_t i = 0; command_at(i); i++) {
         fputs(".TP\n.BR ", out);
         write_page_name(out, command_at(i)->name);
@@ -323,21 +324,21 @@ void manual_write(FILE *out, const command *c)
         "  TERM      if empty or \"dumb\", no progress is shown\n"
         "  NO_COLOR  has no effect: the output never contains colours or escape sequences\n";
     write_title(out, c->name, 1, c->line);
-    write_section(out, "SYNOPSIS");
+    write_section_heading(out, "SYNOPSIS");
     fprintf(out, "\\fBoctreel%s%s\\fR ", c == &command_octreel ? "" : " ", c == &command_octreel ? "" : c->name);
     write_usage(out, c->usage);
     write_text_section(out, "DESCRIPTION", c->about);
     if (c == &command_octreel)
         write_commands(out);
-    write_section(out, "OPTIONS");
+    write_section_heading(out, "OPTIONS");
     write_options(out, c);
     write_text_section(out, "NOTES", c->more);
-    write_section(out, "EXIT STATUS");
+    write_section_heading(out, "EXIT STATUS");
     write_statuses(out, c);
     write_text_section(out, "ENVIRONMENT", c->environment ? c->environment : "");
     write_text(out, environment);
     write_text_section(out, "FILES", c->files);
-    write_section(out, "EXAMPLES");
+    write_section_heading(out, "EXAMPLES");
     write_lines(out, c->examples, strlen(c->examples), 0);
     write_see_also(out, c, NULL);
 }

@@ -67,7 +67,7 @@ bool refuse_value(const command_option *option, const char *takes, const char *t
     return print_refusal("--%s takes %s, not \"%s\"", option->name, takes, text);
 }
 
-static bool check_name(const char *option, const char *name)
+static bool check_name_not_empty(const char *option, const char *name)
 {
     return *name || print_refusal("%s: the name is empty", option);
 }
@@ -75,7 +75,7 @@ static bool check_name(const char *option, const char *name)
 bool check_names_not_empty(const char *command, char *const *names, int count)
 {
     for (int i = 0; i < count; i++)
-        if (!check_name(command, names[i]))
+        if (!check_name_not_empty(command, names[i]))
             return false;
     return true;
 }
@@ -148,7 +148,7 @@ bool read_text(const command_option *option, const char *text, void *into)
 
 bool read_name(const command_option *option, const char *text, void *into)
 {
-    return read_text(option, text, into) && check_name(option_as_typed(option).text, text);
+    return read_text(option, text, into) && check_name_not_empty(option_as_typed(option).text, text);
 }
 
 bool is_folder(const char *path)

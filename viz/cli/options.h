@@ -85,7 +85,7 @@ command_option_reader read_color;  /* for an image_color: takes RRGGBB or #RRGGB
 command_option_reader read_choice; /* for an enumeration: takes one of the names in `names` */
 command_option_reader read_quiet;  /* for --quiet: is_quiet() then returns true */
 
-/* A table row that inserts the shared table `table`. The options of that table are stored in the structure `member`. */
+/* A table row that inserts the shared table `table`. The values of its options are stored in the structure `member`. */
 #define SHARED_OPTIONS(table, type, member)                                                                            \
     {                                                                                                                  \
         .more = table, OPTION_VALUE(type, member)                                                                      \
@@ -137,8 +137,8 @@ bool check_names_not_empty(const char *command, char *const *names, int count);
 bool read_count(const char *name, const char *text, uint64_t min, uint64_t max, uint64_t *value);
 
 /* The view options on the command line. Every command that draws has the same view options. While the command line is
- * read, only the texts of their values are collected. read_view() parses these texts later, because it needs the
- * command's default view. */
+ * read, only the texts of their values are collected. read_view() parses these texts later, because the values change
+ * the command's default view. */
 #define MOST_VIEW_OPTIONS 32
 typedef struct view_options {
     const char *values[MOST_VIEW_OPTIONS]; /* the text of the option view_option_at(i); null: not given */
@@ -159,8 +159,8 @@ bool read_view(const view_options *given, view *v);
 /* The table of the options --context and --any-renderer. */
 option_table_row renderer_option_row;
 
-/* Checks that --any-renderer and --context do not contradict each other. Otherwise prints an error and returns
- * false. Call this after all options were read. */
+/* Checks that --fill, --context and --any-renderer do not contradict each other. If they do, prints an error and
+ * returns false. Call this after all options were read. */
 bool check_renderer(const renderer_choice *choice);
 
 json_name draw_fill_words_at;

@@ -59,15 +59,15 @@ static bool check_outputs_differ(const output_file *outputs, size_t count)
 
 /* ---- What an output would replace --------------------------------------------------------------------------- */
 
-/* Prints an error: the output would replace a file. The sentence has the option and the path, such as "-o p.png", and
- * then the description of the file. Returns false. */
+/* Prints an error: the output would replace a file. The texts `is`, `of` and `end` together describe the file, after
+ * the option and the path, such as "-o p.png is". Returns false. */
 static bool refuse_file(const output_file *output, const char *is, const char *of, const char *end)
 {
     return print_refusal("%s %s is %s%s%s: name another file, or add --force to overwrite it", output->option,
                          output->path, is, of, end);
 }
 
-/* Checks that an output is not the input file. `status` is the status of the output. */
+/* Checks that an output is not the input file. `status` is the result of stat() for the output. */
 static bool check_differs_from_input_file(const output_file *output, const struct stat *status, const char *input)
 {
     struct stat other;

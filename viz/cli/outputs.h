@@ -25,7 +25,8 @@ typedef struct output_file {
 bool check_outputs(const output_file *outputs, size_t count, char *const *inputs, int input_count, bool json,
                    bool force);
 
-/* Checks that an output, which is a page, overwrites no file except a page that octreel wrote earlier. */
+/* Checks that an output page overwrites no file, except a page that octreel wrote earlier. If it would, prints an error
+ * and returns false. */
 bool check_page_output(const output_file *output, bool force);
 
 /* Returns whether one of the output files is standard output. Reports are then printed on standard error or not at

@@ -51,8 +51,8 @@ double progress_seconds(const progress *p)
     return read_clock() - p->started;
 }
 
-/* Overwrites the rest of the old line on the terminal with spaces, if the new line is shorter. */
-static void erase_longer_line(progress *p, int length, int columns)
+/* If the new line on the terminal is shorter than the old line, overwrites the rest of the old line with spaces. */
+static void erase_rest_of_old_line(progress *p, int length, int columns)
 {
     const int end = p->length < columns ? p->length : columns;
     fprintf(stderr, "%*s", end > length ? end - length : 0, "");
@@ -74,7 +74,7 @@ static void print_line(progress *p, const char *text)
         written = fprintf(stderr, "[%.*s] ", length, bar);
     }
     written += fprintf(stderr, "%.*s", columns, text);
-    erase_longer_line(p, written, columns);
+    erase_rest_of_old_line(p, written, columns);
     fflush(stderr);
 }
 
@@ -97,7 +97,7 @@ void progress_show(uint64_t done, uint64_t total, void *context)
     print_line(p, text);
 }
 
-void progress_say(progress *p, const char *format, ...)
+void progress_show_sentence(progress *p, const char *format, ...)
 {
     va_list arguments;
     if (!p->visible)
@@ -115,7 +115,7 @@ void progress_end(progress *p)
     if (!p->visible || p->shown <= 0)
         return;
     fputc('\r', stderr);
-    erase_longer_line(p, 0, read_terminal_width() - 1);
+    erase_rest_of_old_line(p, 0, read_terminal_width() - 1);
     fputc('\r', stderr);
     fflush(stderr);
 }

@@ -29,7 +29,7 @@ progress progress_start(const char *unit);
 void progress_show(uint64_t done, uint64_t total, void *context);
 
 /* Shows a sentence beside the bar, for a step whose progress cannot be counted. */
-void progress_say(progress *p, const char *format, ...);
+void progress_show_sentence(progress *p, const char *format, ...);
 
 /* Erases the bar from the terminal. */
 void progress_end(progress *p);
@@ -40,10 +40,11 @@ double progress_seconds(const progress *p);
 /* Signals that stop a task between two of its steps.
  *
  * After defer_stop_signals(), SIGHUP, SIGINT and SIGTERM are only recorded; a signal that was ignored stays ignored.
- * Between two steps the task calls has_no_stop_signal(), which returns false if a signal was recorded. Its parameter is
- * not used; with it, the function can be a callback. deliver_stop_signal() then ends the program as the sender of the
- * signal expects. If a task does not stop within five seconds, for example because nobody reads its output, the signal
- * ends the program. No system call is interrupted. Children made by fork() record their own signals. */
+ * Between two steps the task calls has_no_stop_signal(), which returns false if a signal was recorded. The unused
+ * parameter lets this function be a callback. After the task, deliver_stop_signal() restores the previous handlers; if
+ * a signal was recorded, it raises the signal again, so that the program ends as the sender of the signal expects. If a
+ * task does not stop within five seconds, for example because nobody reads its output, the signal ends the program. No
+ * system call is interrupted. Children made by fork() record their own signals. */
 void defer_stop_signals(void);
 bool has_no_stop_signal(void *context);
 void deliver_stop_signal(void);

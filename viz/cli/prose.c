@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* prose.c - splits help texts into blocks and wraps their words.
  *
- * One source text serves --help and man pages, which lay it out differently. The text must therefore say what each of
- * its parts is. The indentation of its lines says so, as prose.h describes; markup would make the C strings unreadable.
+ * One source text serves --help and man pages, which lay it out differently. So the text must mark the kind of each
+ * part. The indentation of the lines does so, as prose.h describes; other markup would make the C strings unreadable.
  * The first line of a block decides its kind. The block continues while the following lines have the indentation of
  * this kind.
  *
@@ -26,7 +26,7 @@ static int count_indent(const char *line)
     return (int)strspn(line, " ");
 }
 
-static bool is_empty(const char *line)
+static bool is_blank_line(const char *line)
 {
     return line_length(line) == (size_t)count_indent(line);
 }
@@ -57,7 +57,7 @@ static const char *find_item_text(const char *line)
 static bool continues_block(const prose_block *block, const char *line)
 {
     const int indent = count_indent(line);
-    if (!*line || is_empty(line))
+    if (!*line || is_blank_line(line))
         return false;
     if (block->kind == PROSE_ITEM)
         return indent > block->indent + 2;
@@ -65,16 +65,16 @@ static bool continues_block(const prose_block *block, const char *line)
                                          : indent == block->indent && (indent == 0 || !find_item_text(line));
 }
 
-static const char *skip_empty(const char *at)
+static const char *skip_blank_lines(const char *at)
 {
-    while (*at && is_empty(at))
+    while (*at && is_blank_line(at))
         at = next_line(at);
     return at;
 }
 
 bool prose_next_block(const char **at, prose_block *block)
 {
-    const char *line = skip_empty(*at), *end, *text;
+    const char *line = skip_blank_lines(*at), *end, *text;
     if (!*line)
         return false;
     *block = (prose_block){PROSE_PARAGRAPH, count_indent(line), .text = line};
@@ -89,7 +89,7 @@ bool prose_next_block(const char **at, prose_block *block)
         block->text = text;
     }
     for (end = next_line(line); block->kind != PROSE_HEADING; end = next_line(end)) {
-        const char *more = block->kind == PROSE_VERBATIM ? skip_empty(end) : end;
+        const char *more = block->kind == PROSE_VERBATIM ? skip_blank_lines(end) : end;
         if (!continues_block(block, more))
             break;
         end = more;
@@ -123,7 +123,7 @@ const char *prose_next_line(const char **at, const char *end, int indent, size_t
 
 /* ---- Filled lines ------------------------------------------------------------------------------------------- */
 
-void prose_fill(FILE *out, const char *text, size_t length, int column, int indent)
+void prose_write_wrapped(FILE *out, const char *text, size_t length, int column, int indent)
 {
     const char *at = text, *word;
     size_t size;
@@ -143,11 +143,11 @@ void prose_fill(FILE *out, const char *text, size_t length, int column, int inde
     putc('\n', out);
 }
 
-void prose_fill_column(FILE *out, int width, const char *text, size_t length, int column)
+void prose_write_column(FILE *out, int width, const char *text, size_t length, int column)
 {
     const bool fits = width + 2 <= column;
     fprintf(out, "%s%*s", fits ? "" : "\n", fits ? column - width : column, "");
-    prose_fill(out, text, length, column, column);
+    prose_write_wrapped(out, text, length, column, column);
 }
 
 /* The column of an item's description, counted from the item's indentation. If the item's term is too long for this
@@ -157,7 +157,7 @@ enum { SHORT_TERM = 14 };
 static void print_item(FILE *out, const prose_block *block)
 {
     const int width = fprintf(out, "%*s%.*s", block->indent, "", (int)block->term_length, block->term);
-    prose_fill_column(out, width, block->text, block->length, block->indent + SHORT_TERM);
+    prose_write_column(out, width, block->text, block->length, block->indent + SHORT_TERM);
 }
 
 static void print_lines(FILE *out, const prose_block *block)
@@ -185,7 +185,7 @@ void prose_print(FILE *out, const char *text)
             print_item(out, &block);
         else if (block.kind == PROSE_PARAGRAPH)
             fprintf(out, "%*s", block.indent, ""),
-                prose_fill(out, block.text, block.length, block.indent, block.indent);
+                prose_write_wrapped(out, block.text, block.length, block.indent, block.indent);
         else
             print_lines(out, &block);
     }

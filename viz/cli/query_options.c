@@ -46,7 +46,7 @@ static size_t count_numbers_of_kind(octree_query_kind kind)
 }
 
 /* Sets the members of a query from numbers. Returns false if a count is not a whole number in its range. */
-static bool set_members(octree_query *query, const double *numbers)
+static bool set_query_members(octree_query *query, const double *numbers)
 {
     for (size_t i = 0; i < OCTREE_QUERY_MEMBERS; i++) {
         const octree_query_member_traits *member = octree_query_member_at(i);
@@ -78,7 +78,7 @@ static bool read_query(const command_option *option, const char *text, void *int
         if (!numbers_parse(text, values, count_numbers_of_kind(query.kind)))
             return refuse_value(option, rows[row].takes, text);
     }
-    if (!set_members(&query, values))
+    if (!set_query_members(&query, values))
         return print_refusal("--%s: the number of neighbours must be a whole number from 1 to %.0f; found \"%s\"", name,
                              0x1p53 - 1, text);
     const octree_status status = octree_query_check(&query);
