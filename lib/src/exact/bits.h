@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* A table of 16 entries of four bits each. Entry i is the number of set bits in the number i, from 0 to 15. */
+/* A table of 16 entries of four bits each. Entry i, counted from the lowest bits, is the number of set bits in i. */
 #define BITS_COUNTS UINT64_C(0x4332322132212110)
 
 static inline unsigned bits_count8(unsigned mask)
@@ -14,9 +14,9 @@ static inline unsigned bits_count8(unsigned mask)
     return (unsigned)((BITS_COUNTS >> 4 * (mask & 15) & 15) + (BITS_COUNTS >> 4 * (mask >> 4) & 15));
 }
 
-/* bits_look_up_count8() returns the same as bits_count8(), by a table in memory. Queries use the table, because it
- * takes fewer instructions. Changes of the tree do not: in a measurement, the table made single insertions 8 %
- * slower. */
+/* bits_look_up_count8() returns the same number as bits_count8(), but reads the number from a table in memory. Queries
+ * call bits_look_up_count8(), which takes fewer instructions. Changes of the tree call bits_count8(): in a measurement,
+ * the table in memory made single insertions 8 % slower. */
 #define BITS_ROW(n) n, n + 1, n + 1, n + 2
 #define BITS_ROWS(n) BITS_ROW(n), BITS_ROW(n + 1), BITS_ROW(n + 1), BITS_ROW(n + 2)
 #define BITS_BLOCK(n) BITS_ROWS(n), BITS_ROWS(n + 1), BITS_ROWS(n + 1), BITS_ROWS(n + 2)

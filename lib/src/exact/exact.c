@@ -11,12 +11,12 @@
  * of similar size use only a few digits.
  *
  * Why not multi-precision integers or expansions (Shewchuk): the former allocate memory, the latter need branches for
- * each term, and neither is simpler. Cost: three additions of digits per product and one pass over the digits in use.
- * Callers compare doubles first and use exact sums only for near ties.
+ * each term, and neither method is simpler than this one. Cost: three additions of digits per product and one pass over
+ * the digits in use. Callers compare doubles first and use exact sums only for near ties.
  */
 #include "exact.h"
 
-/* A finite double as mantissa * 2^exponent and a sign. The mantissa is an integer below 2^53. */
+/* A finite double: sign * mantissa * 2^exponent. The mantissa is an integer below 2^53. */
 typedef struct decomposed {
     uint64_t mantissa;
     int exponent; /* the exponent of the mantissa's lowest bit, at least -1074 */
@@ -97,7 +97,8 @@ int exact_sign(exact_sum *sum)
         carry = (digit - sum->digits[i]) / (INT64_C(1) << 32);
         any |= sum->digits[i] != 0;
     }
-    /* the last carry is never positive, because products leave 23 bits free in their highest digit */
+    /* The last carry is never positive: a product adds less than 2^9 to its highest digit, and at most 2^20 products
+     * are added. */
     return carry < 0 ? -1 : any;
 }
 
@@ -110,8 +111,8 @@ int exact_sign_of_sum(const double terms[], int count)
     return exact_sign(&sum);
 }
 
-/* Returns the exact rounding error of sum = fl(a + b), by Dekker's FastTwoSum. Knuth's TwoSum would not need ordered
- * operands, but one of its intermediate results can overflow. */
+/* Returns the exact rounding error of `sum`, which is a + b rounded to a double, by Dekker's FastTwoSum. Knuth's TwoSum
+ * would not need ordered operands, but one of its intermediate results can overflow. */
 static double rounding_error_of_sum(double a, double b, double sum)
 {
     return fabs(a) >= fabs(b) ? b - (sum - a) : a - (sum - b);

@@ -34,14 +34,14 @@ int exact_sign(exact_sum *sum);
 int exact_sign_of_sum(const double terms[], int count);
 
 /* exact_add_down() returns the largest double that is not above the real sum a + b. exact_add_up() returns the smallest
- * double that is not below it. A sum beyond the range of doubles gives +-DBL_MAX, or an infinity if no finite double is
- * a bound. */
+ * double that is not below it. If a + b overflows, exact_add_down() returns DBL_MAX or -infinity, and exact_add_up()
+ * returns infinity or -DBL_MAX. */
 double exact_add_down(double a, double b);
 double exact_add_up(double a, double b);
 
-/* Returns whether the compiler left sums and products as they are written. Some options change them without a macro
- * that float_rules.h could test: clang's -ffp-contract=fast, which ignores the pragma, and -funsafe-math-optimizations.
- */
+/* Returns whether the compiled code computes sums and products as the source states them. Two options change sums and
+ * products, but define no macro that float_rules.h could test: clang's -ffp-contract=fast, which ignores the pragma,
+ * and -funsafe-math-optimizations. */
 bool has_exact_double_arithmetic(void);
 
 /* Returns the next double below a finite value. */

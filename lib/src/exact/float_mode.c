@@ -3,8 +3,8 @@
  * float_mode.h. */
 #include "float_mode.h"
 
-/* True while a public function that changed the thread's mode is running. A thread runs at most one such function:
- * inner calls find the default mode, and `changed` is false while a function of the caller runs. */
+/* True while a public function that changed the thread's mode is running. A thread runs at most one such function at a
+ * time: inner calls find the default mode, and `changed` is false while a function of the caller runs. */
 static _Thread_local bool changed;
 
 /* ---- The control register ------------------------------------------------------------------------------------ */
@@ -68,8 +68,8 @@ static void write_default_control(void)
 }
 
 /* Detect the floating-point mode by its effect on some operations. The operands are volatile, so that the compiler does
- * not fold the operations. If fesetenv() could not change a mode, this mode counts as the default, because nothing more
- * can be done. */
+ * not compute the results at compile time. After float_mode_enter(), the mode counts as the default even if fesetenv()
+ * could not change it, because nothing more can be done. */
 bool float_mode_is_default(void)
 {
     static const volatile double one = 1, half_ulp = 0x1p-53, more = 0x1.8p-53, least = 0x1p-1074, normal = 0x1p-1022;
@@ -130,7 +130,7 @@ octree_walk_order visit_node_in_caller_mode(const octree_node *node, void *conte
     return order;
 }
 
-static void call_tracer(octree_address node, octree_trace_kind kind, void *context)
+static void trace_in_caller_mode(octree_address node, octree_trace_kind kind, void *context)
 {
     const caller_search *caller = context;
     const bool paused = float_mode_pause();
@@ -143,7 +143,7 @@ const octree_search *copy_with_caller_tracer(const octree_search *how, caller_se
     if (!how || !how->trace)
         return how;
     *copy = (caller_search){*how, how->trace, how->trace_context};
-    copy->search.trace = call_tracer;
+    copy->search.trace = trace_in_caller_mode;
     copy->search.trace_context = copy;
     return &copy->search;
 }

@@ -9,9 +9,10 @@
  *
  * Idea: a public function first reads the mode (about 1 ns). In the default mode, which is the usual case, the function
  * simply runs. In any other mode the function sets the default mode, calls itself through a volatile pointer, and
- * restores the caller's mode (some 10 ns). The compiler cannot look through such a pointer, so the arithmetic of the
- * inner call stays within this call. The rest of the outer call runs only in the default mode, so the compiler may move
- * its arithmetic. All results of the inner call are complete before the mode is restored.
+ * restores the caller's mode (some 10 ns). The compiler does not know which function such a pointer calls, so it cannot
+ * move the arithmetic of the inner call out of that call. All results of the inner call are complete before the mode is
+ * restored. The arithmetic of the outer call runs only if the mode is already the default, so the compiler may move
+ * this arithmetic.
  *
  * The caller's functions - visitors, tracers, allocators, executors - run in the caller's mode. If the library itself
  * calls a public function, it does so in the default mode, and the library's own visitors run in this mode.
@@ -50,14 +51,15 @@ void float_mode_enter(void);
 void float_mode_leave(void);
 
 /* The library calls these functions before and after it calls a function of the caller. float_mode_pause() restores the
- * caller's mode if the library has changed it. float_mode_resume() sets the default mode again. The caller's function
- * may call the library. If the caller's function does not return (longjmp, a C++ exception), the thread keeps the
- * caller's mode. */
+ * caller's mode if the library has changed it, and returns whether it did. Pass this result to float_mode_resume(): if
+ * the result is true, float_mode_resume() sets the default mode again. The caller's function may call the library. If
+ * the caller's function does not return (longjmp, a C++ exception), the thread keeps the caller's mode. */
 bool float_mode_pause(void);
 void float_mode_resume(bool paused);
 
-/* Declare a volatile pointer `again` to the function, so that the compiler cannot know which function a call through
- * the pointer calls. Without __typeof__ the call is an ordinary recursion. */
+/* POINTER_TO_ITSELF declares `again`, a volatile pointer to the function, and CALL_ITSELF is this pointer. The compiler
+ * cannot know which function a call through a volatile pointer calls. Without __typeof__, CALL_ITSELF is the function
+ * itself, and the call is an ordinary recursion. */
 #if defined(__GNUC__)
 #define POINTER_TO_ITSELF(function) __typeof__(&(function)) volatile again = (function)
 #define CALL_ITSELF(function) again
@@ -94,7 +96,8 @@ typedef struct caller_node_visitor {
 } caller_node_visitor;
 
 typedef struct caller_search {
-    /* a copy of the caller's search options; its tracer calls the caller's tracer in the caller's mode */
+    /* a copy of the caller's search options, in which the tracer is replaced by a function that calls the caller's
+     * tracer in the caller's mode */
     octree_search search;
     octree_tracer trace;
     void *context;
@@ -117,8 +120,8 @@ const octree_search *copy_with_caller_tracer(const octree_search *how, caller_se
         visit, context                                                                                                 \
     }
 
-/* An argument for the inner call, which replaces the caller's search options: a copy whose tracer calls the caller's
- * tracer in the caller's mode. */
+/* An argument for the inner call: a copy of the caller's search options, whose tracer calls the caller's tracer in the
+ * caller's mode. Options without a tracer are passed on without a copy. */
 #define CALLER_SEARCH(how) copy_with_caller_tracer(how, &(caller_search){.context = NULL})
 
 #endif

@@ -3,15 +3,16 @@
  * file that computes with positions includes this file.
  *
  * The library must be compiled without fast-math, and doubles must be evaluated in double precision. float_mode.h sets
- * the floating-point mode in which the library runs. On x86-64 SSE2 processes two doubles at once; OCTREE_PORTABLE
- * selects the portable code instead, and the tests build both. Subnormal numbers are converted to integers, because
- * processors multiply them slowly.
+ * the floating-point mode in which the library runs. On x86-64, the library uses SSE2 to process two doubles at once;
+ * OCTREE_PORTABLE selects the portable code instead, and the tests build both. Subnormal numbers are converted to
+ * integers, because many processors multiply subnormal numbers slowly.
  */
 #ifndef OCTREE_FLOAT_RULES_H
 #define OCTREE_FLOAT_RULES_H
 
-/* No product and sum are contracted to a fused multiply-add, which rounds once instead of twice. gcc ignores C's pragma
- * and contracts unless -std=c17 or the like is given. See also has_exact_double_arithmetic() in exact.h. */
+/* Forbid the compiler to contract a product and a sum to a fused multiply-add, which rounds once instead of twice. gcc
+ * ignores the pragma of the C standard, and contracts unless -std=c17 or the like is given. See also
+ * has_exact_double_arithmetic() in exact.h. */
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC optimize("fp-contract=off")
 #else
@@ -72,8 +73,7 @@ static inline double subnormal_count(double x)
     return bits >> 63 ? -count : count;
 }
 
-/* Returns count * 2^-1074, rounded to nearest even, as the product of the two numbers would be rounded. |count| must be
- * below 2^51. */
+/* Returns count * 2^-1074, rounded to nearest even, like the product of two doubles. |count| must be below 2^51. */
 static inline double subnormal_from_count(double count)
 {
     const double sum = fabs(count) + 0x1p52; /* adding 2^52 rounds to an integer */

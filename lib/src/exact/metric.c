@@ -5,10 +5,10 @@
  * coordinates near 1e-200 underflow. Rounding can make the farther of two points at nearly the same distance look
  * nearer.
  *
- * Idea: multiply coordinates by a power of two, so that the world's extent is moderate; this loses nothing. Compute
- * squares in doubles with a proven error bound (metric.h). Only when two squares are closer than the bound, compare the
- * real distances with exact sums (exact.h). So nearly every comparison only compares doubles, and no comparison is
- * wrong.
+ * Idea: multiply coordinates by a power of two, so that the world's extent is moderate; such a product is exact unless
+ * it is subnormal. Compute squares in doubles with a proven error bound (metric.h). Only when two squares are closer
+ * than the bound, compare the real distances with exact sums (exact.h). So nearly every comparison only compares
+ * doubles, and no comparison is wrong.
  *
  * Why not exact arithmetic throughout: it is far too slow. Why not an epsilon: it has no right value,
  * and ties would depend on the order of insertion. Cost: metric_compute_squares() takes about nine instructions a point
@@ -53,8 +53,8 @@ static inline __m128d compute_pair_squares(const double a[3], const double b[3],
     return _mm_add_pd(_mm_add_pd(_mm_mul_pd(x, x), _mm_mul_pd(y, y)), _mm_mul_pd(up, up));
 }
 
-/* Compute the squared distances of four points. `least` holds two minima of the squares so far, of even and of odd
- * points. Returns the new minima. */
+/* Compute the squared distances of four points. `least` holds two minima of the previous squares: one of the points
+ * with even index, one of the points with odd index. Returns the new minima. */
 static inline __m128d compute_four_squares(const octree_point *points, const __m128d target[3], double squares[4],
                                            __m128d least)
 {
@@ -94,16 +94,17 @@ double metric_compute_squares(const metric *m, const octree_point *points, unsig
 
 /* ---- Exact comparison ---------------------------------------------------------------------------------------- */
 
-/* Points on a grid have many neighbours at the same distance, so ties must not be slow. The coordinates that are
- * compared usually have similar exponents: they are integers below 2^60 times one power of two. Products of such
- * integers are added in 128 bits, in a tenth of the time of an exact_sum. */
+/* Points on a grid have many neighbours at the same distance, so ties must not be slow. Coordinates that are compared
+ * usually have similar exponents, so that they are integers of at most 2^60 times a common power of two. Products of
+ * such integers are added in 128 bits, in a tenth of the time of an exact_sum. */
 typedef struct wide_sum {
     int64_t high;
     uint64_t low;
 } wide_sum;
 
-/* Write `count` doubles as integers up to 2^60 times one power of two. Returns false if they are not of this form. */
-static bool find_units(const double values[], int count, int64_t units[])
+/* Store in units[] integers of at most 2^60 so that values[i] = units[i] * 2^e, with the same exponent e for all
+ * values. Returns false if there are no such integers, or if the largest value is below 2^-900 or above 2^900. */
+static bool convert_to_common_integers(const double values[], int count, int64_t units[])
 {
     double largest = 0, scale, inverse;
     bool whole = true;
@@ -113,7 +114,7 @@ static bool find_units(const double values[], int count, int64_t units[])
         return false;
     uint64_t exponent;
     memcpy(&exponent, &largest, sizeof exponent);
-    exponent >>= 52; /* of 2^(e - 1023) <= largest, which the scale makes 2^59 */
+    exponent >>= 52; /* 2^(exponent - 1023) is the largest power of two <= largest; the scale turns it into 2^59 */
     const uint64_t scale_bits = (2 * 1023 + 59 - exponent) << 52, inverse_bits = (exponent - 59) << 52;
     memcpy(&scale, &scale_bits, sizeof scale);
     memcpy(&inverse, &inverse_bits, sizeof inverse);
@@ -144,8 +145,8 @@ static int sign_of_wide_sum(const wide_sum *sum)
     return sum->high < 0 ? -1 : (sum->high | (int64_t)(sum->low != 0)) != 0;
 }
 
-/* |a - t|^2 - |b - t|^2 is the sum of (a - b) (a + b - 2t) over the axes. */
-static int compare_units(const int64_t target[3], const int64_t a[3], const int64_t b[3])
+/* With the target t, |a - t|^2 - |b - t|^2 is the sum of (a - b) (a + b - 2t) over the axes. */
+static int compare_integer_distances(const int64_t target[3], const int64_t a[3], const int64_t b[3])
 {
     wide_sum sum = {0, 0};
     for (int i = 0; i < 3; i++)
@@ -160,8 +161,8 @@ int metric_compare(const double target[3], const double a[3], const double b[3])
         return 0;
     const double values[9] = {target[0], target[1], target[2], a[0], a[1], a[2], b[0], b[1], b[2]};
     int64_t units[9];
-    if (find_units(values, 9, units))
-        return compare_units(units, units + 3, units + 6);
+    if (convert_to_common_integers(values, 9, units))
+        return compare_integer_distances(units, units + 3, units + 6);
     /* |a - t|^2 - |b - t|^2 is also the sum of a^2 - 2at - b^2 + 2bt over the axes: twelve exact products, or fewer if
      * coordinates are equal. */
     exact_sum sum;
@@ -177,7 +178,7 @@ int metric_compare(const double target[3], const double a[3], const double b[3])
     return exact_sign(&sum);
 }
 
-static int compare_units_with_radius(const int64_t target[3], const int64_t p[3], int64_t radius)
+static int compare_integer_distance_with_radius(const int64_t target[3], const int64_t p[3], int64_t radius)
 {
     wide_sum sum = {0, 0};
     for (int i = 0; i < 3; i++)
@@ -196,8 +197,8 @@ int metric_compare_radius(const double target[3], const double p[3], double radi
         return distance < radius ? -1 : 1;
     const double values[7] = {p[0], p[1], p[2], target[0], target[1], target[2], radius};
     int64_t units[7];
-    if (find_units(values, 7, units))
-        return compare_units_with_radius(units, units + 3, units[6]);
+    if (convert_to_common_integers(values, 7, units))
+        return compare_integer_distance_with_radius(units, units + 3, units[6]);
     exact_sum sum;
     exact_clear(&sum);
     for (int i = 0; i < 3; i++) {
@@ -215,7 +216,7 @@ static double subnormal_length(double x, double y, double z)
     return length < 0x1p51 ? subnormal_from_count(length) : ldexp(length, -1074);
 }
 
-double metric_extreme_distance(const double a[3], const double b[3], double largest)
+double metric_distance_without_overflow(const double a[3], const double b[3], double largest)
 {
     double gap[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
     if (is_subnormal(largest))

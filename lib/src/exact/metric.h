@@ -3,10 +3,11 @@
  * underflow in any world.
  *
  * Coordinates are multiplied by a power of two, so that the world's extent is moderate: from 2^-99 to 2^100. Nearly all
- * worlds are moderate by themselves, and are not multiplied. For points of the world the product is exact, or has an
- * error below 2^-1074 if it is subnormal. The computed square s of a real scaled square S satisfies |s - S| <= 6u s +
- * 2^-1000 with u = 2^-53: one rounding in each difference, one in each product, two in the sum. A target far outside
- * the world may give infinity; comparisons with infinity decide nothing.
+ * worlds have a moderate extent, so their coordinates are not multiplied. For points of the world the product of
+ * coordinate and power is exact, or has an error below 2^-1074 if the product is subnormal. The computed square s of a
+ * real scaled square S satisfies |s - S| <= 6u s + 2^-1000 with u = 2^-53: one rounding in each difference, one in each
+ * product, two in the sum. The squared distance from a target far outside the world may be infinite; a comparison with
+ * an infinite square decides nothing.
  */
 #ifndef OCTREE_METRIC_H
 #define OCTREE_METRIC_H
@@ -21,8 +22,9 @@ typedef struct metric {
     double grain; /* in a world of subnormal coordinates: scale * 2^-1074; else 0 */
 } metric;
 
-/* Returns the power of two by which the coordinates of a world are multiplied. If the world's extent is moderate, it is
- * 1. Otherwise it brings the extent near 1, and is between 2^-1020 and 2^1000, so that it is a normal double. */
+/* Returns the power of two by which the coordinates of a world are multiplied. The power is 1 if the world's extent is
+ * moderate. Otherwise the power brings the extent near 1; it is between 2^-1020 and 2^1000, so that it is a normal
+ * double. */
 double metric_scale(const octree_box *world);
 
 /* Returns a coordinate of the world multiplied by the scale. */
@@ -61,12 +63,12 @@ static inline double metric_square(const metric *m, const double p[3])
     return (x * x + y * y) + z * z;
 }
 
-/* Compute the squared distances of 1 to 64 points. Each square equals the result of metric_square() in every bit.
- * Returns the least of the squares. */
+/* Store the scaled squared distances of 1 to 64 points in squares[]. Each square equals the result of metric_square()
+ * in every bit. Returns the least of the squares. */
 double metric_compute_squares(const metric *m, const octree_point *points, unsigned count, double squares[]);
 
 #ifdef OCTREE_SSE2
-/* Returns a mask of the four squares that are not above `reach`. */
+/* Returns a bit mask of four squares: bit i is set if squares[i] is not above `reach`. */
 static inline uint64_t metric_mask_four_within(const double squares[4], __m128d reach)
 {
     const __m128d a = _mm_cmpngt_pd(_mm_loadu_pd(squares), reach), b = _mm_cmpngt_pd(_mm_loadu_pd(squares + 2), reach);
@@ -74,8 +76,8 @@ static inline uint64_t metric_mask_four_within(const double squares[4], __m128d 
 }
 #endif
 
-/* Returns a bit mask of 1 to 64 squares that are not above `reach`. The function has no branches, because the branches
- * would be unpredictable. */
+/* Returns a bit mask of 1 to 64 squares: bit i is set if squares[i] is not above `reach`. No branch depends on a
+ * square, because such branches would be unpredictable. */
 static inline uint64_t metric_mask_within(const double squares[], unsigned count, double reach)
 {
     uint64_t within = 0;
@@ -105,12 +107,14 @@ static inline double metric_interval_distance(const metric *m, int i, double min
  * amount, because of overflow. */
 #define METRIC_FINITE 0x1p1020
 
-/* Bounds for comparisons of two computed squares a and b that are certain in spite of rounding. If a > metric_above(b),
- * the real square of a is certainly greater than the real square of b. If a < metric_below(b), it is certainly less.
+/* Bounds with which the comparison of two computed squares a and b is certain in spite of rounding. If a >
+ * metric_above(b), the real square of a is certainly greater than the real square of b. If a < metric_below(b), the
+ * real square of a is certainly less than the real square of b.
  *
  * The factor 2^-47 is 64u: 12u for the errors of both squares, 3u for the roundings of the bound itself, and the rest
- * covers the 16u by which nearest.c may visit siblings out of order. 2^-998 covers the absolute errors of both squares
- * (2^-1000 each). No square is above an infinite b, and NaN is above nothing. */
+ * covers 16u, the error with which nearest.c orders sibling nodes by distance. 2^-998 covers the absolute errors of
+ * both squares (2^-1000 each). No square is greater than metric_above() of an infinite b, and a square that is NaN is
+ * greater than nothing. */
 static inline double metric_above(double b)
 {
     return b * (1 + 0x1p-47) + 0x1p-998;
@@ -134,15 +138,17 @@ static inline double metric_length(double x, double y, double z)
     return sqrt((x * x + y * y) + z * z);
 }
 
-/* Returns the distance if the square of `largest`, the largest difference, may overflow or underflow. */
-double metric_extreme_distance(const double a[3], const double b[3], double largest);
+/* Returns the Euclidean distance, without overflow or underflow of squares. metric_distance() calls this function if
+ * the square of `largest`, the largest absolute difference of two coordinates, may overflow or underflow. */
+double metric_distance_without_overflow(const double a[3], const double b[3], double largest);
 
 /* Returns the Euclidean distance, within 4 ulp. The result is infinite only if the distance is beyond DBL_MAX. */
 static inline double metric_distance(const double a[3], const double b[3])
 {
     const double x = fabs(a[0] - b[0]), y = fabs(a[1] - b[1]), z = fabs(a[2] - b[2]);
     const double xy = x > y ? x : y, largest = xy > z ? xy : z;
-    return 0x1p-480 < largest && largest < 0x1p480 ? metric_length(x, y, z) : metric_extreme_distance(a, b, largest);
+    return 0x1p-480 < largest && largest < 0x1p480 ? metric_length(x, y, z)
+                                                   : metric_distance_without_overflow(a, b, largest);
 }
 
 #endif

@@ -35,27 +35,28 @@ typedef struct moments {
     double error;        /* an error bound for `enter` and `leave` */
 } moments;
 
-/* Test an axis on which the point does not move relative to the box. Returns 1 if the point is within `size` of the
- * box's centre, 0 if it is not, and -1 if doubles do not decide. The error bound covers three roundings. */
+/* Test an axis on which neither the box nor the point moves. Returns 1 if the point is within `size` of the box's
+ * centre, 0 if it is not, and -1 if doubles do not decide. The error bound covers three roundings. */
 static int test_axis_at_rest(const ends *e, double size)
 {
     const double offset = fabs(e->p - e->a), error = (offset + size) * 0x1p-50;
     return offset + error < size ? 1 : offset - error > size ? 0 : -1;
 }
 
-/* Intersect the interval of contact with the interval of one more axis. Returns false if doubles do not decide the
- * direction of the motion.
+/* Intersect the interval of contact with the interval of one more axis. Returns false if doubles do not decide: the
+ * direction of the relative motion is uncertain, or the error bound is 1 or more.
  *
- * Let v = 2^-53. The error of `length` is at most 4v * travel, less than an eighth of it. The error of the numerators
- * is at most 4v * (|u| + r). So the error of the quotients is at most 16v times the sum below; 32v is used. The last
- * term covers underflow. If a step overflows, the error is infinite or NaN, and the result is false. */
+ * Let v = 2^-53. The error of `length` is at most 4v * travel, which is less than an eighth of `length`. The error of
+ * the numerators is at most 4v * (|u| + r). So the error of the quotients is at most 16v times the sum in `error`; the
+ * code uses 32v. The last term of `error` covers underflow. If a step overflows, the error is infinite or NaN, and the
+ * result is false. */
 static bool intersect_axis(moments *known, const ends *e, double size)
 {
     const double step = e->b - e->a, own = e->q - e->p, travel = fabs(step) + fabs(own);
-    const double length = fabs(step - own), way = step > own ? 1 : -1;
+    const double length = fabs(step - own), direction = step > own ? 1 : -1;
     if (!(length > travel * 0x1p-48))
         return false;
-    const double offset = way * (e->p - e->a), reach = (fabs(offset) + size) / length;
+    const double offset = direction * (e->p - e->a), reach = (fabs(offset) + size) / length;
     const double enter = (offset - size) / length, leave = (offset + size) / length;
     const double latest = fmax(fabs(enter), fabs(leave));
     const double error = (reach + latest * (travel / length)) * 0x1p-48 + 0x1p-1000;
@@ -93,51 +94,52 @@ static int sign_of_relative_motion(const ends *e)
     return exact_sign_of_sum((double[]){e->p, -e->a, -e->q, e->b}, 4);
 }
 
-/* Returns whether side * (point - middle) <= size, compared exactly. `side` is 1 or -1. */
+/* Returns whether side * (point - middle) <= size, by exact comparison. `side` is 1 or -1. */
 static bool is_within_size(double point, double middle, int side, double size)
 {
     return exact_sign_of_sum((double[]){size, -side * point, side * middle}, 3) >= 0;
 }
 
-/* Add factor * (way * u + reach) * |u - w| to the sum. u and `way` belong to the axis `e`. |u - w|, the length of the
- * relative motion, belongs to the axis `other`. */
-static void add_cross_product(exact_sum *sum, int factor, const ends *e, int way, double reach, const ends *other,
-                              int other_way)
+/* Add factor * (direction * u + reach) * |u - w| to the sum. u and `direction` are those of the axis `e`; |u - w|, the
+ * length of the relative motion, is that of the axis `other`. */
+static void add_cross_product(exact_sum *sum, int factor, const ends *e, int direction, double reach, const ends *other,
+                              int other_direction)
 {
-    const double terms[3] = {way * e->p, -way * e->a, reach};
+    const double terms[3] = {direction * e->p, -direction * e->a, reach};
     const double length[4] = {other->p, -other->a, -other->q, other->b};
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 4; j++)
-            exact_add_product(sum, factor * other_way, terms[i], length[j]);
+            exact_add_product(sum, factor * other_direction, terms[i], length[j]);
 }
 
 /* Returns whether the point enters on axis `i` not later than it leaves on axis `j`. The condition leave_j - enter_i >=
  * 0 is multiplied by the lengths of both motions, so that no division is needed. */
-static bool is_entry_before_exit(const ends *i, int way_i, const ends *j, int way_j, double size)
+static bool is_entry_before_exit(const ends *i, int direction_i, const ends *j, int direction_j, double size)
 {
     exact_sum sum;
     exact_clear(&sum);
-    add_cross_product(&sum, 1, j, way_j, size, i, way_i);
-    add_cross_product(&sum, -1, i, way_i, -size, j, way_j);
+    add_cross_product(&sum, 1, j, direction_j, size, i, direction_i);
+    add_cross_product(&sum, -1, i, direction_i, -size, j, direction_j);
     return exact_sign(&sum) >= 0;
 }
 
 static bool test_contact_exactly(const sweep *box, const double from[3], const double to[3])
 {
     ends e[3];
-    int way[3];
+    int direction[3];
     for (int i = 0; i < 3; i++) {
         e[i] = make_ends_on_axis(box, from, to, i);
-        way[i] = sign_of_relative_motion(&e[i]);
-        /* On an axis without relative motion, both ends have the same relative position. One test checks its upper
-         * side, the other test its lower side. */
-        const int side = way[i] ? way[i] : 1;
+        direction[i] = sign_of_relative_motion(&e[i]);
+        /* On an axis without relative motion, the point has one position relative to the box. One of the two tests
+         * compares this position with the box's upper face, the other test with its lower face. */
+        const int side = direction[i] ? direction[i] : 1;
         if (!is_within_size(e[i].q, e[i].b, side, box->size) || !is_within_size(e[i].p, e[i].a, -side, box->size))
             return false;
     }
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
-            if (i != j && way[i] && way[j] && !is_entry_before_exit(&e[i], way[i], &e[j], way[j], box->size))
+            if (i != j && direction[i] && direction[j] &&
+                !is_entry_before_exit(&e[i], direction[i], &e[j], direction[j], box->size))
                 return false;
     return true;
 }
