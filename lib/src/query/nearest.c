@@ -494,7 +494,7 @@ static void search_targets_in_task(size_t number, void *context)
 static void search_in_morton_order(target_batch *b, arena *memory)
 {
     run_tasks(b->tree, find_codes_in_task, b->tasks, b);
-    morton_sort_tasks(b->tree, memory, b->order, b->order + b->count, b->count, 0, false);
+    morton_sort_by_tasks(b->tree, memory, b->order, b->order + b->count, b->count, 0, false);
     /* With a tracer there is only one task, because the caller's tracer need not be thread-safe. */
     if (b->how.trace)
         b->tasks = 1;

@@ -7,7 +7,8 @@
  *
  * Idea: sort the changes by Morton code, which is the order of the leaves in a walk. All changes of one leaf are then
  * adjacent, so that one pass over the tree visits each changed leaf once. The pass keeps its path from the root, and
- * goes up only as far as the next code requires. It finds the next six leaves in advance and prefetches them.
+ * goes up only as far as the next code requires. It finds and prefetches six leaves before it visits the first of these
+ * leaves.
  *
  * A point that occurs twice in a batch is changed once. An item is the Morton code and the index of a point. Items with
  * equal codes are compared in a small leaf, which serves as a hash table. A repeated item gets the status of the first
@@ -36,8 +37,8 @@ static void release_items(const batch *b, morton_item *items, size_t each)
     arena_free(&b->tree->store.memory, items, each * (b->count + 1) * sizeof *items);
 }
 
-/* The number of lists in the single allocation that a batch of moves makes. If each list were allocated separately,
- * malloc would return the pages to the system, and every batch would cause page faults again. */
+/* Returns the number of lists that share one allocation: four for a batch of moves, else one. If each list were
+ * allocated separately, malloc would return the pages to the system, and every batch would cause page faults again. */
 static size_t shared_list_count(const batch *b)
 {
     return b->to ? 4 : 1;
@@ -61,7 +62,7 @@ enum { TOGETHER = 64 }; /* the number of positions whose codes are computed in o
 /* Check the position of a point and, if the batch moves points, the destination. */
 static octree_status check_point_and_destination(const batch *b, size_t place, uint64_t *code)
 {
-    const octree_status status = complete_code(b->tree, b->points[place].position, code);
+    const octree_status status = compute_code_if_unsure(b->tree, b->points[place].position, code);
     return status == OCTREE_OK && b->to ? check_in_world(b->tree, b->to[place]) : status;
 }
 
@@ -126,7 +127,7 @@ static bool sort_items(batch *b)
     const size_t unsorted = b->tree->root.count == 0 ? unsorted_limit(b->tree) : 0;
     const bool differ = unsorted > 0 && are_ids_ascending(b);
     b->repeated =
-        morton_sort_tasks(b->tree, &b->tree->store.memory, b->valid.items, spare, b->valid.count, unsorted, differ);
+        morton_sort_by_tasks(b->tree, &b->tree->store.memory, b->valid.items, spare, b->valid.count, unsorted, differ);
     if (!b->spare)
         release_items(b, spare, 1);
     return true;
@@ -141,9 +142,9 @@ static bool rarely_refuses_points(const octree_def *def)
     return def->full_leaf != OCTREE_REFUSE || def->max_depth >= GRID_DEEPEST + LEVELS_BELOW;
 }
 
-/* A rebuild is worth its cost if at least three tenths of the points move. It touches up to 64 bytes of new memory for
- * each stored point. Half of the time of the first rebuild is spent on page faults in this memory. For a move of a
- * fifth of the points, a rebuild took longer than a loop of octree_move (octree-bench, move_20%). */
+/* A rebuild is worth its cost if at least three tenths of the points move. A rebuild writes up to 64 bytes of new
+ * memory for each stored point, and page faults in this memory take half of the time of the first rebuild. For a move
+ * of a fifth of the points, a rebuild took longer than a loop of octree_move (octree-bench, move_20%). */
 bool is_rebuild_cheaper(const octree *tree, size_t count)
 {
     return tree->root.count >= LEAST_REBUILT && count >= tree->root.count / 10 * 3;
@@ -230,7 +231,7 @@ size_t count_in_first_octant(const morton_item *items, size_t count, unsigned de
 }
 
 /* Returns whether the ids of the items' points are strictly ascending. */
-static bool item_ids_ascend(const batch *b, const morton_item *items, size_t count)
+static bool are_item_ids_ascending(const batch *b, const morton_item *items, size_t count)
 {
     for (size_t i = 1; i < count; i++)
         if (b->points[items[i].place].id <= b->points[items[i - 1].place].id)
@@ -246,7 +247,7 @@ static bool drop_repeated_items(batch *b, morton_item *items, size_t count, size
     store *st = &b->tree->store;
     node distinct;
     *kept = count;
-    if (item_ids_ascend(b, items, count))
+    if (are_item_ids_ascending(b, items, count))
         return true;
     bool ok = leaf_create(st, &distinct, (uint32_t)count);
     for (size_t i = 0; ok && i < count; i++) {
@@ -282,7 +283,7 @@ bool drop_repeated_pairs(batch *b)
     return true;
 }
 
-void set_repeated_statuses(const batch *b, octree_status status)
+void set_statuses_of_repetitions(const batch *b, octree_status status)
 {
     const repetition *all = b->repetitions.items;
     for (size_t i = 0; b->statuses && i < b->repetitions.count; i++)

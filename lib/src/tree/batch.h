@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* batch.h - makes many changes of a tree at once.
  *
- * The points that leave their position and the points that arrive at one are sorted by Morton code. restructure_tree()
- * walks the tree once and makes a plan: a leaf with enough room is edited later in place; for any other changed node, a
- * successor is built, which replaces the node later; unchanged nodes are shared. Planning allocates memory and may
- * fail. Carrying out the plan cannot fail, so a batch happens completely or not at all.
+ * The points that leave their positions, and the points that arrive at new positions, are sorted by Morton code.
+ * restructure_tree() walks the tree once and makes a plan: a leaf with enough room is edited later in place; for any
+ * other changed node, a successor is built, which replaces the node later; unchanged nodes are shared. Planning
+ * allocates memory and may fail. Carrying out the plan cannot fail, so a batch happens completely or not at all.
  */
 #ifndef OCTREE_BATCH_H
 #define OCTREE_BATCH_H
@@ -41,7 +41,8 @@ typedef struct batch {
 
     /* true: the batch only inserts points, so that an empty tree may be built with a grid */
     bool inserts;
-    bool rebuilds;              /* true: so many points move that the tree is rebuilt; `valid` is then empty at first */
+    /* true: so many points move that the tree is rebuilt; prepare_batch() then leaves `valid` empty */
+    bool rebuilds;
     bool settled;               /* true: the statuses of the moves are final, and no move meets a full leaf */
     bool may_be_stored;         /* true: an arriving point may already be stored, so each point must be checked */
     bool duplicate;             /* true: an arriving point is already stored */
@@ -88,7 +89,7 @@ static inline octree_point point_of_item(const batch *b, const morton_item *item
  * the cell as the first item. */
 size_t count_in_first_octant(const morton_item *items, size_t count, unsigned depth);
 
-/* Returns the number of items up to which a cell becomes a leaf. The items of a leaf need no order. */
+/* Returns the maximum number of items in a cell whose items need no order, because the cell becomes a leaf. */
 static inline size_t unsorted_limit(const octree *tree)
 {
     return tree->def.leaf_capacity < MORTON_UNSORTED ? tree->def.leaf_capacity : MORTON_UNSORTED;
@@ -111,7 +112,7 @@ static inline octree_status check_in_world(const octree *tree, const double posi
 
 /* If *code is MORTON_UNSURE, compute the exact code of the position. Returns OK if the position is in the world, else
  * an error. */
-static inline octree_status complete_code(const octree *tree, const double position[3], uint64_t *code)
+static inline octree_status compute_code_if_unsure(const octree *tree, const double position[3], uint64_t *code)
 {
     const octree_status status = *code == MORTON_UNSURE ? check_position(tree, position) : OCTREE_OK;
     if (*code == MORTON_UNSURE && status == OCTREE_OK)
@@ -141,10 +142,10 @@ void visit_batch_leaves(batch *b, leaf_visitor *visit);
  * Returns false if memory runs out. */
 bool drop_repeated_pairs(batch *b);
 
-/* set_repeated_statuses() gives every repetition the status `status`, or FULL if a full leaf refused the first point of
- * the same pair. release_repetitions() frees the list of repetitions. */
+/* set_statuses_of_repetitions() gives every repetition the status `status`, or FULL if a full leaf refused the first
+ * point of the same pair. release_repetitions() frees the list of repetitions. */
 void release_repetitions(batch *b);
-void set_repeated_statuses(const batch *b, octree_status status);
+void set_statuses_of_repetitions(const batch *b, octree_status status);
 
 /* Divide the items of a cell of this depth among the cell's octants. Returns a bit mask of the octants that have
  * items. */
@@ -158,9 +159,8 @@ bool is_inseparable(const octree *tree, cell c, const morton_item *items, size_t
  * unchanged on NO_MEMORY, and for a batch of moves also if `duplicate` or `overflow` is set. */
 octree_status restructure_tree(batch *b);
 
-/* Returns whether moves that are made one after the other, in any order, might meet a full leaf in the cell. This is so
- * if an indivisible cell might at some time hold more points than the capacity. Also returns true if memory runs
- * out. */
+/* Returns whether moves that are made one by one might, in some order, meet a full leaf in the cell. This is so if an
+ * indivisible cell might at some time hold more points than the capacity. Also returns true if memory runs out. */
 bool can_overflow(const batch *b, const node *old, cell c, span arriving);
 
 /* Returns whether moves might meet a full leaf anywhere, by comparing the old tree with the rebuilt tree. This is
@@ -178,8 +178,8 @@ octree_status rebuild_from_batch(batch *b);
  * unchanged and the statuses are undefined. Errors: NO_MEMORY. */
 octree_status move_points_by_rebuild(batch *b, bool *settled);
 
-/* Simulate the moves one by one in the given order. Set their statuses, and list the points that leave and arrive in
- * the end. The tree is not changed. Returns false if memory runs out. */
+/* Simulate the moves one by one in the given order. Set their statuses. Store in `leaving` and `arriving` the points
+ * that have left and arrived after all moves. The tree is not changed. Returns false if memory runs out. */
 bool simulate_moves_in_order(batch *b);
 
 #endif

@@ -20,7 +20,7 @@ static octree_status insert_valid_points(batch *b)
     b->may_be_stored = true;
     const octree_status status = restructure_tree(b);
     b->done = b->tree->root.count - before;
-    set_repeated_statuses(b, OCTREE_DUPLICATE);
+    set_statuses_of_repetitions(b, OCTREE_DUPLICATE);
     return status;
 }
 
@@ -47,7 +47,7 @@ static octree_status remove_valid_points(batch *b)
         return OCTREE_NO_MEMORY;
     b->leaving.items = b->valid.items;
     visit_batch_leaves(b, find_removed_points);
-    set_repeated_statuses(b, OCTREE_NOT_FOUND);
+    set_statuses_of_repetitions(b, OCTREE_NOT_FOUND);
     b->done = b->leaving.count;
     return restructure_tree(b);
 }
@@ -83,9 +83,9 @@ static void move_found_point(batch *b, node *leaf, unsigned depth, morton_item *
     b->done++;
 }
 
-/* Find a point in a leaf. A leaf that was built from a batch keeps the order of the batch, so the search first tries
- * the point after the point that was found last. */
-static uint32_t find_in_leaf_after(const node *leaf, uint32_t last, const octree_point *point)
+/* Returns the index of a point in a leaf, or LEAF_NONE. A leaf that was built from a batch keeps the order of the
+ * batch, so the search begins with the point after `last`, the index that was found before. */
+static uint32_t find_in_leaf_starting_after(const node *leaf, uint32_t last, const octree_point *point)
 {
     const uint32_t next = last + 1; /* if no point was found yet, `last` is LEAF_NONE, and `next` becomes 0 */
     if (!leaf)
@@ -101,7 +101,7 @@ static void find_moved_points(batch *b, node *leaf, unsigned depth, span items)
     uint32_t index = LEAF_NONE;
     for (size_t i = 0; i < items.count; i++) {
         morton_item *item = &items.items[i];
-        index = find_in_leaf_after(leaf, index, &b->points[item->place]);
+        index = find_in_leaf_starting_after(leaf, index, &b->points[item->place]);
         if (index == LEAF_NONE)
             set_item_status(b, item, OCTREE_NOT_FOUND);
         else
@@ -128,7 +128,7 @@ static octree_status make_independent_moves(batch *b, bool *settled)
 {
     b->may_be_stored = true;
     visit_batch_leaves(b, find_moved_points);
-    morton_sort_tasks(b->tree, &b->tree->store.memory, b->arriving.items, b->spare, b->arriving.count, 0, true);
+    morton_sort_by_tasks(b->tree, &b->tree->store.memory, b->arriving.items, b->spare, b->arriving.count, 0, true);
     const octree_status status = restructure_tree(b);
     *settled = !b->duplicate && !b->overflow;
     if (status != OCTREE_OK || !*settled)
@@ -173,7 +173,7 @@ static octree_status check_arguments(const batch *b, octree_change_kind kind)
 }
 
 /* Returns whether the pointer `position` points into a leaf of the tree, as pointers into octree_node.points do. */
-static bool lies_in_tree_memory(const octree *tree, const double *position)
+static bool is_in_tree_memory(const octree *tree, const double *position)
 {
     if (check_position(tree, position) != OCTREE_OK)
         return false;
@@ -300,8 +300,8 @@ static octree_status apply_batch(batch b, octree_change_kind kind, size_t *done)
     change_log *log = &b.tree->changes;
     arena *memory = &b.tree->store.memory;
     const uint64_t version = b.tree->version;
-    const bool in_tree = b.count > 0 && lies_in_tree_memory(b.tree, b.points->position);
-    const bool to_in_tree = b.count > 0 && b.to && lies_in_tree_memory(b.tree, b.to[0]);
+    const bool in_tree = b.count > 0 && is_in_tree_memory(b.tree, b.points->position);
+    const bool to_in_tree = b.count > 0 && b.to && is_in_tree_memory(b.tree, b.to[0]);
     bool logs = change_log_is_on(log) && b.count <= change_log_limit(b.tree);
     const bool signs = logs && kind != OCTREE_INSERTED && any_has_zero_coordinate(b.points, b.count);
     const size_t copies_size = in_tree || signs ? b.count * sizeof *b.points : 0;
@@ -371,7 +371,7 @@ static bool should_move_one_by_one(const batch *b)
 {
     return is_small_batch_of_moves(b) &&
            (b->count <= FEW_AT_ONCE ||
-            (!lies_in_tree_memory(b->tree, b->points->position) && !lies_in_tree_memory(b->tree, b->to[0])));
+            (!is_in_tree_memory(b->tree, b->points->position) && !is_in_tree_memory(b->tree, b->to[0])));
 }
 
 /* Move few points one by one. At most FEW_AT_ONCE moves are copied, which takes less time than finding out whether they

@@ -6,8 +6,9 @@
  * move within a leaf overwrites the point; any other move is an insertion and a removal. Memory is allocated before
  * anything changes, so that a failure leaves the tree as it was.
  *
- * Functions with a parameter `undo` describe there how to revert the change (undo.h). They then keep the memory that
- * the change no longer needs; finish_move() frees this memory. If `undo` is null, the change is final.
+ * A function with a parameter `undo` stores in *undo how to revert its change (undo.h), and keeps the memory that the
+ * node no longer needs; finish_move() frees this memory. If `undo` is null, the change is final, and the memory is
+ * freed at once.
  */
 #include "../exact/float_mode.h"
 #include "undo.h"
@@ -57,7 +58,7 @@ typedef struct shares {
     uint8_t mask;
 } shares;
 
-/* Return the octant of a position, by comparing the position with the planes. */
+/* Returns the octant of a position, by comparing the position with the planes. */
 static unsigned find_octant(const shares *s, const double p[3])
 {
     return (unsigned)(p[0] >= s->planes[0]) << 2 | (unsigned)(p[1] >= s->planes[1]) << 1 |
@@ -190,11 +191,11 @@ static octree_status split_or_grow_leaf(octree *tree, node *leaf, const octree_p
 }
 
 static octree_status insert_into_leaf(octree *tree, node *leaf, const octree_point *point, uint64_t code,
-                                      unsigned depth, bool divides, step *undo)
+                                      unsigned depth, bool may_split, step *undo)
 {
     if (leaf_find(leaf, point->position, point->id) != LEAF_NONE)
         return OCTREE_DUPLICATE;
-    if (leaf->count >= tree->def.leaf_capacity && !divides)
+    if (leaf->count >= tree->def.leaf_capacity && !may_split)
         return OCTREE_FULL;
     if (leaf->count >= tree->def.leaf_capacity)
         return split_or_grow_leaf(tree, leaf, point, code, depth, undo);
@@ -202,14 +203,14 @@ static octree_status insert_into_leaf(octree *tree, node *leaf, const octree_poi
 }
 
 /* Insert a point at the end of the path to its code: into the leaf there, or as a new leaf of the inner node there. */
-static octree_status insert_at_end(octree *tree, const path *p, const octree_point *point, uint64_t code, bool divides,
-                                   step *undo)
+static octree_status insert_at_end_of_path(octree *tree, const path *p, const octree_point *point, uint64_t code,
+                                           bool may_split, step *undo)
 {
     if (tree->root.count == UINT32_MAX)
         return OCTREE_TOO_MANY;
     node *end = path_end(p);
     const bool is_leaf = end->octants == 0;
-    const octree_status status = is_leaf ? insert_into_leaf(tree, end, point, code, p->depth, divides, undo)
+    const octree_status status = is_leaf ? insert_into_leaf(tree, end, point, code, p->depth, may_split, undo)
                                          : add_child_leaf(tree, end, morton_octant(code, p->depth), point, undo);
     if (status != OCTREE_OK)
         return status;
@@ -224,16 +225,16 @@ static octree_status insert_at_end(octree *tree, const path *p, const octree_poi
     return OCTREE_OK;
 }
 
-octree_status insert_point(octree *tree, const octree_point *point, uint64_t code, bool divides)
+octree_status insert_point(octree *tree, const octree_point *point, uint64_t code, bool may_split)
 {
     const path p = find_path(tree, code);
-    return insert_at_end(tree, &p, point, code, divides, NULL);
+    return insert_at_end_of_path(tree, &p, point, code, may_split, NULL);
 }
 
 octree_status octree_insert(octree *tree, const double position[3], uint64_t id)
 {
     RETURN_IN_DEFAULT_MODE(octree_status, octree_insert, tree, position, id);
-    octree_status status = check_change(tree, position);
+    octree_status status = check_position_for_change(tree, position);
     if (status != OCTREE_OK)
         return status;
     const octree_point point = {{position[0], position[1], position[2]}, id};
@@ -330,7 +331,7 @@ octree_status remove_point(octree *tree, octree_point *point)
 octree_status octree_remove(octree *tree, const double position[3], uint64_t id)
 {
     RETURN_IN_DEFAULT_MODE(octree_status, octree_remove, tree, position, id);
-    octree_status status = check_change(tree, position);
+    octree_status status = check_position_for_change(tree, position);
     if (status != OCTREE_OK)
         return status;
     /* `position` may point into the leaf, so it is copied first */
@@ -344,8 +345,8 @@ octree_status octree_remove(octree *tree, const double position[3], uint64_t id)
 /* ---- Moving ------------------------------------------------------------------------------------------------- */
 
 /* Move a point to another leaf. Only the insertion can be refused, so it comes first. The memory for the removal is
- * allocated before the insertion. This memory is enough: the insertion only adds points, so no more nodes merge than
- * before it. */
+ * allocated before the insertion. This memory is enough: the insertion only adds points, so it cannot cause more nodes
+ * to merge. */
 static octree_status move_to_other_leaf(octree *tree, found_point *found, single_move *m, const path *to, step *undo)
 {
     node spare;
@@ -353,7 +354,7 @@ static octree_status move_to_other_leaf(octree *tree, found_point *found, single
         return OCTREE_NO_MEMORY;
     /* the insertion adds a node to a group of siblings, whose nodes may then move in memory */
     const bool moves_nodes = path_end(to)->octants != 0;
-    const octree_status status = insert_at_end(tree, to, &m->moved, m->to, true, undo);
+    const octree_status status = insert_at_end_of_path(tree, to, &m->moved, m->to, true, undo);
     if (status != OCTREE_OK) {
         leaf_release(&tree->store, &spare);
         return status;
@@ -387,7 +388,7 @@ octree_status move_along_paths(octree *tree, single_move *m, found_point *found,
 octree_status octree_move(octree *tree, const double from[3], uint64_t id, const double to[3])
 {
     RETURN_IN_DEFAULT_MODE(octree_status, octree_move, tree, from, id, to);
-    octree_status status = check_change(tree, from);
+    octree_status status = check_position_for_change(tree, from);
     if (status == OCTREE_OK)
         status = check_position(tree, to);
     if (status != OCTREE_OK)

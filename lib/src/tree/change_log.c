@@ -16,8 +16,9 @@
 
 #include <string.h>
 
-/* Reading the changes costs at least as much as reading the whole tree if there are a quarter (1 / SHARE) as many
- * changes as points. A small tree keeps at least LEAST_CHANGES changes. */
+/* The log stops when the number of unread changes reaches a quarter (1 / SHARE) of the number of points: then reading
+ * the changes would cost at least as much as reading the whole tree. The log of a small tree keeps at least
+ * LEAST_CHANGES changes. */
 enum { LEAST_CHANGES = 1024, SHARE = 4 };
 
 uint64_t change_log_limit(const octree *tree)
@@ -54,7 +55,8 @@ static bool grow_ring(change_log *log, arena *memory)
 }
 
 /* Make room for one more change. Changes that were read may be overwritten only while the unread changes fill less than
- * half of the ring. So a second reader that is behind the first reader still finds its changes. */
+ * half of the ring. So a second reader that is behind the first reader usually still finds the changes that it has not
+ * read. */
 static bool make_room_for_change(change_log *log, arena *memory)
 {
     if (log->next - log->first < log->room)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* change_log.h - the recent changes of a tree's contents, read through octree_changes_since().
  *
- * The log is off until the first read. It turns off again after too many unread changes, when memory runs out, and
+ * The log is off until the first read. The log turns off again after too many unread changes, when memory runs out, and
  * after an operation that replaces all nodes. While the log is off, octree_changes_since() returns false.
  */
 #ifndef OCTREE_CHANGE_LOG_H
@@ -34,7 +34,8 @@ static inline bool change_log_is_on(const change_log *log)
  * memory. */
 void change_log_append(octree *tree, octree_change_kind kind, const octree_point *old, const double to[3]);
 
-/* Returns the number of changes from which on reading the changes costs more than reading the whole tree. */
+/* Returns the number of unread changes at which the log stops, because reading so many changes would cost at least as
+ * much as reading the whole tree. */
 uint64_t change_log_limit(const octree *tree);
 
 /* Discard all changes and turn the log off. */

@@ -81,9 +81,10 @@ bool add_job(batch *b, const node *old, cell c, span leaving, span arriving);
 void assign_jobs_to_tasks(division *d);
 
 /* is_planned_by_job() returns whether a job has planned the successor of a node with this many items. If so,
- * get_job_result() stores the successor in *made. Results must be taken in the order of the jobs. */
+ * get_next_job_result() stores the successor in *made and returns true. Each call gets the result of the next job, so
+ * the nodes must be reached in the order of the jobs. */
 bool is_planned_by_job(const batch *b, size_t count);
-bool get_job_result(batch *b, node *made);
+bool get_next_job_result(batch *b, node *made);
 
 /* must_be_leaf() returns whether the items become a leaf. build_node() builds the node of a cell that holds only these
  * items. build_node_by_tasks() does the same, by tasks if there are many items. Both build functions return false if

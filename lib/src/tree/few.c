@@ -2,16 +2,16 @@
 /* few.c - batches of few points in a large tree: insert_small_batch() and remove_small_batch().
  *
  * Problem: of a thousand changes in a tree of a million points, hardly two change the same leaf. Sorting the changes
- * (batch.c) gains nothing. Making the changes one by one waits for memory at every level of every descent.
+ * (batch.c) gains nothing. Making the changes one by one waits for a cache miss at every level of every descent.
  *
  * Idea: let 32 points descend in lockstep. At each level the next nodes of all 32 points are prefetched before the
  * first of these nodes is read, so that 32 cache misses overlap. Then the points are changed in the given order.
- * Insertion stays on the found paths as long as no node moves in memory; points that meet a full leaf are collected and
- * inserted as one batch at the end. Removal first looks up all points, then allocates the leaves of all merges, and
- * only then changes anything.
+ * Insertion uses the found paths until a node moves in memory; points that meet a full leaf are collected and inserted
+ * as one batch at the end. Removal first looks up all points, then allocates the leaves of all merges, and only then
+ * changes anything.
  *
- * Cost: the cost of single changes without most of the waiting for memory. This is faster than sorting for batches of
- * up to a twentieth of the stored points. is_small_batch() contains the measured limits.
+ * Cost: that of single changes, without most of the waiting for memory. For batches of up to a twentieth of the stored
+ * points, this method is faster than sorting. is_small_batch() contains the measured limits.
  */
 #include "few.h"
 #include "tasks.h"
@@ -49,7 +49,7 @@ static void find_point_codes(descents *w, const octree *tree, const octree_point
 {
     compute_morton_codes(tree->axes, points->position, sizeof *points / sizeof(double), count, w->codes);
     for (size_t i = 0; i < count; i++)
-        w->statuses[i] = complete_code(tree, points[i].position, &w->codes[i]);
+        w->statuses[i] = compute_code_if_unsure(tree, points[i].position, &w->codes[i]);
 }
 
 /* Let all points descend together, one level at a time, so that their cache misses overlap. */
@@ -187,9 +187,9 @@ typedef struct removals {
     list mergings;
 } removals;
 
-/* Find up to TOGETHER points. Reduce the counts of the inner nodes above these points, as if the points were already
- * removed. */
-static void find_point_group(removals *r, size_t first, size_t count)
+/* Find up to TOGETHER points to remove, and set their statuses. Reduce the counts of the inner nodes above these
+ * points, as if the points were already removed. */
+static void find_removed_group(removals *r, size_t first, size_t count)
 {
     descents w;
     const batch *b = r->batch;
@@ -261,8 +261,8 @@ static void undo_removals(removals *r)
     }
 }
 
-/* Remove the points from their leaves. Returns the number of removals that left an empty leaf; these removals come
- * first in `found`. */
+/* Remove the points from their leaves. Returns the number of removals after which the leaf was empty; these removals
+ * are moved to the start of `found`. */
 static size_t remove_found_points(removals *r)
 {
     size_t emptied = 0;
@@ -304,7 +304,7 @@ octree_status remove_small_batch(batch *b)
     if (!r.found)
         return OCTREE_NO_MEMORY;
     for (size_t i = 0; i < b->count; i += TOGETHER)
-        find_point_group(&r, i, b->count - i < TOGETHER ? b->count - i : TOGETHER);
+        find_removed_group(&r, i, b->count - i < TOGETHER ? b->count - i : TOGETHER);
     const bool ok = plan_merges(&r);
     if (ok)
         carry_out_removals(&r);

@@ -2,7 +2,8 @@
 /* few_moves.c - batches of few moves: move_small_batch().
  *
  * Problem: sorting few moves and planning the changes of their leaves takes longer than moving the points one by one.
- * But a batch happens completely or not at all, and single moves wait for memory at every level of every descent.
+ * But a batch must happen completely or not at all, even if memory runs out in the middle; and single moves wait for a
+ * cache miss at every level of every descent.
  *
  * Idea: move the points one by one in the given order, so that repeated ids and full leaves need no special care, and
  * remember how to revert each move (undo.h). In a large tree, 16 moves find their 32 paths in lockstep, so that their
@@ -22,7 +23,7 @@
 
 enum {
     MOVES_TOGETHER = 16,
-    FEW_MOVES = 16, /* in a larger tree, a batch is small if less than a sixteenth of the stored points move */
+    FEW_MOVES = 16, /* in a larger tree, a batch is small if fewer than a sixteenth of the stored points move */
 };
 
 /* A move that was made or refused. */
@@ -59,9 +60,9 @@ static void load_move_group(move_group *g, const batch *b, size_t first)
     compute_morton_codes(b->tree->axes, to[0], 3, g->count, codes[1]);
     for (size_t i = 0; i < g->count; i++) {
         single_move *m = &g->moves[i];
-        g->made[i].status = complete_code(b->tree, points[i].position, &codes[0][i]);
+        g->made[i].status = compute_code_if_unsure(b->tree, points[i].position, &codes[0][i]);
         if (g->made[i].status == OCTREE_OK)
-            g->made[i].status = complete_code(b->tree, to[i], &codes[1][i]);
+            g->made[i].status = compute_code_if_unsure(b->tree, to[i], &codes[1][i]);
         *m = (single_move){.old = points[i], .moved.id = points[i].id, .from = codes[0][i], .to = codes[1][i]};
         memcpy(m->moved.position, to[i], sizeof m->moved.position);
         g->made[i].undo[0].kind = g->made[i].undo[1].kind = STEP_NONE;
@@ -116,7 +117,7 @@ static void find_paths_of_move(move_group *g, size_t i)
 }
 
 /* Make the moves of a group one by one. The paths that were found together are used until a move changes paths. Returns
- * the number of moves before the first one for which memory ran out. */
+ * the number of moves that were processed: all moves, or the moves before the first move for which memory ran out. */
 static size_t make_group_of_moves(move_group *g)
 {
     bool are_found = g->tree->root.count >= OCTREE_CACHED_PATHS;
@@ -141,7 +142,7 @@ static size_t make_group_of_moves(move_group *g)
     return g->count;
 }
 
-static single_move to_single_move(const batch *b, const made_move *made, size_t i)
+static single_move make_single_move(const batch *b, const made_move *made, size_t i)
 {
     single_move m = {.old = made[i].old, .moved = arriving_point(b, &(morton_item){.place = (uint32_t)i})};
     m.from = morton_code(b->tree->axes, m.old.position);
@@ -166,7 +167,7 @@ static bool make_moves(const batch *b, made_move *made)
         return true;
     while (done-- > 0)
         if (made[done].status == OCTREE_OK) {
-            const single_move m = to_single_move(b, made, done);
+            const single_move m = make_single_move(b, made, done);
             revert_move(b->tree, &m, made[done].undo);
         }
     return false;

@@ -48,7 +48,8 @@ static size_t cell_count_at(unsigned depth)
     return (size_t)1 << 3 * depth;
 }
 
-/* Returns whether a leaf of this many points can be written without sorting. */
+/* Returns whether this many points fit into one leaf of at most POOL_MAX_UNITS points, which can be written without
+ * sorting. */
 static bool can_write_leaf_unsorted(const octree *tree, size_t count)
 {
     return count <= POOL_MAX_UNITS && fits_leaf(tree, count);
@@ -229,8 +230,8 @@ static void set_write_positions(filling *f, cell c, size_t index, octree_point *
 }
 
 /* Returns whether the points of a cell must be sorted, so that build_node() builds the cell's node. This is so if the
- * leaf is large, if the grid is too coarse to divide the cell, or if leaves refuse points (OCTREE_REFUSE) and the
- * points may be inseparable. */
+ * points fill one leaf of more than POOL_MAX_UNITS points, if the grid is too coarse to divide the cell, if the cell
+ * cannot split, or if leaves refuse points (OCTREE_REFUSE) and the points may be inseparable. */
 static bool needs_sorting(const filling *f, cell c, size_t index)
 {
     const octree *tree = f->whole->tree;

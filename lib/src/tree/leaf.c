@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-/* ---- Hashed leaves: open addressing with linear probing. A slot holds a point's index + 1; 0: it is empty ---- */
+/* ---- Hashed leaves: open addressing with linear probing. A slot holds a point's index + 1, or 0 if empty ------ */
 
 #define HASHED_MAX_ROOM (UINT32_C(1) << 31)
 
@@ -80,8 +80,8 @@ uint32_t leaf_find_hashed(const node *leaf, const double position[3], uint64_t i
     return hash_slots_of(points)[find_hash_slot(points, position, id)] - 1;
 }
 
-/* Empty a slot of the hash table and close the gap. Each later entry moves into the gap, unless the gap lies before the
- * slot of the entry's hash value. */
+/* Empty a slot of the hash table and close the gap. Each entry after the gap moves into the gap, unless the gap lies
+ * before the slot to which the entry's hash value points. */
 static void clear_slot(octree_point *points, uint32_t gap)
 {
     uint32_t *slots = hash_slots_of(points);
@@ -97,7 +97,7 @@ static void clear_slot(octree_point *points, uint32_t gap)
     slots[gap] = 0;
 }
 
-static void remove_from_hashed(octree_point *points, uint32_t count, uint32_t index)
+static void remove_from_hashed_leaf(octree_point *points, uint32_t count, uint32_t index)
 {
     clear_slot(points, find_hash_slot(points, points[index].position, points[index].id));
     const uint32_t last = count - 1;
@@ -153,7 +153,7 @@ static uint32_t current_block_room(const node *leaf)
     return is_hashed(leaf) ? hashed_header_of(leaf->below)->room : leaf->room;
 }
 
-static void append_leaf_points(node *leaf, const node *from, const octree_point *except)
+static void append_points_of_leaf(node *leaf, const node *from, const octree_point *except)
 {
     if (!except && !is_hashed(leaf) && from->count > 0) {
         memcpy(leaf_points(leaf) + leaf->count, leaf_points(from), from->count * sizeof(octree_point));
@@ -177,7 +177,7 @@ static bool copy_leaf(store *s, const node *leaf, node *copy, uint32_t count)
 {
     if (!leaf_create(s, copy, count))
         return false;
-    append_leaf_points(copy, leaf, NULL);
+    append_points_of_leaf(copy, leaf, NULL);
     return true;
 }
 
@@ -210,7 +210,7 @@ bool leaf_append(store *s, node *leaf, const octree_point *point)
 void leaf_remove_keeping_block(node *leaf, uint32_t index)
 {
     if (is_hashed(leaf)) {
-        remove_from_hashed(leaf->below, leaf->count--, index);
+        remove_from_hashed_leaf(leaf->below, leaf->count--, index);
         return;
     }
     leaf_points(leaf)[index] = leaf_points(leaf)[--leaf->count];
@@ -250,7 +250,7 @@ void leaf_replace(node *leaf, uint32_t index, const octree_point *point)
         leaf_points(leaf)[index] = *point;
         return;
     }
-    remove_from_hashed(leaf->below, leaf->count--, index);
+    remove_from_hashed_leaf(leaf->below, leaf->count--, index);
     leaf_append_hashed(leaf, point);
 }
 
@@ -260,7 +260,7 @@ void leaf_append_all(node *leaf, const node *from, const octree_point *except)
     for (unsigned i = children; i-- > 0;)
         leaf_append_all(leaf, &children_of(from)[i], except);
     if (children == 0)
-        append_leaf_points(leaf, from, except);
+        append_points_of_leaf(leaf, from, except);
 }
 
 octree_point *node_copy_points(const node *n, octree_point *to)
@@ -304,7 +304,7 @@ void store_init(store *s)
 
 void store_expect_points(store *s, size_t count)
 {
-    /* a twelfth more, because the blocks of leaves are larger than their points need */
+    /* a twelfth more, because most leaves have blocks with room for more points than they hold */
     s->points.expected = count + count / 12;
     s->nodes.expected = count / 16;
 }
@@ -318,7 +318,7 @@ static void release_hashed_leaves(store *s, const node *n)
         leaf_release(s, n);
 }
 
-/* The blocks of the pools are freed with their slabs, so that no leaf is loaded from memory. */
+/* The pools free whole slabs, so the points of leaves are not read. */
 void store_release(store *s, const node *root)
 {
     release_hashed_leaves(s, root);

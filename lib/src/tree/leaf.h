@@ -30,12 +30,12 @@ typedef struct store {
     pool points;
 } store;
 
-/* Initialize the pools of a store. Its member `memory` is already set. */
+/* Initialize the pools of a store. The caller has already set the member `memory`. */
 void store_init(store *s);
 
-/* Set the size of the first slabs of empty pools for a number of points. One large slab is allocated faster than many
- * small slabs, and malloc keeps its memory for the next build instead of returning it to the system. With 0 points, the
- * pools grow as usual. */
+/* Tell empty pools how many points will be stored, so that their first slabs are large enough. One large slab is
+ * allocated faster than many small slabs, and malloc keeps a large slab's memory for the next build instead of
+ * returning it to the system. With a count of 0, the pools grow as usual. */
 void store_expect_points(store *s, size_t count);
 
 /* Free the nodes below a root, and all blocks of the pools. */
@@ -56,7 +56,7 @@ static inline unsigned child_index(const node *n, unsigned octant)
     return bits_count8(n->octants & ((1u << octant) - 1));
 }
 
-/* Returns the child in an octant that has a child. For queries: see bits_look_up_count8(). */
+/* Returns the child in an octant that has a child. Only queries call this function: see bits_look_up_count8(). */
 static inline node *look_up_child(const node *n, unsigned octant)
 {
     return children_of(n) + bits_look_up_count8(n->octants & ((1u << octant) - 1));
@@ -68,9 +68,9 @@ static inline node *child_at(const node *n, unsigned octant)
     return n->octants >> octant & 1 ? children_of(n) + child_index(n, octant) : NULL;
 }
 
-/* Start loading memory that will be read soon into the caches. This affects only the speed. The empty assembly
- * statement counts as a side effect: without it, GCC considers a function that only prefetches as pure, and drops calls
- * of it. */
+/* Start to load memory into the caches, because it will be read soon. This affects only the speed. The empty assembly
+ * statement counts as a side effect. Without the statement, GCC treats a function that only prefetches as free of side
+ * effects, and drops the calls of such a function. */
 static inline void prefetch_memory(const void *memory)
 {
 #if defined(__GNUC__)
@@ -82,7 +82,7 @@ static inline void prefetch_memory(const void *memory)
 }
 
 /* Prefetch the points of a leaf; of a hashed leaf only the first points. Without this function, the processor's own
- * prefetcher starts some cache lines late, which costs a quarter of a query's time if leaves are not cached. The loop
+ * prefetcher starts some cache lines late. This costs a quarter of a query's time if leaves are not cached. The loop
  * prefetches blocks of eight points, so that its branches are predictable; prefetching past the last point does no
  * harm. */
 static inline void leaf_prefetch(const node *leaf)
@@ -149,8 +149,9 @@ static inline void leaf_append_unchecked(node *leaf, const octree_point *point)
 /* Remove the point at an index. The leaf's last point moves to this index. Cannot fail. */
 void leaf_remove(store *s, node *leaf, uint32_t index);
 
-/* As leaf_remove(), but keep the unused end of the leaf's block allocated. leaf_free_end() frees it later; `old` is the
- * leaf before the removal. A hashed leaf keeps its whole block. */
+/* leaf_remove_keeping_block() removes a point as leaf_remove() does, but does not free the unused end of the leaf's
+ * block. leaf_free_end() frees this end later; `old` is a copy of the leaf from before the removal. A hashed leaf keeps
+ * its whole block. */
 void leaf_remove_keeping_block(node *leaf, uint32_t index);
 void leaf_free_end(store *s, const node *old);
 

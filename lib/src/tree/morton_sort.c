@@ -6,8 +6,8 @@
  *
  * Idea: start at the most significant digit. One digit is a descent of up to three levels of the tree, and the items
  * with equal digits form a cell. Cells soon fit into the caches. Cells with few items end the recursion: up to 16 items
- * are sorted by insertion sort. Cells that will become leaves need no order, but equal codes must be adjacent; a small
- * hash filter usually shows that there are no equal codes.
+ * are sorted by insertion sort. The items of a cell that will become a leaf need no order, except that equal codes must
+ * be adjacent; a small hash filter usually shows that no codes are equal.
  *
  * With an executor, one parallel pass over all items (count, prefix sums, scatter) divides them into 512 cells, which
  * tasks sort independently. The result does not depend on the number of tasks. Cost: O(n), usually two or three passes.
@@ -84,7 +84,7 @@ static unsigned choose_levels(const sorter *s, size_t count, unsigned left)
 }
 
 /* Distribute the items by one digit of their codes. Before the call, ends[d] is the number of items with digit d. After
- * the call, it is the end of the range of these items in `to`. */
+ * the call, ends[d] is the end of the range of these items in `to`. */
 static void scatter_by_digit(const morton_item *from, morton_item *to, size_t count, unsigned shift, unsigned digits,
                              uint32_t ends[])
 {
@@ -127,7 +127,7 @@ static void sort_cell(sorter *s, morton_item *items, morton_item *other, size_t 
 static void sort_on_this_thread(sorter *s, morton_item *items, morton_item *other, size_t count, unsigned left,
                                 bool in_place)
 {
-    /* one part of the array for each level of the recursion */
+    /* each level of the recursion uses its own part of the array */
     uint32_t ends[OCTREE_MAX_DEPTH / LEVELS << 3 * LEVELS];
     sort_cell(s, items, other, count, left, in_place, ends);
 }
@@ -165,7 +165,7 @@ static size_t digit_of(const pass *p, const morton_item *item)
     return (size_t)(item->code >> p->shift) & (DIGITS - 1);
 }
 
-static void count_digits(size_t number, void *context)
+static void count_digits_in_task(size_t number, void *context)
 {
     const pass *p = context;
     uint32_t *counts = p->counts[number];
@@ -184,7 +184,7 @@ static void scatter_items_in_task(size_t number, void *context)
         p->to[next[digit_of(p, &p->from[i])]++] = p->from[i];
 }
 
-static void sum_digit_counts(pass *p)
+static void convert_counts_to_positions(pass *p)
 {
     uint32_t next = 0;
     p->ends[0] = 0;
@@ -205,7 +205,7 @@ static bool is_large_cell(const pass *p, unsigned digit)
     return p->left > 0 && p->ends[digit + 1] - p->ends[digit] > large && count_tasks(p->sorter.tree, large) > 1;
 }
 
-static void sort_cells(size_t number, void *context)
+static void sort_cells_in_task(size_t number, void *context)
 {
     pass *p = context;
     uint32_t ends[OCTREE_MAX_DEPTH / LEVELS << 3 * LEVELS];
@@ -240,12 +240,12 @@ static void sort_by_tasks(sorter *s, morton_item *items, morton_item *other, siz
         sort_on_this_thread(s, items, other, count, left, in_place);
         return;
     }
-    run_tasks(s->tree, count_digits, p.tasks, &p);
-    sum_digit_counts(&p);
+    run_tasks(s->tree, count_digits_in_task, p.tasks, &p);
+    convert_counts_to_positions(&p);
     run_tasks(s->tree, scatter_items_in_task, p.tasks, &p);
     arena_free(s->memory, p.counts, p.tasks * sizeof *p.counts);
     assign_cells_to_tasks(&p);
-    run_tasks(s->tree, sort_cells, p.tasks, &p);
+    run_tasks(s->tree, sort_cells_in_task, p.tasks, &p);
     for (unsigned task = 0; task < p.tasks; task++)
         s->repeated |= p.repeated[task];
     for (unsigned digit = 0; digit < DIGITS; digit++)
@@ -254,8 +254,8 @@ static void sort_by_tasks(sorter *s, morton_item *items, morton_item *other, siz
                           p.in_place);
 }
 
-bool morton_sort_tasks(const octree *tree, arena *memory, morton_item *items, morton_item *spare, size_t count,
-                       size_t unsorted, bool differ)
+bool morton_sort_by_tasks(const octree *tree, arena *memory, morton_item *items, morton_item *spare, size_t count,
+                          size_t unsorted, bool differ)
 {
     sorter s = {.tree = tree, .memory = memory, .unsorted = unsorted, .differ = differ};
     (count_tasks(tree, count) == 1 ? sort_on_this_thread : sort_by_tasks)(&s, items, spare, count, OCTREE_MAX_DEPTH,

@@ -30,7 +30,7 @@ bool morton_sort(morton_item *items, morton_item *spare, size_t count, unsigned 
  * cells equal codes then need not be adjacent, and are not detected. */
 struct octree;
 struct arena;
-bool morton_sort_tasks(const struct octree *tree, struct arena *memory, morton_item *items, morton_item *spare,
-                       size_t count, size_t unsorted, bool differ);
+bool morton_sort_by_tasks(const struct octree *tree, struct arena *memory, morton_item *items, morton_item *spare,
+                          size_t count, size_t unsorted, bool differ);
 
 #endif

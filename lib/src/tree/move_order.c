@@ -3,8 +3,8 @@
  *
  * Problem: the result of a batch must be that of single moves. Usually moves do not interact, and all leaving and
  * arriving points can be changed at once. Moves interact if an id occurs twice (A to B, then B to C), if a pair
- * (position, id) would occur twice for a moment, or if a full leaf may refuse a point, depending on which points have
- * left the leaf before.
+ * (position, id) would occur twice for a moment, or if a leaf is full: whether it refuses a point depends on which
+ * points have already left the leaf.
  *
  * Idea: simulate without the tree. A table holds each pair (position, id) that a move leaves or reaches, and the move
  * whose point is currently there. If leaves refuse points (OCTREE_REFUSE), a second table holds the number of points in
@@ -189,7 +189,8 @@ bool simulate_moves_in_order(batch *b)
 /* ---- Overflow ----------------------------------------------------------------------------------------------- */
 
 /* Returns whether an indivisible cell of a leaf might get too many points: more than `capacity` points lie in the cell,
- * counting the leaf's points, the origins of moves and the destinations of moves. */
+ * counting the leaf's points, the origins of moves and the destinations of moves. Also returns true if memory runs
+ * out. */
 static bool can_overfill_leaf(const batch *b, const node *leaf, cell c, span arriving)
 {
     const size_t capacity = b->tree->def.leaf_capacity;
@@ -235,8 +236,8 @@ bool can_overflow(const batch *b, const node *old, cell c, span arriving)
 
 /* ---- Overflow of a rebuilt tree ---------------------------------------------------------------------------- */
 
-/* Compute a distance for each axis. Two points that are farther apart on some axis never lie in one indivisible cell.
- * Such a cell has the greatest depth, or contains no double between its planes. */
+/* Compute a distance for each axis: two points that are farther apart on some axis never lie in one indivisible cell.
+ * An indivisible cell has the greatest depth, or contains no double between its planes. */
 static void compute_separating_distance(const octree *tree, double distance[3])
 {
     const octree_box *world = &tree->def.world;

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /* plan.c - makes and carries out the plan of a batch, by tasks if the batch is large.
  *
- * Problem: restructure.c plans one node after the other; a large batch should use several threads, with the same result
- * for any number of them.
+ * Problem: restructure.c plans one node after the other. A large batch should use several threads, and the result must
+ * be the same for any number of threads.
  *
  * Idea: first walk the nodes as restructure.c would, without planning, down to nodes with few enough items (points) for
  * a task, and list these nodes as jobs. Tasks plan the jobs; each task has memory pools of its own, which borrow free
  * blocks from the tree's pools. Then plan the nodes above the jobs' nodes. Where this second walk reaches a job's node
- * again, it takes the job's result. Both walks have the same order, so the next result is always the right one. The
- * division into jobs depends only on counts, never on timing.
+ * again, it takes the next result from the list of jobs. Both walks have the same order, so the next result is always
+ * that of this node. The division into jobs depends only on counts, never on timing.
  *
  * Carrying out a plan edits leaves, replaces nodes and frees the old nodes. It allocates nothing, so it cannot fail.
  */
@@ -20,8 +20,8 @@
 
 /* ---- Jobs: the nodes that tasks plan ------------------------------------------------------------------------ */
 
-/* Add jobs to the list for the nodes that build_node() would build, in the order in which build_node() reaches these
- * nodes. Returns false if memory runs out. */
+/* Add a job for each node that build_node() would build and that has at most `grain` items, in the order in which
+ * build_node() reaches these nodes. Nodes below such a node get no job. Returns false if memory runs out. */
 static bool add_build_jobs(batch *b, cell c, span items)
 {
     if (items.count <= b->division->grain)
@@ -36,9 +36,9 @@ static bool add_build_jobs(batch *b, cell c, span items)
     return true;
 }
 
-/* Add jobs to the list for the nodes that change_node() would change, in the order in which change_node() reaches these
- * nodes. A leaf with very many arriving items is one job, which build_node_by_tasks() divides later. Returns false if
- * memory runs out. */
+/* Add a job for each node that change_node() would change and that has at most `grain` items, in the order in which
+ * change_node() reaches these nodes. Nodes below such a node get no job. A leaf with more items gets no job here;
+ * build_node_by_tasks() divides its items later. Returns false if memory runs out. */
 static bool add_change_jobs(batch *b, const node *old, cell c, span leaving, span arriving)
 {
     static const node empty = {0};
@@ -109,7 +109,7 @@ bool is_planned_by_job(const batch *b, size_t count)
     return b->division && b->division->work.ready && count <= b->division->grain;
 }
 
-bool get_job_result(batch *b, node *made)
+bool get_next_job_result(batch *b, node *made)
 {
     job_list *work = &b->division->work;
     *made = ((const job *)work->jobs.items)[work->next++].made;

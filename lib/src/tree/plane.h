@@ -4,8 +4,8 @@
  *
  * Each axis of the world has 2^21 + 1 grid planes. On each axis, a cell of depth d spans 2^(21-d) of the gaps between
  * these planes. The key of a coordinate is the number of the gap that contains it: the largest k with plane(k) <= x.
- * The Morton code of a point consists of the interleaved bits of its three keys. Its groups of three bits, from the
- * highest group on, are the octants of the point's path.
+ * The Morton code of a point consists of the interleaved bits of its three keys. The code's groups of three bits, from
+ * the highest group on, are the octants on the path from the root to the point.
  */
 #ifndef OCTREE_PLANE_H
 #define OCTREE_PLANE_H
@@ -27,9 +27,11 @@ typedef struct axis {
     /* the number of grid planes per unit of length, rounded; may be 0 or infinite in extreme worlds */
     double keys_per_unit;
     double guess_error; /* an error bound of a guessed key, as a number of keys; may be infinite or NaN */
-    /* the bits of the double 2^21, plus the error of a guess in fixed point; see plane_fixed_point_key() */
+    /* the bits of the double 2^21, plus guess_error in fixed point; plane_fixed_point_key() subtracts this word */
     uint64_t sure_from;
-    uint64_t sure_span; /* in fixed point: the length of the range of certain guesses; 0: no guess is certain */
+    /* in fixed point: the length of the range of fractions for which a guessed key is certain; 0: no guess is
+     * certain */
+    uint64_t sure_span;
 } axis;
 
 axis axis_make(double min, double max);
@@ -47,17 +49,17 @@ static inline double plane_inside(const axis *a, double t)
     return plane > a->min ? plane : a->min;
 }
 
-/* The k-th grid plane, 0 <= k <= PLANE_GRID: center + half * t with the exact t = k / 2^20 - 1. The terms of center and
- * half are summed with about 80 bits and rounded once.
+/* Returns the k-th grid plane, 0 <= k <= PLANE_GRID: center + half * t with the exact t = k / 2^20 - 1. The terms of
+ * center and half are summed with about 80 bits and rounded once.
  *
- * So a plane equals the result of the paper's repeated (min + max) / 2 wherever that result is a double. Planes ascend
- * with k, because neighbours are 2^-21 of the extent apart. Nothing overflows. */
+ * So a plane equals the result of the paper's repeated (min + max) / 2 wherever the exact result is a double. Planes
+ * ascend with k, because neighbours are 2^-21 of the extent apart. Nothing overflows. */
 static inline double plane_at(const axis *a, uint32_t k)
 {
     return k == 0 ? a->min : k == PLANE_GRID ? a->max : plane_inside(a, (double)k * 0x1p-20 - 1);
 }
 
-/* Returns a guess of a coordinate's key, as a double with a fraction. The guess differs from the exact value only by
+/* Returns a guess of a coordinate's key, as a double with a fraction. The guess differs from the real value only by
  * rounding errors. */
 static inline double plane_guess_key(const axis *a, double x)
 {
@@ -83,8 +85,9 @@ static inline uint64_t plane_fixed_point_key(const axis *a, double x)
     return bits - a->sure_from;
 }
 
-/* The highest bit of the result is set if the guessed key is not certain. The bit is always set for a coordinate
- * outside the world. */
+/* Returns a word whose highest bit is set if the guessed key is not certain; the other bits mean nothing. The highest
+ * bit is always set for a coordinate outside the world. `span` is the axis's sure_span, `fixed` the result of
+ * plane_fixed_point_key(). */
 static inline uint64_t plane_mark_uncertain(uint64_t span, uint64_t fixed)
 {
     return (span - 1 - (fixed & PLANE_FRACTION_MASK)) | (0 - (fixed >> PLANE_FIXED_BITS));
@@ -93,16 +96,16 @@ static inline uint64_t plane_mark_uncertain(uint64_t span, uint64_t fixed)
 /* Returns the key of a coordinate inside the world, 0 <= key < PLANE_GRID.
  *
  * The guessed key is certain if it is farther from an integer than its error. The error has two parts: four roundings
- * of a number below 2^21, less than 2^-29 in all; and a plane is at most one ulp of the world's coordinates off its
- * ideal position. */
+ * of a number below 2^21, less than 2^-29 in all; and the distance of a plane from its ideal position, at most one ulp
+ * of the world's coordinates. */
 static inline uint32_t plane_key(const axis *a, double x)
 {
     const uint64_t fixed = plane_fixed_point_key(a, x);
     return plane_mark_uncertain(a->sure_span, fixed) >> 63 ? plane_key_near(a, x) : (uint32_t)(fixed >> PLANE_FRACTION);
 }
 
-/* Compute the keys of a position, shifted so that their highest bits are the highest bits of the words. Returns false
- * if a guessed key is not certain, or if the position is outside the world. */
+/* Compute the keys of a position, shifted to the left so that the highest bit of each key is bit 63. Returns false if a
+ * guessed key is not certain, or if the position is outside the world. */
 static inline bool compute_shifted_keys(const axis axes[3], const double position[3], uint64_t keys[3])
 {
     uint64_t unsure = 0, all = 0;

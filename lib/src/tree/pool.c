@@ -8,9 +8,10 @@
  * larger free block that is split, or from the unused end of the newest slab. A freed block only enters a list, which
  * takes a few instructions.
  *
- * When an eighth of the pool is free, and half of this eighth was freed recently, adjacent free blocks are joined. All
- * free units are marked in bit maps, and the runs of marked units become the new free lists. Buddy allocation would
- * waste up to half of each block. Joining costs O(pool), but is amortized over the blocks freed since.
+ * When more than an eighth of the pool is free, and more than half of the free units were freed since the last joining,
+ * adjacent free blocks are joined. All free units are marked in bit maps, and the runs of marked units become the new
+ * free lists. Buddy allocation would waste up to half of each block. Joining costs O(pool), which is amortized over the
+ * blocks that were freed since the last joining.
  *
  * Each task has pools of its own. While the tree's pool has much free memory, the pools of tasks borrow blocks from it
  * under a lock.
@@ -26,8 +27,8 @@
 #define SLAB_MAX_BYTES (1u << 22)
 #define CACHE_LINE 64
 
-/* The header of a slab. A bit map with one bit per unit follows, by which free blocks are joined; after the bit map
- * come the units. */
+/* The header of a slab. After the header comes a bit map with one bit per unit, which marks the free units while blocks
+ * are joined. After the bit map come the units. */
 struct slab {
     struct slab *next;
     size_t size; /* the size of the whole slab in bytes */
@@ -218,7 +219,7 @@ static void mark_free_blocks(pool *p, struct slab **sorted)
         }
 }
 
-/* Return the bits of 64 units from `unit` on. Bits beyond the last unit are 0. */
+/* Returns the bits of 64 units from `unit` on. Bits beyond the last unit are 0. */
 static uint64_t load_mark_bits(struct slab *slab, size_t unit)
 {
     const uint64_t *bits = bit_map_of_slab(slab) + unit / 64;
@@ -273,7 +274,8 @@ static bool add_slab(pool *p)
     struct slab *slab = arena_allocate(p->memory, size);
     if (!slab)
         return false;
-    /* Fewer than POOL_MAX_UNITS units are unused. If there were more, no new slab would be needed. */
+    /* Fewer than POOL_MAX_UNITS units of the newest slab are unused; with more unused units, no new slab would be
+     * needed. */
     add_free_block(p, p->fresh, (unsigned)p->fresh_units);
     const uintptr_t end_of_header = (uintptr_t)slab + header;
     const size_t skip = (size_t)(-end_of_header & (CACHE_LINE - 1));
@@ -298,16 +300,16 @@ static void *allocate_free_block(pool *p, unsigned units)
     return block;
 }
 
-/* Returns whether free blocks should be joined: an eighth of the pool is free, and half of this eighth was freed since
- * blocks were last joined. The time for joining is proportional to the number of free blocks, so the amortized cost per
- * freed block is constant. */
+/* Returns whether free blocks should be joined: more than an eighth of the pool is free, and more than half of the free
+ * units were freed since the last joining. The time for joining is proportional to the number of free blocks, so the
+ * amortized cost per freed block is constant. */
 static bool is_worth_joining(const pool *p)
 {
     return p->free_units > p->total_units / 8 && p->freed_units > p->free_units / 2;
 }
 
-/* Take a free block from the pool that lends blocks. Returns null if that pool has no suitable block. */
-static void *allocate_block_of_lender(pool *p, unsigned units)
+/* Take a free block from the lender. Returns null if the lender has no free block that is large enough. */
+static void *borrow_free_block(pool *p, unsigned units)
 {
     arena_lock(p->memory->shared);
     void *block = allocate_free_block(p->lender, units);
@@ -319,7 +321,7 @@ void *pool_allocate(pool *p, unsigned units)
 {
     void *block = allocate_free_block(p, units);
     if (!block && p->borrows) {
-        block = allocate_block_of_lender(p, units);
+        block = borrow_free_block(p, units);
     } else if (!block && !p->lender && p->fresh_units < units && is_worth_joining(p)) {
         join_free_blocks(p);
         block = allocate_free_block(p, units);
@@ -349,7 +351,8 @@ void pool_init_borrowing(pool *p, arena *memory, pool *lender, size_t expected_u
     p->borrows = has_many_free_units(lender);
 }
 
-/* Move the unused units of the newest slab to the free lists. Later allocations use the first of these units first. */
+/* Move the unused units of the newest slab to the free lists, the last units first, so that later allocations begin
+ * with the first units. */
 static void free_unused_units(pool *p)
 {
     while (p->fresh_units > 0) {

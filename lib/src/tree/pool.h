@@ -26,7 +26,7 @@ typedef struct arena {
 
 static inline void arena_lock(arena *a)
 {
-    /* unreachable: tests wait here only by chance, when two threads allocate at the same time */
+    /* unreachable: no test can force two threads to allocate at the same time, so the loop runs only by chance */
     while (atomic_flag_test_and_set_explicit(&a->busy, memory_order_acquire))
         ;
 }
@@ -49,8 +49,9 @@ typedef struct pool {
     size_t unit; /* the size of a unit in bytes, at least the size of a pointer */
     struct slab *slabs;
     size_t slab_count;
-    size_t expected;      /* the number of units that will soon be needed; 0: unknown */
-    unsigned char *fresh; /* the first unit of the newest slab that was not allocated yet */
+    size_t expected; /* the number of units that will soon be needed; 0: unknown */
+    /* in the newest slab, the first unit that was never allocated; fresh_units units from here on are unused */
+    unsigned char *fresh;
     size_t fresh_units;
     size_t total_units;
     size_t free_units;  /* the number of units in the free lists */
@@ -73,7 +74,8 @@ void *pool_allocate(pool *p, unsigned units);
 void pool_free(pool *p, void *block, unsigned units);
 
 /* Make a pool for a task. If much of the tree's pool is free, the task borrows blocks from it before its own pool
- * grows. Until pool_join(), only the tasks use the tree's pool.
+ * grows. pool_join() moves all memory of the task's pool to the tree's pool; before this call, only the tasks use the
+ * tree's pool.
  *
  * Because of borrowing, the total memory depends slightly on the order of tasks. A fixed share of the free blocks for
  * each task would avoid this dependence, but would need more memory: if points always arrive in one region, the pool of
@@ -110,8 +112,8 @@ void list_release(arena *memory, list *l, size_t item_size);
 void list_sort(list *l, size_t item_size, int (*compare)(const void *a, const void *b));
 
 /* Functions for items that begin with a uint64_t. compare_first_words() compares two such items, for qsort().
- * find_item_by_first_word() searches `count` items in ascending order, and returns the index of the first item whose
- * word is at least `word`. */
+ * find_item_by_first_word() searches `count` items that are sorted by this word. It returns the index of the first item
+ * whose word is at least `word`, or `count` if there is none. */
 int compare_first_words(const void *a, const void *b);
 size_t find_item_by_first_word(const void *items, size_t item_size, size_t count, uint64_t word);
 

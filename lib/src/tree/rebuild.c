@@ -6,8 +6,8 @@
  *
  * Idea: read all stored points once, in memory order. A table of ids shows whether a stored point moves. If it does not
  * move, it is copied to the staying points; otherwise its address is entered in the table. Then go through the moves in
- * the caller's order, and check each move with the point that the table has for it. Finally grid_fill.c or a sort
- * builds the new tree from the destinations and the staying points.
+ * the caller's order, and compare the origin of each move with the stored point that the table has for the move's id.
+ * Finally grid_fill.c or a sort builds the new tree from the destinations and the staying points.
  *
  * The table is a bit map with one pointer per id where ids are dense, else a hash table. If an id moves twice or is
  * stored twice, moves depend on one another; this method is then abandoned, and move_order.c simulates the moves. Cost:
@@ -19,13 +19,13 @@
 #include <stdatomic.h>
 #include <string.h>
 
-/* A table of the ids that move. It has the address of the stored point of each id. If the ids are dense, an id is an
- * index into the table; otherwise the table is a hash table with linear probing. */
+/* A table of the ids that move, with the address of each id's stored point. If the ids are dense, the slot of an id is
+ * id - least; otherwise the table is a hash table with linear probing. */
 typedef struct id_table {
-    /* for each slot from `first` on, the address of the stored point; null: not found. If two tasks write one slot, the
-     * id is stored twice, and the table is not used */
+    /* for each of stored_count slots from slot `first` on, the address of the stored point; null: not found. If two
+     * tasks write one slot, the id is stored twice, and the table is not used */
     const octree_point *_Atomic *stored;
-    uint64_t *bits; /* for dense ids: bit i is set if a move has the id least + i; else null */
+    uint64_t *bits; /* for dense ids: bit i is set if a move has the id least + i; null for other ids */
     /* for ids that are not dense: for each slot, 1 + the index of the move, or 0 if the slot is empty; else null */
     uint32_t *places;
     size_t slot_count, first, stored_count;
@@ -50,7 +50,7 @@ typedef struct rebuild {
     uint32_t *cells;
     size_t count; /* the number of moves */
     unsigned move_tasks;
-    forest stored; /* the tree before the moves */
+    forest stored; /* the subtrees of the tree before the moves, divided among tasks */
     findings found[TASKS_AT_MOST];
 } rebuild;
 
@@ -107,7 +107,7 @@ static inline const octree_point *_Atomic *find_stored_entry(const id_table *t, 
     return has_move ? &t->stored[slot - t->first] : NULL;
 }
 
-static size_t bit_map_size(const id_table *t)
+static size_t bit_map_bytes(const id_table *t)
 {
     return (t->slot_count / 64 + 1) * sizeof *t->bits;
 }
@@ -115,13 +115,13 @@ static size_t bit_map_size(const id_table *t)
 static void release_id_table(arena *memory, id_table *t)
 {
     arena_free(memory, (void *)t->stored, t->stored_count * sizeof *t->stored);
-    arena_free(memory, t->bits, bit_map_size(t));
+    arena_free(memory, t->bits, bit_map_bytes(t));
     arena_free(memory, t->places, t->slot_count * sizeof *t->places);
     *t = (id_table){0};
 }
 
-/* Set the bits of all ids. The ids must lie within a range around the first id. Returns false if an id is outside the
- * range. *differ becomes false if an id occurs twice. */
+/* Set the bit of each id of the batch. Returns false if an id is not among the slot_count ids from t->least on. *differ
+ * becomes false if an id occurs twice. */
 static bool set_id_bits(const batch *b, id_table *t, bool *differ)
 {
     size_t least = SIZE_MAX, most = 0;
@@ -159,10 +159,10 @@ static bool fill_id_table(const batch *b, id_table *t, size_t reach, bool *diffe
     arena *memory = &b->tree->store.memory;
     t->least = b->points[0].id - reach / 2 * b->count; /* the difference wraps around modulo 2^64 */
     t->slot_count = reach * b->count;
-    t->bits = arena_allocate(memory, bit_map_size(t));
+    t->bits = arena_allocate(memory, bit_map_bytes(t));
     if (!t->bits)
         return false;
-    memset(t->bits, 0, bit_map_size(t));
+    memset(t->bits, 0, bit_map_bytes(t));
     *differ = true;
     if (set_id_bits(b, t, differ) || !*differ)
         return true;
@@ -262,8 +262,8 @@ static octree_status find_move_error(const batch *b, size_t place)
     return status == OCTREE_OK ? OCTREE_NOT_FOUND : status;
 }
 
-/* Returns whether a move is valid. If *to, the grid cell of the move's destination, is still unknown (GRID_NONE),
- * compute it. */
+/* Returns whether a move is valid. *to is the grid cell of the move's destination. If the cell is still unknown
+ * (GRID_NONE) and the move is valid, the function computes the cell. */
 static bool is_valid_move(const rebuild *r, size_t place, const octree_point *stored, uint32_t *to)
 {
     const batch *b = r->whole;
@@ -335,7 +335,8 @@ static void keep_points_of_invalid_moves(rebuild *r)
     }
 }
 
-/* Sort all points and build the tree from them. Sorting also finds out exactly whether a leaf may be full. */
+/* Sort all points and build the tree from them. With sorted points, the test whether a move may meet a full leaf is
+ * exact. */
 static octree_status sort_and_build(batch *b, size_t total)
 {
     arena *memory = &b->store->memory;
@@ -344,7 +345,7 @@ static octree_status sort_and_build(batch *b, size_t total)
     if (!lists)
         return OCTREE_NO_MEMORY;
     b->arriving = (span){lists, make_grid_items(b, NULL, lists)};
-    morton_sort_tasks(b->tree, memory, lists, lists + total, total, unsorted, true);
+    morton_sort_by_tasks(b->tree, memory, lists, lists + total, total, unsorted, true);
     const octree_status status = rebuild_from_batch(b);
     arena_free(memory, lists, 2 * total * sizeof *lists);
     return status;
@@ -390,8 +391,8 @@ static octree_status check_moves_and_build(rebuild *r, bool *settled)
         seen += r->found[i].seen;
         b->done += r->found[i].moved;
     }
-    /* The two numbers count stored points that move, and moves whose id is stored. They differ if an id that moves is
-     * stored twice. */
+    /* looked_up - stay is the number of stored points that move, and `seen` is the number of moves whose id is stored.
+     * The two numbers differ if an id that moves is stored twice. */
     *settled = looked_up - stay == seen;
     return *settled && b->done > 0 ? build_moved_tree(r, settled) : OCTREE_OK;
 }

@@ -7,8 +7,8 @@
  * Idea: one recursion from the root, with the leaving and arriving points as items sorted by Morton code. At each node
  * the items are divided among the octants by binary search, so unchanged subtrees cost nothing. The node's new number
  * of points decides at once what happens to it: it stays, is edited in place, becomes a leaf, is divided, or is built
- * anew. No node is split and merged again within the batch. Nothing is changed yet. Successors are allocated beside the
- * old nodes, and entered in a plan of patches and edits. plan.c carries out the plan, which cannot fail.
+ * anew. So no node is split and then merged again within one batch. Nothing is changed yet. Successors are allocated
+ * beside the old nodes, and entered in a plan of patches and edits. plan.c carries out the plan, which cannot fail.
  *
  * Under OCTREE_REFUSE a leaf takes the first points in the caller's order, as single insertions would.
  * Cost: O(items * D + points of the changed leaves).
@@ -171,7 +171,7 @@ bool must_be_leaf(const batch *b, cell c, span items)
 bool build_node(batch *b, cell c, span items, node *made)
 {
     if (is_planned_by_job(b, items.count))
-        return get_job_result(b, made);
+        return get_next_job_result(b, made);
     return must_be_leaf(b, c, items) ? make_leaf_of_items(b, items, made) : build_children(b, c, items, made);
 }
 
@@ -194,8 +194,8 @@ static bool build_children(batch *b, cell c, span items, node *made)
     return true;
 }
 
-/* Divide a leaf: build a node from the leaf's staying points and the arriving items. If the cell is indivisible, the
- * node is a hashed leaf, whose items need no order. */
+/* Divide a leaf: build a node from the leaf's staying points and the arriving items. If the cell cannot split, the new
+ * node is a single leaf, whose items need no order. */
 static bool divide_leaf(batch *b, const node *old, cell c, span leaving, span arriving, node *made)
 {
     const size_t sum = old->count - leaving.count + arriving.count, room = 2 * sum * sizeof(morton_item);
@@ -308,7 +308,8 @@ static bool merge_into_leaf(batch *b, const node *old, cell c, span leaving, spa
 
 bool plan_replacement(batch *b, node *at, const node *made)
 {
-    /* With the same block and the same count, the node is unchanged: its octants and room are then the same, too. */
+    /* If the block and the count are the same, the node is unchanged: its octants and its room are then also the
+     * same. */
     if (at->below == made->below && at->count == made->count)
         return true;
     const patch p = {at, *made};
@@ -395,7 +396,7 @@ bool change_node(batch *b, const node *old, cell c, span leaving, span arriving,
     if (arriving.count == 0 && (is_emptied || leaving.count == 0))
         return true;
     if (is_planned_by_job(b, leaving.count + arriving.count))
-        return get_job_result(b, made);
+        return get_next_job_result(b, made);
     if (is_emptied) {
         record_possible_overflow(b, old, c, arriving);
         return build_node(b, c, arriving, made);

@@ -8,7 +8,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* In a tree with fewer points than this, choosing a capacity gains nothing. */
+/* In a tree with fewer points than this, a better leaf capacity gains nothing. */
 #define TUNE_LEAST 1024
 
 /* ---- Creating and destroying ------------------------------------------------------------------------------------- */
@@ -41,7 +41,7 @@ static octree_status check_definition(const octree_def *def)
 
 static octree_def clamp_definition(octree_def def)
 {
-    /* the capacity of a tree under OCTREE_AUTO that has no points yet */
+    /* under OCTREE_AUTO, a tree without points has the default capacity */
     if (def.leaf_capacity == OCTREE_AUTO)
         def.leaf_capacity = octree_def_default().leaf_capacity;
     if (def.leaf_capacity > UINT32_MAX)
@@ -275,8 +275,8 @@ bool find_point(const octree *tree, const double position[3], uint64_t id, found
     return found->index != LEAF_NONE;
 }
 
-/* Returns the leaf whose cell contains the shifted keys (plane.h). If there is none, returns the last node on the path
- * to them. */
+/* Returns the leaf whose cell contains the shifted keys (plane.h). If there is no such leaf, returns the last node on
+ * the path to these keys. */
 static inline const node *find_deepest_node(const octree *tree, const uint64_t keys[3])
 {
     const node *n = &tree->root;
@@ -320,7 +320,7 @@ static inline uint64_t mask_equal_x(const octree_point *points, unsigned count, 
 }
 
 /* Returns the point at a position that has the lowest id. Returns null if no point of the leaf is at the position. */
-static inline const octree_point *find_in_leaf(const node *leaf, const double position[3])
+static inline const octree_point *find_lowest_id_in_leaf(const node *leaf, const double position[3])
 {
     enum { TOGETHER = 64 };
     const octree_point *points = leaf_points(leaf), *found = NULL;
@@ -339,13 +339,14 @@ static inline octree_status find_id_by_keys(const octree *tree, const uint64_t k
                                             uint64_t *id)
 {
     const node *end = find_deepest_node(tree, keys);
-    const octree_point *found = end->octants ? NULL : find_in_leaf(end, position);
+    const octree_point *found = end->octants ? NULL : find_lowest_id_in_leaf(end, position);
     if (found && id)
         *id = found->id;
     return found ? OCTREE_OK : OCTREE_NOT_FOUND;
 }
 
-/* Find a position near a plane, or outside the world. */
+/* Find the id at a position whose keys compute_shifted_keys() cannot compute: a position near a plane, or outside the
+ * world. */
 static octree_status find_id_near_plane(const octree *tree, const double position[3], uint64_t *id)
 {
     const octree_status status = check_position(tree, position);

@@ -26,10 +26,11 @@ struct octree {
     axis axes[3];
     /* a power of two by which coordinates are multiplied, so that the world's extent is moderate (metric.h) */
     double scale;
-    double key_squares[3]; /* on each axis, the square of the distance between two grid planes */
+    double key_squares[3]; /* on each axis, the square of the distance between adjacent grid planes */
     /* the greatest error of a distance from a point to a plane, if the distance is computed from keys */
     double key_error;
-    /* false: keys may be wrong, or the scale is not 1; key_squares and key_error are then not used */
+    /* true: key_squares and key_error are valid. false: the scale is not 1, or on some axis no guessed key is certain
+     * (plane.h) */
     bool has_key_squares;
     uint64_t version;
     change_log changes;
@@ -62,27 +63,27 @@ octree_status check_position(const octree *tree, const double position[3]);
 
 /* Check the position of a change of the tree. Returns the statuses of check_position(), or BUSY inside a callback of
  * the tree. */
-static inline octree_status check_change(const octree *tree, const double position[3])
+static inline octree_status check_position_for_change(const octree *tree, const double position[3])
 {
     const octree_status status = check_position(tree, position);
     return status == OCTREE_OK && is_running_callback(tree) ? OCTREE_BUSY : status;
 }
 
 /* Insert a point with a valid position and its Morton code. Returns OK, DUPLICATE, FULL, NO_MEMORY or TOO_MANY. If
- * `divides` is false, a leaf at its capacity returns FULL even if it could split, so that removing the point again
- * needs no memory. */
-octree_status insert_point(octree *tree, const octree_point *point, uint64_t code, bool divides);
+ * `may_split` is false, the function returns FULL for a leaf at its capacity even if the leaf could split. Removing the
+ * inserted point again then needs no memory. */
+octree_status insert_point(octree *tree, const octree_point *point, uint64_t code, bool may_split);
 
 /* Remove a point whose position is in the world. point->position becomes the stored position, in which zeros may have
  * other signs. Returns OK, NOT_FOUND or NO_MEMORY. */
 octree_status remove_point(octree *tree, octree_point *point);
 
-/* Remove an empty leaf from the group of its parent's children. The end of the group's block that becomes unused is
- * freed. */
+/* Remove an empty leaf from the group of its parent's children, and free the last unit of the group's block, which is
+ * then unused. */
 void remove_empty_child(octree *tree, node *parent, node *child);
 
-/* After an insertion, choose the capacity again if the tree has reached the number of points at which this is due. If
- * memory runs out, the capacity stays the same. */
+/* After an insertion under OCTREE_AUTO, choose the capacity again if the tree has reached tuning.due points. If memory
+ * runs out, the capacity stays the same. */
 void tune_if_due(octree *tree);
 
 /* Rebuild the tree with another definition. Errors: those of octree_create, OUTSIDE, FULL, NO_MEMORY; the tree is then
@@ -96,8 +97,8 @@ typedef struct path {
     unsigned depth; /* the depth of the path's last node */
 } path;
 
-/* begin_path() makes a path that ends at the root. extend_path() continues a path towards a code, as far as there are
- * nodes. */
+/* begin_path() makes a path that ends at the root. extend_path() continues a path towards a code, down to the last node
+ * that exists. path_end() returns the last node of a path. find_path() returns the whole path to a code. */
 static inline void begin_path(path *p, octree *tree)
 {
     p->nodes[0] = &tree->root;

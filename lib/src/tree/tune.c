@@ -2,7 +2,7 @@
 /* tune.c - chooses the leaf capacity by a cost model: octree_tune().
  *
  * Problem: the best capacity depends on the points and on how the tree is used: small leaves suit searches, large
- * leaves suit changes and ranges. If trial trees were timed, the choice would differ between machines and runs.
+ * leaves suit changes and ranges. Timing trial trees would make the choice differ between machines and runs.
  *
  * Idea: count instead of timing. Build trees with capacities 4, 8 ... 256 on a sample, run the operations of the mix on
  * each, and compare weighted counts of visited inner nodes, leaves and points. The weights are fitted to measured times
@@ -33,8 +33,9 @@ enum { LEAST_CAPACITY = 4, MOST_CAPACITY = 256 };
 
 /* ---- A sample of whole cells, with the density of the tree --------------------------------------------- */
 
-/* A cell of the sample has at least 16 points for each result of a query. So a range around a point of the cell stays
- * mostly inside the cell. The larger the cells are, the fewer cells are sampled. */
+/* A cell of the sample has at most 16 points for each result of a query; this limit is clamped to LEAST_CELL ..
+ * MOST_CELL. In a cell of this size, a range around a point stays mostly inside the cell. The larger the cells are, the
+ * fewer cells are sampled. */
 enum { LEAST_CELL = 4096, MOST_CELL = 32768, TARGETS = 128 };
 
 static size_t choose_points_per_cell(const octree_mix *mix)
@@ -68,8 +69,8 @@ typedef struct cell_picker {
     size_t points_before, step;
 } cell_picker;
 
-/* Copy the points of a selected cell. Also copy the points on the cell's upper faces, although these points belong to
- * neighbouring cells. */
+/* An octree_node_visitor: if the node's cell is selected, copy its points to the sample. Also copy the points on the
+ * cell's upper faces, although these points belong to neighbouring cells. */
 static octree_walk_order copy_selected_cell(const octree_node *seen, void *context)
 {
     cell_picker *p = context;
@@ -130,8 +131,8 @@ static octree_cost cost_of_nearest(const sample *s, const octree *trial, const o
     return cost;
 }
 
-/* The cost of a range search. octree_cost does not count the nodes below a node that is taken whole; a tracer adds
- * these nodes. */
+/* The cost of a range search. octree_cost does not count a node that is taken whole, or the nodes below it; the tracer
+ * add_cost_of_taken_node() adds these nodes. */
 typedef struct range_cost {
     const octree *trial;
     octree_cost all;
@@ -145,7 +146,7 @@ static void add_cost_of_nodes_below(octree_cost *cost, const node *n)
         add_cost_of_nodes_below(cost, &children_of(n)[i]);
 }
 
-static void count_visited_nodes(octree_address address, octree_trace_kind touch, void *context)
+static void add_cost_of_taken_node(octree_address address, octree_trace_kind touch, void *context)
 {
     range_cost *r = context;
     if (touch != OCTREE_TRACE_TAKEN)
@@ -157,7 +158,7 @@ static void count_visited_nodes(octree_address address, octree_trace_kind touch,
 static octree_cost cost_of_range(const octree *trial, const octree_point *target, double extent)
 {
     range_cost r = {.trial = trial};
-    const octree_search how = {.cost = &r.all, .trace = count_visited_nodes, .trace_context = &r};
+    const octree_search how = {.cost = &r.all, .trace = add_cost_of_taken_node, .trace_context = &r};
     octree_box box;
     size_t found;
     if (octree_collision_box(target->position, extent, &box) == OCTREE_OK)
@@ -226,7 +227,7 @@ static octree_status check_mix(const octree_mix *mix)
 
 /* Divide the shares of the mix by the largest share. The division cannot overflow, and cannot make all shares 0. Limit
  * k and `hits` to the size of the sample. */
-static octree_mix clamp_mix(octree_mix mix, size_t most)
+static octree_mix normalize_mix(octree_mix mix, size_t most)
 {
     const double largest = fmax(fmax(mix.changes, mix.nearest), mix.ranges);
     mix.changes /= largest;
@@ -239,7 +240,7 @@ static octree_mix clamp_mix(octree_mix mix, size_t most)
 
 static octree_status choose_capacity_by_sample(octree *tree, const octree_mix *mix, size_t *capacity)
 {
-    sample s = {.mix = clamp_mix(*mix, LEAST_CELL)};
+    sample s = {.mix = normalize_mix(*mix, LEAST_CELL)};
     arena *memory = &tree->store.memory;
     const size_t size = ((s.mix.k > s.mix.hits ? s.mix.k : s.mix.hits) + 1) * sizeof *s.neighbors;
     /* while the executor of `tree` runs tasks of the trial trees, changes of `tree` return BUSY */
@@ -263,7 +264,7 @@ octree_status octree_tune(octree *tree, const octree_mix *mix)
     const octree_mix asked = mix ? *mix : octree_mix_default();
     octree_def def = tree->def;
     octree_status status = is_running_callback(tree) ? OCTREE_BUSY : check_mix(&asked);
-    /* the tree has no points, so it gets the default capacity */
+    /* a tree without points gets the default capacity */
     def.leaf_capacity = octree_def_default().leaf_capacity;
     if (status == OCTREE_OK && octree_count(tree) > 0)
         status = choose_capacity_by_sample(tree, &asked, &def.leaf_capacity);

@@ -4,8 +4,8 @@
 
 /* ---- Reverting ---------------------------------------------------------------------------------------------- */
 
-/* Revert the removal of a point. A hashed leaf finds its points by their pairs, so its points may have another order.
- */
+/* Revert the removal of a point. In a hashed leaf the point is appended: the hash table finds points by the pair
+ * (position, id), so their order does not matter. */
 static void restore_removed_point(node *leaf, const step *s, const octree_point *point)
 {
     if (leaf->room == LEAF_HASHED) {
@@ -32,8 +32,8 @@ static void add_to_counts_above(const path *p, unsigned depth, uint32_t change)
         p->nodes[i]->count += change;
 }
 
-/* Revert a step at the code of a point. `added` is the number of points that the step added to the tree, modulo 2^32.
- */
+/* Revert a step that changed a node on the path to `code`, the Morton code of `point`. `added` is the number of points
+ * that the step added to the tree, modulo 2^32. */
 static void revert_step(octree *tree, const step *s, uint64_t code, const octree_point *point, uint32_t added)
 {
     const path p = find_path(tree, code);

@@ -5,9 +5,9 @@
  * reverted when memory runs out.
  *
  * Idea: each change of a node is a step that keeps the memory which the node no longer needs. The blocks of the old
- * node are not freed, and a leaf that becomes empty stays. So a step is reverted by writing the old node back. Steps
- * are reverted in the opposite order, so that each one finds the nodes above it as they were. When all moves of the
- * batch are made, finish_move() frees the memory that the steps kept.
+ * node are not freed, and a leaf that becomes empty stays. So a step is reverted by writing the old node back. The last
+ * step is reverted first, so that the revert of a step finds the nodes above as they were just after the step. When all
+ * moves of the batch are made, finish_move() frees the memory that the steps kept.
  *
  * Cost: 24 bytes a step, two steps a move.
  */

@@ -209,14 +209,14 @@ static void keep_first_violation(validation *first, const char *broken, octree_a
     }
 }
 
-/* A tree whose nodes are read by tasks: checked or digested. */
+/* The state of tasks that check or digest all nodes of a tree. */
 typedef struct reading {
     forest forest;
-    /* the first violation that each task found; the element after the last task's is for the nodes above the
-     * subtrees */
+    /* first[i] is the first violation that task i found; first[forest.tasks] is the first violation in the nodes above
+     * the subtrees */
     validation first[TASKS_AT_MOST + 1];
-    /* for each task, the sum of the digests of its nodes; the element after the last task's is for the nodes above the
-     * subtrees */
+    /* sums[i] is the sum of the digests of the nodes that task i reads; sums[forest.tasks] is the sum of the nodes
+     * above the subtrees */
     uint64_t sums[TASKS_AT_MOST + 1];
 } reading;
 
