@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* ask.c - the tables of octree/query.h. Checks and asks a query of any kind, by the table row of its kind. */
+/* ask.c - the tables of octree/query.h, and functions that check and ask a query of any kind with the table row of the
+ * kind. */
 #include "../exact/float_mode.h"
 #include "kind.h"
 #include "search.h"
@@ -109,7 +110,7 @@ octree_status octree_query_check(const octree_query *query)
     for (size_t i = OCTREE_QUERY_MEMBERS; status == OCTREE_OK && i-- > 0;)
         if (about->members & octree_query_member_at(i)->bit)
             status = check_member(query, octree_query_member_at(i));
-    if (status == OCTREE_OK && query_is_judged(query))
+    if (status == OCTREE_OK && is_query_judged(query))
         status = check_foreign_answer(query);
     for (int visit = 0; status == OCTREE_OK && visit < OCTREE_NODE_VISITS; visit++)
         status = check_visits(&query->visits[visit]);
@@ -145,13 +146,13 @@ static const struct {
                     [OCTREE_MEMBER_LENGTH] = {sizeof(double), 1},
                     [OCTREE_MEMBER_BOUNDS] = {sizeof(octree_bounds), 0}};
 
-octree_answer query_to_answer(const octree_query *query, const double player[3])
+octree_answer make_answer_to_query(const octree_query *query, const double player[3])
 {
     octree_answer answer = {.kind = query->kind,
                             .skip = query->skip,
                             .skip_id = query->skip_id,
                             .epsilon = query->epsilon,
-                            .precision = query_is_judged(query) ? query->precision : OCTREE_DOUBLES};
+                            .precision = is_query_judged(query) ? query->precision : OCTREE_DOUBLES};
     for (size_t i = 0; i < OCTREE_QUERY_MEMBERS; i++) {
         const octree_query_member_traits *member = octree_query_member_at(i);
         memcpy((char *)&answer + member->in_answer, (const char *)query + member->in_query,
@@ -182,7 +183,7 @@ octree_status run_query(query_run *run, const octree_query *query, const double 
     const bool neighbors = octree_query_about(query->kind)->neighbors;
     const list *found = neighbors ? run->neighbors : run->points;
     const size_t first = found->count;
-    *answer = query_to_answer(query, player);
+    *answer = make_answer_to_query(query, player);
     run->asked = answer;
     run->how.cost = &answer->cost;
     if (query->skip != OCTREE_SKIP_NONE) {
@@ -191,7 +192,7 @@ octree_status run_query(query_run *run, const octree_query *query, const double 
     }
     /* epsilon is the permitted error of the foreign answer. The exact answer, with which the foreign answer is
      * compared, has no error. */
-    if (query_is_judged(query))
+    if (is_query_judged(query))
         run->how.epsilon = 0;
     else if (query->epsilon > 0)
         run->how.epsilon = query->epsilon;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* kind.h - the functions of each kind of query, and asking a query of any kind. octree/query.h has the table of kinds.
- * Private. */
+/* kind.h - the functions that each kind of query defines, and run_query(), which asks a query of any kind.
+ * octree/query.h has the table of kinds. Private. */
 #ifndef OCTREE_KIND_H
 #define OCTREE_KIND_H
 
@@ -10,7 +10,7 @@
 /* Sort the points of a list from index `first` on, by id and then by position. */
 void sort_points(list *points, size_t first);
 
-/* The state of asking a query: the query's tree, and the lists to which the result is appended. */
+/* A query that is being asked: its tree, its options, and the lists to which its result is appended. */
 typedef struct query_run {
     const octree *tree;
     octree_search how;
@@ -42,35 +42,36 @@ typedef struct query_rules {
      * neighbours. */
     int (*compare)(const octree_answer *asked, const double position[3], double slack);
 
-    /* A closed box that contains the region and all positions within `slack` >= 0 of it. The function pointer is null
-     * for query kinds whose result is neighbours. */
+    /* Returns a closed box that contains the region and all positions at a distance of at most `slack` >= 0 from the
+     * region. The function pointer is null for query kinds whose result is neighbours. */
     octree_box (*bound)(const octree_answer *asked, double slack);
 } query_rules;
 
 const query_rules *query_rules_of(octree_query_kind kind);
 
-/* Return true if a position is exactly on the boundary of a query's region. The query's result must be points, not
+/* Returns whether a position is exactly on the boundary of a query's region. The query's result must be points, not
  * neighbours. */
 static inline bool is_on_boundary(const octree_answer *asked, const double position[3])
 {
     return query_rules_of(asked->kind)->compare(asked, position, 0) == 0;
 }
 
-/* Return true if the query has a foreign answer or pruned foreign nodes. The exact answer then judges the foreign
- * answer and these nodes. */
-static inline bool query_is_judged(const octree_query *query)
+/* Returns whether the query has a foreign answer or pruned foreign nodes. The foreign answer and these nodes are then
+ * compared with the exact answer. */
+static inline bool is_query_judged(const octree_query *query)
 {
     return query->answered || query->visits[OCTREE_NODE_PRUNED].count > 0;
 }
 
-/* Copy a query's members to a new answer, with boxes and targets in world coordinates. */
-octree_answer query_to_answer(const octree_query *query, const double player[3]);
+/* Returns an answer without a result: a copy of the query's members, in which box and target are in world
+ * coordinates. */
+octree_answer make_answer_to_query(const octree_query *query, const double player[3]);
 
 /* Round all positions and lengths among an answer's members to floats. */
 void round_answer_to_floats(octree_answer *answer);
 
-/* Ask a query that was checked. The result is appended to the lists of the run, and answer->count receives the number
- * of appended items. The answer's pointers to points and neighbours stay null. */
+/* Ask a query that octree_query_check() accepts. The result is appended to the lists of the run, and answer->count
+ * receives the number of appended items. The answer's pointers to points and neighbours stay null. */
 octree_status run_query(query_run *run, const octree_query *query, const double player[3], octree_answer *answer);
 
 #endif

@@ -9,7 +9,7 @@ octree_status run_range_query(query_run *run, octree_answer *answer)
     return octree_range_search(run->tree, &answer->box, &run->how, collect_unless_skipped, run);
 }
 
-/* The exact sign of a - b - length; a or b may be infinite. */
+/* Returns the exact sign of a - b - length; a or b may be infinite. */
 static int compare_gap(double a, double b, double length)
 {
     if (!(length > 0) || isinf(a) || isinf(b))

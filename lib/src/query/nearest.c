@@ -6,20 +6,21 @@
  * the k-th point is known.
  *
  * Idea: depth first, nearest octant first. The textbook descent measures every node on the way down. Here the bits of
- * the target's Morton code lead straight to the target's leaf, without any measuring. (The code is made of three keys,
- * one per axis: the numbers of the grid cells that contain the target's coordinates, see plane.h.) The search measures
- * the nodes of this path on the way back up. By then the best distance is small, and most siblings are out of reach.
- * count_nodes_out_of_reach() finds how many nodes of the path need no measuring at all.
+ * the target's Morton code lead straight to the target's leaf, without computing any distance. (The code is made of
+ * three keys, one per axis: the numbers of the grid cells that contain the target's coordinates, see plane.h.) The
+ * search measures the nodes of this path on the way back up. By then the best distance is small, and most siblings are
+ * out of reach. count_nodes_out_of_reach() finds how many nodes of the path need no measuring at all.
  *
- * Distances to planes: measured in keys, every plane is a whole number, so a distance is the difference between this
- * number and the target's position in keys. The difference has a known error, by which the reach of nodes is widened
- * (find_node_reach() in neighbor_heap.c). In worlds where keys may be wrong, and for targets outside the world, the
- * planes themselves are computed.
+ * Distances to planes: in units of keys, the position of every plane is a whole number, so a distance is the difference
+ * of this number and the target's position in keys. The difference has a known error, by which the reach of nodes is
+ * widened (find_node_reach() in neighbor_heap.c). In worlds where keys may be wrong, and for targets outside the world,
+ * the coordinates of the planes are computed instead.
  *
  * Order of siblings: a child's squared distance is a sum of one term per axis. On an axis where the child is in the
  * half near the target, the term is the parent's term; in the far half, it is the squared distance to the splitting
- * plane. The eight sums are ordered like the subset sums of three increments, so comparisons find their order in a
- * table, and the first child out of reach ends the node.
+ * plane. The eight sums are ordered like the subset sums of three increments, so a few comparisons select their order
+ * from a table. The first child that is out of reach ends the search of the node, because all later children are
+ * farther.
  *
  * Cost: O(D + M) on average for points of bounded density, O(n) at worst. Source: the paper, Algorithms 6 and 7; Samet
  * (2006) on best-first and depth-first search. neighbor_heap.c keeps the results and decides near ties.
@@ -74,9 +75,9 @@ static octant_order orders[8][2] = {
     ORDER_ROWS(4, 2, 1), ORDER_ROWS(2, 1, 4), ORDER_ROWS(1, 4, 2), ORDER_ROWS(1, 2, 4),
 };
 
-/* Return the order of the octants. The first index of the table has a bit for each of three comparisons; two of its
- * values do not occur. An octant's distance is a sum of some of three increments a <= b
- * <= c. The eight sums ascend as 0, a, b, min(c, a + b), and then the complements of these four in reverse order. */
+/* Returns the order of the octants. The first index of the table has a bit for each of three comparisons; two of the
+ * eight values cannot occur. An octant's distance is a sum of some of three increments a <= b <= c. The eight sums
+ * ascend as 0, a, b, min(c, a + b), and then the complements of these four in reverse order. */
 static inline const uint8_t *find_octant_order(const branch *b)
 {
     const double x = b->squares[0][1] - b->squares[0][0];
@@ -86,8 +87,8 @@ static inline const uint8_t *find_octant_order(const branch *b)
     return orders[(y < x) | (z < y) << 1 | (z < x) << 2][(x + y) + z < 2 * most];
 }
 
-/* Measure the squared distances from the target to the planes that split a cell. On each axis this is the distance to
- * the far half. Returns the octant that is nearest to the target. */
+/* Store in b->squares[i][1] the squared distance from the target to the plane that splits the cell on axis i: the
+ * distance to the half on the other side of the plane. Returns the octant that is nearest to the target. */
 static inline unsigned measure_planes(const search *s, branch *b)
 {
     unsigned below = 0;
@@ -123,17 +124,20 @@ static inline void scan_leaf(search *s, const node *leaf)
     }
 }
 
+/* Returns the squared distance from the target to an octant of a branch's cell. `flip` is that octant ^ the octant
+ * nearest to the target. */
 static inline double squared_distance_to_octant(const branch *b, unsigned flip)
 {
     return (b->squares[0][flip >> 2] + b->squares[1][flip >> 1 & 1]) + b->squares[2][flip & 1];
 }
 
-/* For each octant and axis, the side on which the octant lies. */
+/* For each octant and axis, the half of the cell in which the octant lies: -1 for the lower half, 1 for the upper
+ * half. */
 static const double sides[8][3] = {{-1, -1, -1}, {-1, -1, 1}, {-1, 1, -1}, {-1, 1, 1},
                                    {1, -1, -1},  {1, -1, 1},  {1, 1, -1},  {1, 1, 1}};
 
-/* Make the branch of a node's child in an octant. The distances to the child's splitting planes are not measured
- * yet. */
+/* Make the branch of a node's child in an octant; `flip` is that octant ^ the octant nearest to the target.
+ * measure_planes() must then store the distances to the child's splitting planes. */
 static inline void make_child_branch(const branch *parent, const node *child, unsigned octant, unsigned flip, branch *b)
 {
     b->node = child;
@@ -145,8 +149,8 @@ static inline void make_child_branch(const branch *parent, const node *child, un
     }
 }
 
-/* Search the children of a node in the octants `left`, nearest first, as far as they are within reach. `near` is the
- * octant that is nearest to the target. b[1] is free for the branch of a child. */
+/* Search the children of node b->node in the octants of the bit mask `left`, nearest first, until a child is out of
+ * reach. `near` is the octant that is nearest to the target. b[1] is used for the branch of a child. */
 static void search_octants(search *s, branch *b, unsigned near, unsigned left)
 {
     const uint8_t *flips = find_octant_order(b);
@@ -159,7 +163,7 @@ static void search_octants(search *s, branch *b, unsigned near, unsigned left)
         const node *child = look_up_child(b->node, octant);
         left &= ~(1u << octant);
         if (RARELY(s->is_metered))
-            meter_visit(&s->meter, b->address << 3 | octant);
+            meter_record_visited(&s->meter, b->address << 3 | octant);
         if (child->octants) {
             make_child_branch(b, child, octant, flip, b + 1);
             search_octants(s, b + 1, measure_planes(s, b + 1), child->octants);
@@ -168,10 +172,10 @@ static void search_octants(search *s, branch *b, unsigned near, unsigned left)
         }
     }
     if (RARELY(s->is_metered))
-        meter_prune(&s->meter, b->address, left);
+        meter_record_pruned(&s->meter, b->address, left);
 }
 
-/* Search those octants of a node that are not on the path to the target's leaf. Usually all these octants are out of
+/* Search the children of a node that are not on the path to the target's leaf. Usually all these children are out of
  * reach. */
 static inline void search_siblings(search *s, const node *n, uint64_t code, const uint32_t keys[3], unsigned depth)
 {
@@ -193,7 +197,7 @@ static inline void search_siblings(search *s, const node *n, uint64_t code, cons
     if (!((x > reach) & (y > reach) & (z > reach)))
         search_octants(s, b, near, left);
     else if (RARELY(s->is_metered))
-        meter_prune(&s->meter, b->address, left);
+        meter_record_pruned(&s->meter, b->address, left);
 }
 
 /* Find the cells adjacent to the target's cell that the search will probably visit, and store their Morton codes. Such
@@ -234,7 +238,7 @@ static void prefetch_adjacent_leaves(const path *p, uint64_t code, const uint32_
     }
 }
 
-/* Store the keys of the target's position after clamping it to the world. */
+/* Store the keys of the target, clamped to the world, in keys[]. */
 static void find_clamped_keys(const octree *tree, const double target[3], uint32_t keys[3])
 {
     for (int i = 0; i < 3; i++) {
@@ -243,8 +247,8 @@ static void find_clamped_keys(const octree *tree, const double target[3], uint32
     }
 }
 
-/* Return the number of nodes on the path to the target's leaf, from the root down, whose splitting planes are all out
- * of reach of the target.
+/* Returns the number of nodes on the path to the target's leaf, from the root down, whose splitting planes are all out
+ * of reach of the target. So the other children of these nodes are out of reach, too.
  *
  * The number is 20 minus the highest bit in which the keys of target - reach and target + reach differ on any axis. The
  * reach in keys is widened, to cover rounding. The result is 0 if distances are not in keys. */
@@ -265,7 +269,8 @@ static unsigned count_nodes_out_of_reach(const search *s, const uint32_t keys[3]
     return OCTREE_MAX_DEPTH - 1 - bits_highest(differ);
 }
 
-/* Search the nodes of the path to the target's leaf, from the depth `depth` up, as far as they are within reach. */
+/* Search the siblings of the path to the target's leaf, from the children of the path's node of depth `depth` - 1
+ * upwards, up to the nodes whose splitting planes are out of reach. */
 static inline void search_path_upwards(search *s, const path *p, uint64_t code, const uint32_t keys[3], unsigned depth)
 {
     const unsigned first_near = count_nodes_out_of_reach(s, keys);
@@ -274,8 +279,8 @@ static inline void search_path_upwards(search *s, const path *p, uint64_t code, 
         search_siblings(s, p->nodes[depth], code, keys, depth);
     }
     while (s->is_metered && depth-- > 0)
-        meter_prune(&s->meter, morton_address(code, depth),
-                    p->nodes[depth]->octants & ~(1u << morton_octant(code, depth)));
+        meter_record_pruned(&s->meter, morton_address(code, depth),
+                            p->nodes[depth]->octants & ~(1u << morton_octant(code, depth)));
 }
 
 /* Find the path to a code, as find_path() does, but inline. Returns the path's last node. */
@@ -293,7 +298,7 @@ static inline const node *descend_along_path(const octree *tree, uint64_t code, 
     return n;
 }
 
-/* Search the leaf whose cell contains the target's keys, then the other nodes of the path to this leaf, from the leaf
+/* Search the leaf whose cell contains the target's keys, then the siblings of the path to this leaf, from the leaf
  * up. */
 static inline void search_from_leaf(search *s, const uint32_t keys[3])
 {
@@ -303,10 +308,11 @@ static inline void search_from_leaf(search *s, const uint32_t keys[3])
     const node *end = descend_along_path(tree, code, &p);
     s->meter.count.nodes += p.depth + 1;
     for (unsigned i = 0; s->meter.how->trace && i <= p.depth; i++)
-        meter_trace(&s->meter, morton_address(code, i), OCTREE_TRACE_VISITED);
+        meter_call_tracer(&s->meter, morton_address(code, i), OCTREE_TRACE_VISITED);
     unsigned depth = p.depth;
     if (end->octants) {
-        depth++; /* no node exists for the target's octant, so all children of this node are searched like siblings */
+        /* no node exists for the target's octant, so all children of the path's last node are siblings of the path */
+        depth++;
     } else {
         if (tree->root.count > CACHED) {
             leaf_prefetch(end);
@@ -317,7 +323,8 @@ static inline void search_from_leaf(search *s, const uint32_t keys[3])
     search_path_upwards(s, &p, code, keys, depth);
 }
 
-/* Find the keys of the target's position after clamping it to the world. Returns false if the world is out of reach. */
+/* Store the keys of the target, clamped to the world, in keys[], and set root_squares. Returns false if the world is
+ * out of reach. */
 static bool find_keys_from_planes(search *s, uint32_t keys[3])
 {
     const octree *tree = s->tree;
@@ -356,7 +363,7 @@ static inline void search_from_root(search *s)
     if (is_near)
         search_from_leaf(s, keys);
     else
-        meter_prune_root(&s->meter);
+        meter_record_pruned_root(&s->meter);
 }
 
 #define NO_RADIUS (-1.0)
@@ -378,7 +385,7 @@ static size_t search_tree(const octree *tree, const double target[3], size_t k, 
     if (how->trace)
         end_callbacks(begun);
     neighbor_heap_finish(&s.found);
-    meter_report(&s.meter);
+    meter_add_to_cost(&s.meter);
     return s.found.count;
 }
 
@@ -443,8 +450,8 @@ static octree_status check_batch_arguments(const octree *tree, const double (*ta
     return status;
 }
 
-/* Array elements are prefetched this many targets before they are used. Targets are searched in Morton order, which
- * jumps around in the caller's arrays. */
+/* The elements of the caller's arrays are prefetched this many targets before they are used. Targets are searched in
+ * Morton order, so the processor cannot predict the next element. */
 #define PREFETCH_AHEAD 4
 
 typedef struct target_batch {

@@ -6,9 +6,10 @@
  *
  * Idea: for k <= 32 a sorted array of keys. A key is a neighbour's squared distance as a double, with its lowest five
  * bits replaced by the number of the slot that holds the neighbour. So moving one double moves the neighbour. Insertion
- * shifts keys by minimum and maximum, without branches and two at a time. A key is off by at most 2^-47 of itself.
- * Neighbours whose keys differ by less are compared exactly. During the search only the last key must belong to the
- * right neighbour, because it limits the search. The other neighbours are sorted exactly at the end.
+ * shifts keys by minimum and maximum, without branches and two at a time. A key differs from the squared distance by at
+ * most 2^-47 of it. Neighbours whose keys are too close to decide are compared exactly. During the search, only the
+ * last key must be that of the right neighbour, the farthest of k, because this neighbour limits the search. The other
+ * neighbours are sorted exactly at the end.
  *
  * Why not a heap for all k: for small k its unpredictable branches cost more than the shifts. Larger k use a binary
  * heap in the caller's array, farthest on top. Cost for each point kept: O(k) with the array, O(log k) with the heap.
@@ -23,8 +24,8 @@
 #define RARE
 #endif
 
-/* Return the squared distance beyond which nodes are pruned, if points are searched up to the squared distance
- * `square`. */
+/* Returns the squared distance beyond which nodes are pruned, if points are searched up to the squared distance
+ * `square`. The result allows for the error of the nodes' distances. */
 static inline double find_node_reach(const neighbor_heap *h, double square)
 {
     if (!(h->node_error > 0))
@@ -33,7 +34,7 @@ static inline double find_node_reach(const neighbor_heap *h, double square)
     return metric_above(reach * reach);
 }
 
-/* Return the squared distance beyond which points are ignored, if `worst` is the squared distance of the farthest of k
+/* Returns the squared distance beyond which points are ignored, if `worst` is the squared distance of the farthest of k
  * neighbours. FAST mode drops the tolerance for points only: nodes keep it, because the bound of epsilon and the order
  * of siblings (nearest.c) depend on it. */
 static inline double find_point_reach(const neighbor_heap *h, double worst)
@@ -41,7 +42,7 @@ static inline double find_point_reach(const neighbor_heap *h, double worst)
     return h->how->mode == OCTREE_FAST ? worst : metric_above(worst);
 }
 
-static bool keeps_few_neighbors(const neighbor_heap *h)
+static bool has_few_slots(const neighbor_heap *h)
 {
     return h->k <= FEW_NEIGHBORS;
 }
@@ -104,26 +105,26 @@ static double make_slot_key(double square, unsigned place)
     return square;
 }
 
-/* Return a limit: a neighbour with a smaller square or key is certainly nearer than the neighbour with `key`. Two keys
- * are off by at most 2^-47 of themselves each, and metric_below() allows 2^-47 and 2^-998 for the errors of the
+/* Returns a limit: a neighbour whose square or key is smaller is certainly nearer than the neighbour with `key`. Each
+ * of two keys is off by at most 2^-47 of itself, and metric_below() allows 2^-47 and 2^-998 for the errors of the
  * squares; 2^-45 is more than this sum. */
-static double find_certainly_nearer_limit(double key)
+static double certainly_nearer_limit(double key)
 {
     return key * (1 - 0x1p-45) - 0x1p-998;
 }
 
-static RARE bool is_nearer(const neighbor_heap *h, const octree_point *point, double square, unsigned place)
+static RARE bool is_nearer_than_slot(const neighbor_heap *h, const octree_point *point, double square, unsigned place)
 {
     return compare_neighbors(h, point, square, h->few.points[place], h->few.squares[place]) < 0;
 }
 
-/* Compare the neighbours of two keys with exact arithmetic. */
+/* Compare the neighbours of two keys, by exact arithmetic if the keys are too close to decide. Returns -1 or 1. */
 static int compare_keys(const neighbor_heap *h, double a, double b)
 {
     const unsigned place = find_slot_of_key(a);
-    if (a < find_certainly_nearer_limit(b))
+    if (a < certainly_nearer_limit(b))
         return -1;
-    return is_nearer(h, h->few.points[place], h->few.squares[place], find_slot_of_key(b)) ? -1 : 1;
+    return is_nearer_than_slot(h, h->few.points[place], h->few.squares[place], find_slot_of_key(b)) ? -1 : 1;
 }
 
 /* Insert a key in ascending order and drop the key at index `last`. Each key becomes the median of itself, its
@@ -149,12 +150,12 @@ static inline void insert_key(double *keys, size_t last, double key)
 #endif
 }
 
-/* The keys of the last neighbours may be too close to decide which neighbour is farthest. Move the key of the farthest
- * neighbour, by exact comparison, to the end. */
-static RARE void move_farthest_to_end(const neighbor_heap *h, double *keys, size_t last)
+/* The last keys may be too close to decide which neighbour is farthest. Find the farthest neighbour by exact
+ * comparison, and move its key to the end. */
+static RARE void move_exact_farthest_to_end(const neighbor_heap *h, double *keys, size_t last)
 {
     size_t farthest = last;
-    const double close = find_certainly_nearer_limit(keys[last]);
+    const double close = certainly_nearer_limit(keys[last]);
     for (size_t i = last - 1; keys[i] >= close; i--)
         farthest = compare_keys(h, keys[farthest], keys[i]) < 0 ? i : farthest;
     const double key = keys[farthest];
@@ -167,7 +168,8 @@ static RARE void move_farthest_to_end(const neighbor_heap *h, double *keys, size
 static inline bool is_nearer_than_farthest(const neighbor_heap *h, const octree_point *point, double square,
                                            double farthest)
 {
-    return square < find_certainly_nearer_limit(farthest) || is_nearer(h, point, square, find_slot_of_key(farthest));
+    return square < certainly_nearer_limit(farthest) ||
+           is_nearer_than_slot(h, point, square, find_slot_of_key(farthest));
 }
 
 static inline bool is_rejected(const neighbor_heap *h, const octree_point *point, double square)
@@ -181,28 +183,29 @@ static inline void insert_neighbor(few_neighbors *f, const octree_point *point, 
 {
     f->points[place] = point;
     f->squares[place] = square;
-    /* A square that is too large or NaN becomes METRIC_FINITE. */
+    /* in the key, a square that is too large or NaN becomes METRIC_FINITE */
     insert_key(f->keys, last, make_slot_key(square < METRIC_FINITE ? square : METRIC_FINITE, place));
 }
 
-/* Once k neighbours are found, move the key of the farthest to the end. Returns a limit: a point with a smaller square
- * is certainly nearer than the farthest. */
-static inline double settle_farthest(neighbor_heap *h, size_t last)
+/* Once k neighbours are found, move the key of the farthest neighbour to the end. Returns a limit: a point with a
+ * smaller square is certainly nearer than the farthest neighbour. */
+static inline double move_farthest_key_to_end(neighbor_heap *h, size_t last)
 {
     double *keys = h->few.keys;
-    if (keys[last - 1] >= find_certainly_nearer_limit(keys[last]))
-        move_farthest_to_end(h, keys, last);
-    return find_certainly_nearer_limit(keys[last]);
+    if (keys[last - 1] >= certainly_nearer_limit(keys[last]))
+        move_exact_farthest_to_end(h, keys, last);
+    return certainly_nearer_limit(keys[last]);
 }
 
-/* Returns whether a point whose square does not decide is nearer than the farthest of k neighbours. */
+/* Returns whether a point is nearer than the farthest of k neighbours, whose key is keys[last]. Called if the point's
+ * square is not below the limit that move_farthest_key_to_end() returned. */
 static inline bool is_nearer_than_last(const neighbor_heap *h, const octree_point *point, double square, size_t last)
 {
     const unsigned place = find_slot_of_key(h->few.keys[last]);
-    return !(square > find_point_reach(h, h->few.squares[place])) && is_nearer(h, point, square, place);
+    return !(square > find_point_reach(h, h->few.squares[place])) && is_nearer_than_slot(h, point, square, place);
 }
 
-/* Keep points until there are k neighbours. Returns the points that were not offered yet, as bits. */
+/* Keep points until there are k neighbours. Returns the bit mask of the points that were not examined. */
 static inline uint64_t fill_few_neighbors(neighbor_heap *h, const octree_point *points, const double squares[],
                                           uint64_t within)
 {
@@ -225,7 +228,7 @@ static void add_to_few_neighbors(neighbor_heap *h, const octree_point *points, c
         within = fill_few_neighbors(h, points, squares, within);
     if (h->count < h->k)
         return;
-    for (double certain = settle_farthest(h, last); within; within &= within - 1) {
+    for (double certain = move_farthest_key_to_end(h, last); within; within &= within - 1) {
         const unsigned i = bits_lowest(within);
         const double square = squares[i];
         if (!(square < certain) && !is_nearer_than_last(h, &points[i], square, last))
@@ -233,7 +236,7 @@ static void add_to_few_neighbors(neighbor_heap *h, const octree_point *points, c
         if (h->is_filtered && !is_accepted(h, &points[i], square))
             continue;
         insert_neighbor(&h->few, &points[i], square, last, find_slot_of_key(h->few.keys[last]));
-        certain = settle_farthest(h, last);
+        certain = move_farthest_key_to_end(h, last);
     }
     h->worst = h->few.squares[find_slot_of_key(h->few.keys[last])];
     h->point_reach = find_point_reach(h, h->worst);
@@ -244,7 +247,7 @@ static bool are_certainly_ascending(const double *keys, size_t count)
 {
     bool ascend = true;
     for (size_t i = 1; i < count; i++)
-        ascend &= keys[i - 1] < find_certainly_nearer_limit(keys[i]);
+        ascend &= keys[i - 1] < certainly_nearer_limit(keys[i]);
     return ascend;
 }
 
@@ -259,8 +262,9 @@ static void sort_keys(const neighbor_heap *h, double *keys)
     }
 }
 
-/* Sort the neighbours exactly and store them in the caller's array, with their squares. Returns true if the roots of
- * the squares are accurate distances in ascending order, and are stored instead. */
+/* Sort the neighbours exactly and store them in the caller's array. Returns true if the stored `distance` is the final
+ * distance: the square roots are then accurate and ascend. Otherwise `distance` holds the square, and the function
+ * returns false. */
 static bool sort_few_neighbors(neighbor_heap *h)
 {
     double *keys = h->few.keys + FEW_FIRST;
@@ -350,7 +354,7 @@ static void sort_heap(const neighbor_heap *h)
 
 /* ---- Any number of neighbours --------------------------------------------------------------------------------- */
 
-void neighbor_heap_limit(neighbor_heap *h, double radius)
+void neighbor_heap_set_radius(neighbor_heap *h, double radius)
 {
     const double scaled = radius * h->metric.scale;
     h->radius = radius;
@@ -365,7 +369,7 @@ void neighbor_heap_add(neighbor_heap *h, const octree_point *points, const doubl
     if (h->k == 1)
         for (; within; within &= within - 1)
             keep_if_nearest(h, &points[bits_lowest(within)], squares[bits_lowest(within)]);
-    else if (keeps_few_neighbors(h))
+    else if (has_few_slots(h))
         add_to_few_neighbors(h, points, squares, within);
     else
         add_to_heap(h, points, squares, within);
@@ -397,8 +401,8 @@ double greatest_group_minimum(const double squares[], unsigned count)
 #endif
 }
 
-/* Sort by the distances themselves. In FAST mode squares may underflow or round to the same double, so the order of the
- * squares may differ from the order of the distances. */
+/* Sort the neighbours again, by their distances. In FAST mode squares may underflow or round to the same double, so the
+ * order of the squares may differ from the order of the distances. */
 static RARE void sort_by_distance(neighbor_heap *h)
 {
     for (size_t i = 0; i < h->count; i++) {
@@ -415,7 +419,7 @@ void neighbor_heap_sort(neighbor_heap *h)
     double before = 0;
     if (h->count == 0)
         return;
-    if (!keeps_few_neighbors(h))
+    if (!has_few_slots(h))
         sort_heap(h);
     else if (sort_few_neighbors(h))
         return;

@@ -11,9 +11,9 @@
 
 #include <stddef.h>
 
-/* Up to 32 neighbours in numbered slots. The key of a neighbour is its square, with the lowest FEW_BITS bits replaced
- * by its slot number. The keys ascend, with one exception: the last of k keys belongs to the neighbour that is farthest
- * by exact comparison. */
+/* Up to 32 neighbours in numbered slots. A "square" is a scaled squared distance from the target. The key of a
+ * neighbour is its square, with the lowest FEW_BITS bits replaced by the number of its slot. The keys ascend, with one
+ * exception: the last of k keys is the key of the neighbour that is farthest by exact comparison. */
 #define FEW_BITS 5
 #define FEW_NEIGHBORS (1 << FEW_BITS)
 /* The index of the first key. The elements before it are smaller sentinels, so that insertion in pairs may run past the
@@ -28,12 +28,13 @@ typedef struct few_neighbors {
 typedef struct neighbor_heap {
     metric metric;
     const octree_search *how;
-    bool is_filtered; /* some points are skipped, or the distance is limited */
+    bool is_filtered; /* true: some points are skipped, or the distance is limited */
     double radius;    /* the search radius; negative: the distance is not limited */
     double radius_square;
-    double shrink; /* 1 / (1 + epsilon)^2, rounded up: a node is pruned if its square exceeds the farthest square times
-                      this factor */
-    double worst;  /* the squared distance of the farthest neighbour, once k neighbours are found */
+    /* 1 / (1 + epsilon)^2, rounded up: a node is pruned if its squared distance exceeds the squared distance of the
+     * farthest of k neighbours times this factor */
+    double shrink;
+    double worst; /* the squared distance of the farthest of k neighbours; not valid before k neighbours are found */
     double point_reach; /* a point with a greater scaled squared distance is not among the k nearest */
     double node_error;  /* the greatest error of the distances of nodes */
     double node_reach;  /* a node with a greater scaled squared distance contains none of the k nearest */
@@ -43,8 +44,8 @@ typedef struct neighbor_heap {
     few_neighbors few; /* if k <= FEW_NEIGHBORS, holds the neighbours in place of `items` until the end of the search */
 } neighbor_heap;
 
-/* Limit the distance of neighbours to a radius. neighbor_heap_begin() calls this function. */
-void neighbor_heap_limit(neighbor_heap *h, double radius);
+/* Limit the distance of neighbours to `radius`. neighbor_heap_begin() calls this function. */
+void neighbor_heap_set_radius(neighbor_heap *h, double radius);
 
 /* Start a search for the k nearest neighbours. The caller has set h->metric and h->node_error. If `radius` is negative,
  * the distance is not limited. `room` is the caller's array of k neighbours. */
@@ -60,19 +61,19 @@ static inline void neighbor_heap_begin(neighbor_heap *h, const octree_search *ho
     h->count = 0;
     h->k = k;
     if (radius >= 0)
-        neighbor_heap_limit(h, radius);
+        neighbor_heap_set_radius(h, radius);
     for (int i = 0; k > 1 && i < FEW_FIRST; i++)
         h->few.keys[i] = -1;
 }
 
-/* Divide the squares into NEIGHBOR_GROUPS groups and return the greatest of the groups' minima. At least
- * NEIGHBOR_GROUPS squares do not exceed this bound. No square is NaN, because points of the world are finite. */
+/* Divide the squares into NEIGHBOR_GROUPS groups. Returns the greatest of the groups' minima: at least NEIGHBOR_GROUPS
+ * squares, one of each group, do not exceed this value. No square is NaN, because points of the world are finite. */
 #define NEIGHBOR_GROUPS 8
 double greatest_group_minimum(const double squares[], unsigned count);
 
-/* Return a limit: a point with a greater squared distance is not among the k nearest. `squares` are the squared
- * distances of `count` points that will be offered next, `least` is the least of them. Before the first neighbour is
- * found, a bound of the k-th least of these squares is a limit too. */
+/* Returns a limit: a point with a greater squared distance is not among the k nearest. `squares` are the squared
+ * distances of the `count` points that will be offered next, and `least` is the least of these squares. Before the
+ * first neighbour is found, an upper bound of the k-th least of these squares is such a limit. */
 static inline double neighbor_heap_reach(const neighbor_heap *h, const double squares[], unsigned count, double least)
 {
     double reach = h->point_reach;
@@ -83,18 +84,18 @@ static inline double neighbor_heap_reach(const neighbor_heap *h, const double sq
     return reach < h->point_reach ? reach : h->point_reach;
 }
 
-/* Offer some of up to 64 points: those of the bit mask `within`. A point is kept if it is among the k nearest and not
- * skipped. */
+/* Offer the points whose bit is set in the mask `within`; there are at most 64 points. A point is kept if it is among
+ * the k nearest so far and not skipped. */
 void neighbor_heap_add(neighbor_heap *h, const octree_point *points, const double squares[], uint64_t within);
 
-/* Returns whether the root of a square that was computed without scaling is accurate: the square is far from overflow
- * and underflow. */
+/* Returns whether the square root of a squared distance is accurate, because the squared distance is far from overflow
+ * and underflow. The squared distance must not be scaled. */
 static inline bool is_root_accurate(double square)
 {
     return 0x1p-900 < square && square < 0x1p900;
 }
 
-/* Returns the root of a positive number. sqrt() would also check for a negative number, to set errno. */
+/* Returns the square root of a positive number. sqrt() would also check for a negative number, to set errno. */
 static inline double positive_root(double square)
 {
 #ifdef OCTREE_SSE2
@@ -115,7 +116,7 @@ static inline double neighbor_distance(const neighbor_heap *h, const octree_poin
 /* Sort the neighbours by distance, id and position. Replace their squares by distances. */
 void neighbor_heap_sort(neighbor_heap *h);
 
-/* Store the results in the caller's array. A single neighbour needs no sorting. */
+/* Store the results in the caller's array, sorted and with distances. A single neighbour needs no sorting. */
 static inline void neighbor_heap_finish(neighbor_heap *h)
 {
     if (h->k > 1) {

@@ -3,8 +3,8 @@
 #include "../exact/float_mode.h"
 #include "region.h"
 
-/* Squared distances from the ball's centre to the parts of a cell, along each axis. Index 0 stands for the lower half
- * of the cell, index 1 for the upper half. Selecting a half by an index avoids an unpredictable branch. */
+/* On each axis, squared distances from the ball's centre to the parts of a cell. The last index is 0 for the lower half
+ * of the cell and 1 for the upper half: selecting a half by an index avoids an unpredictable branch. */
 typedef struct ball_cell {
     double center[3];  /* the cell's centre, in units in which the world extends from -1 to 1 */
     double near[3];    /* the squared distance from the ball's centre to the nearest coordinate in the cell */
@@ -83,8 +83,9 @@ static uint64_t scan_ball_points(const void *shape, const octree_point *points, 
     return found;
 }
 
-/* Compare the root's cell with the ball. Bit 0 of each returned mask stands for the root's cell itself. */
-static octant_masks measure_root(ball *b, const octree *tree)
+/* Compare the root's cell with the ball, and store its distances in b->cells[0]. Returns masks whose bit 0 stands for
+ * the root's cell itself. */
+static octant_masks compare_root_with_ball(ball *b, const octree *tree)
 {
     ball_cell *c = &b->cells[0];
     double near = 0, far = 0;
@@ -120,7 +121,7 @@ static void search_ball(const octree *tree, const double center[3], double radiu
     /* Lengths are scaled before they are added, because their sum may overflow. */
     b.whole = metric_below(square_length(radius * tree->scale + how->epsilon * tree->scale));
     region r = {tree, &b, enter_ball_cell, scan_ball_points, visit, context, .meter.how = how};
-    region_search(&r, measure_root(&b, tree));
+    region_search(&r, compare_root_with_ball(&b, tree));
 }
 
 octree_status octree_radius(const octree *tree, const double center[3], double radius, const octree_search *how,

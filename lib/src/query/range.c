@@ -6,8 +6,8 @@
 
 #include <stdlib.h>
 
-/* Return the box with its faces moved outwards by epsilon. The result is rounded inwards, so that no point farther out
- * than epsilon counts as inside. */
+/* Returns the box with its faces moved outwards by epsilon. The faces are rounded inwards, so that a point that is
+ * farther than epsilon from the box on any axis is never inside. */
 static octree_box widen_box(const octree_box *box, double epsilon)
 {
     octree_box wide;
@@ -19,8 +19,8 @@ static octree_box widen_box(const octree_box *box, double epsilon)
 }
 
 /* Visit the points in a valid box, or count them if `visit` is null. Returns the count. */
-static size_t search_box(const octree *tree, const octree_box *box, const octree_search *how,
-                         octree_point_visitor visit, void *context)
+static size_t visit_or_count_box(const octree *tree, const octree_box *box, const octree_search *how,
+                                 octree_point_visitor visit, void *context)
 {
     const octree_box wide = widen_box(box, how->epsilon);
     box_shape shape = box_shape_make(tree, box, how->epsilon > 0 ? &wide : box);
@@ -41,7 +41,7 @@ octree_status octree_range_search(const octree *tree, const octree_box *box, con
     if (status == OCTREE_OK)
         status = check_search_options(&search);
     if (status == OCTREE_OK)
-        search_box(tree, box, &search, visit, context);
+        visit_or_count_box(tree, box, &search, visit, context);
     return status;
 }
 
@@ -58,12 +58,11 @@ octree_status octree_range_count(const octree *tree, const octree_box *box, size
     *count = 0;
     const octree_status status = tree ? check_box(box) : OCTREE_NULL_ARGUMENT;
     if (status == OCTREE_OK)
-        *count = search_box(tree, box, &(octree_search){0}, NULL, NULL);
+        *count = visit_or_count_box(tree, box, &(octree_search){0}, NULL, NULL);
     return status;
 }
 
-/* ---- Results in an array
- * ------------------------------------------------------------------------------------------ */
+/* ---- Results in an array ------------------------------------------------------------------------------------- */
 
 typedef struct collection {
     octree_point *points;
@@ -79,7 +78,7 @@ static bool collect_first(const octree_point *point, void *context)
     return true;
 }
 
-/* Restore the heap order after the top was replaced. The greatest point is on top. */
+/* Restore the order of a heap with the greatest point on top, after the top was replaced. */
 static void sink_in_heap(octree_point *heap, size_t count)
 {
     for (size_t at = 0, child; (child = 2 * at + 1) < count; at = child) {
@@ -98,8 +97,9 @@ static int compare_reversed(const void *a, const void *b)
     return octree_compare_points(b, a);
 }
 
-/* An octree_point_visitor: keep the `room` smallest points. When the array is full it is sorted in descending order,
- * which makes it a heap with the greatest point on top. From then on each smaller point replaces the top. */
+/* An octree_point_visitor: keep the `room` smallest points. When the array becomes full, it is sorted in descending
+ * order, so that it is a heap with the greatest point on top. From then on, a point that is smaller than the top
+ * replaces the top. */
 static bool collect_smallest(const octree_point *point, void *context)
 {
     collection *c = context;

@@ -24,7 +24,7 @@ typedef struct descent {
     const node *queue[QUEUE_ROOM];
 } descent;
 
-/* Visit every point in and below a node. False if the visitor stopped the search. */
+/* Visit every point in and below a node. Returns false if the visitor stopped the search. */
 static bool visit_points_below(region *r, const node *n)
 {
     const unsigned children = bits_count8(n->octants);
@@ -42,7 +42,7 @@ static bool visit_points_below(region *r, const node *n)
 
 static bool visit_whole_node(region *r, const node *n, octree_address address)
 {
-    meter_count_whole_node(&r->meter, address);
+    meter_record_taken(&r->meter, address);
     if (r->visit)
         return visit_points_below(r, n);
     r->count += n->count;
@@ -92,15 +92,15 @@ static void enter_inner_node(descent *d, const node *n, octree_address address, 
     frame *f = &d->frames[++d->depth];
     *f = (frame){n, address, masks.meets & n->octants, masks.inside};
     prefetch_children(f);
-    meter_prune(&r->meter, address, n->octants & ~masks.meets);
+    meter_record_pruned(&r->meter, address, n->octants & ~masks.meets);
 }
 
-/* Visit a node that meets the region. False if the visitor stopped the search. */
+/* Visit a node that meets the region. Returns false if the visitor stopped the search. */
 static bool visit_node(descent *d, const node *n, octree_address address, unsigned octant, bool inside)
 {
     if (inside)
         return visit_whole_node(d->region, n, address);
-    meter_visit(&d->region->meter, address);
+    meter_record_visited(&d->region->meter, address);
     if (n->octants == 0)
         return queue_leaf(d, n);
     enter_inner_node(d, n, address, octant);
@@ -133,9 +133,9 @@ void region_search(region *r, octant_masks root)
     if (root.meets & 1)
         descend_from_root(r, root);
     else
-        meter_prune_root(&r->meter);
+        meter_record_pruned_root(&r->meter);
     end_callbacks(begun);
-    meter_report(&r->meter);
+    meter_add_to_cost(&r->meter);
 }
 
 /* ---- A closed box ------------------------------------------------------------------------------------------- */
@@ -151,9 +151,9 @@ static key_box find_box_keys(const octree *tree, const octree_box *box)
     return keys;
 }
 
-/* Return the keys of `box`, changed so that a cell lies inside `box` if all its keys are strictly between them. On an
- * axis where the lower face of `box` is a grid plane, the cell that begins at this plane is inside, so the key is
- * lowered by 1. */
+/* Returns the keys of `box`, adjusted for cells: a cell lies inside `box` if all keys of the cell are strictly between
+ * the adjusted keys. On an axis where the lower face of `box` is a grid plane, the cell that begins at this plane is
+ * inside, so the key is lowered by 1. */
 static key_box find_enclosing_keys(const octree *tree, const octree_box *box, key_box keys)
 {
     for (int i = 0; i < 3; i++)
@@ -214,7 +214,7 @@ typedef struct twin_box {
     __m128d min[3], max[3];
 } twin_box;
 
-/* Return a mask of two bits, one for each point: the bit is set if the point is in the box. */
+/* Returns a mask of two bits, one for each point: the bit is set if the point is in the box. */
 static inline uint64_t scan_point_pair(const twin_box *box, const double a[3], const double b[3])
 {
     const __m128d xy_a = _mm_loadu_pd(a), xy_b = _mm_loadu_pd(b);
@@ -228,7 +228,8 @@ static inline uint64_t scan_point_pair(const twin_box *box, const double a[3], c
     return (uint64_t)_mm_movemask_pd(inside);
 }
 
-/* If the count is odd, the last pair overlaps the pair before it, so no branch depends on the parity. */
+/* Returns a bit mask of the points in the box. Points are compared in pairs; if the count is odd, the last pair
+ * overlaps the previous pair, so that no branch depends on the parity. */
 static uint64_t scan_points_in_pairs(const octree_box *box, const octree_point *points, unsigned count)
 {
     twin_box twin;

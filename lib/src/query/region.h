@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* region.h - visiting the points in a region of space: a box, a ball, or the volume that a moving box sweeps. Private.
+/* region.h - visits the points in a region of space: a box, a ball, or the volume that a moving box sweeps. Private.
  *
  * The traversal of the nodes is the same for all regions; a region supplies a `shape` with two functions, enter and
  * scan. The traversal is depth first. A shape keeps state for the current cell of each depth, so that a child's state
@@ -33,25 +33,26 @@ typedef struct region {
     meter meter;
 } region;
 
-/* Visit or count the points in a region and report the cost. Bit 0 of each mask in `root` stands for the root's cell
- * itself. */
+/* Visit or count the points in a region and report the cost. `root` describes the root's cell itself, by bit 0 of each
+ * mask. */
 void region_search(region *r, octant_masks root);
 
 /* ---- A closed box ------------------------------------------------------------------------------------------- */
 
 /* A box of integer keys (plane.h), so that cells are compared with integers. A key ascends with its coordinate. On each
- * axis, a point is inside if its key is strictly between the keys of the two faces, and outside if its key is not
- * between them; if the keys are equal, the coordinates decide. A face at or beyond the world's face has a key one
- * beyond all other keys. */
+ * axis, a point is inside if its key is strictly between the keys of the box's two faces, and outside if its key is
+ * beyond one of them. If its key equals the key of a face, the coordinates decide. A face at or beyond the world's face
+ * has a key that no coordinate in the world has: -1 or PLANE_GRID. */
 typedef struct key_box {
     int32_t min[3], max[3];
 } key_box;
 
 typedef struct box_shape {
     const octree_box *box;
-    key_box near;                     /* the box itself: cells that do not meet it are pruned */
-    key_box whole;                    /* the box widened by epsilon: nodes whose cell is inside it are taken whole */
-    int32_t low[OCTREE_MAX_DEPTH][3]; /* the lowest keys of the current cell at each depth */
+    key_box near; /* the keys of the box: a cell that does not meet this box is pruned */
+    /* the keys of the box widened by epsilon: a node whose cell is inside this box is taken whole */
+    key_box whole;
+    int32_t low[OCTREE_MAX_DEPTH][3]; /* low[d]: the lowest keys of the current cell of depth d */
 } box_shape;
 
 /* Make the shape of a box. `whole` is the same box, or the box widened by epsilon; it decides which nodes are taken

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* search.h - functions that all queries share: argument checks, and counting and tracing the visited nodes. Private. */
+/* search.h - what all queries share: checks of arguments, and a meter that counts the work of a search and traces its
+ * nodes. Private. */
 #ifndef OCTREE_SEARCH_H
 #define OCTREE_SEARCH_H
 
@@ -11,7 +12,7 @@
 
 #define SCAN_POINTS 64 /* the greatest number of points of a leaf that are compared in one call */
 
-/* Return a copy of *how, or the default options if `how` is null. */
+/* Returns a copy of *how, or the default options if `how` is null. */
 octree_search search_or_default(const octree_search *how);
 
 /* Check that a position is finite. Returns OK or NOT_FINITE. */
@@ -37,24 +38,25 @@ static inline octree_status check_search_options(const octree_search *how)
 /* Check a box. Returns OK, NULL_ARGUMENT, NOT_FINITE (a NaN) or BAD_RANGE (min > max). */
 octree_status check_box(const octree_box *box);
 
-/* Whether `size` bytes hold printable ASCII characters and a final zero. */
+/* Returns whether `text` consists of printable ASCII characters and ends with a zero byte within `size` bytes. */
 bool is_printable_text(const char *text, size_t size);
 
-/* The maximum of two numbers that are not NaN. fmax() would be a function call. */
+/* Returns the larger of two numbers that are not NaN. fmax() would be a function call. */
 static inline double larger(double a, double b)
 {
     return a > b ? a : b;
 }
 
-/* Return true if a square is compared as a double, without exact arithmetic. This is the case in FAST mode, unless the
- * square overflowed. */
+/* Returns whether a squared distance is compared as a double, without exact arithmetic. This is the case in FAST mode,
+ * unless the squared distance overflowed. */
 static inline bool is_compared_as_double(octree_mode mode, double square)
 {
     return mode == OCTREE_FAST && square < HUGE_VAL;
 }
 
-/* Whether a point is within a radius. `square` is the scaled squared distance of the point, `radius_square` the scaled
- * squared radius. The caller has already excluded points that are certainly outside the radius. */
+/* Returns whether a point lies within `radius` of the metric's target. `square` is the scaled squared distance of the
+ * point, `radius_square` the square of the scaled radius. The caller has already excluded points that are certainly
+ * outside the radius. */
 static inline bool is_within_ball(const metric *m, octree_mode mode, const octree_point *point, double square,
                                   double radius, double radius_square)
 {
@@ -65,7 +67,7 @@ static inline bool is_within_ball(const metric *m, octree_mode mode, const octre
     return metric_compare_radius(m->target, point->position, radius) <= 0;
 }
 
-/* A context for visit_unless_self(), which calls `visit` for all points except `self`. */
+/* The context of visit_unless_self(), an octree_point_visitor that calls `visit` for every point except `self`. */
 typedef struct collision {
     const octree_point *self; /* the colliding point itself, which is skipped; may be null */
     octree_point_visitor visit;
@@ -81,41 +83,42 @@ typedef struct meter {
     const octree_search *how;
 } meter;
 
-static inline void meter_trace(const meter *m, octree_address address, octree_trace_kind kind)
+static inline void meter_call_tracer(const meter *m, octree_address address, octree_trace_kind kind)
 {
     if (m->how->trace)
         m->how->trace(address, kind, m->how->trace_context);
 }
 
-/* Record a node whose children or points are examined one by one. */
-static inline void meter_visit(meter *m, octree_address address)
+/* Count and trace a node whose children or points are examined one by one. */
+static inline void meter_record_visited(meter *m, octree_address address)
 {
     m->count.nodes++;
-    meter_trace(m, address, OCTREE_TRACE_VISITED);
+    meter_call_tracer(m, address, OCTREE_TRACE_VISITED);
 }
 
-/* Record a node that is taken whole, because it is inside the region. */
-static inline void meter_count_whole_node(meter *m, octree_address address)
+/* Count and trace a node that is taken whole, because its cell is inside the region. */
+static inline void meter_record_taken(meter *m, octree_address address)
 {
     m->count.taken++;
-    meter_trace(m, address, OCTREE_TRACE_TAKEN);
+    meter_call_tracer(m, address, OCTREE_TRACE_TAKEN);
 }
 
-/* Record that the children in these octants are pruned, with all nodes below them. */
-static inline void meter_prune(meter *m, octree_address parent, unsigned octants)
+/* Count and trace children that are pruned, with all nodes below them. `octants` is a bit mask of the octants of the
+ * children. */
+static inline void meter_record_pruned(meter *m, octree_address parent, unsigned octants)
 {
     m->count.pruned += bits_count8(octants);
     if (m->how->trace)
         for (unsigned octant = 0; octant < 8; octant++)
             if (octants >> octant & 1)
-                meter_trace(m, parent << 3 | octant, OCTREE_TRACE_PRUNED);
+                meter_call_tracer(m, parent << 3 | octant, OCTREE_TRACE_PRUNED);
 }
 
-/* Record that the root is pruned, so that no node is visited. */
-static inline void meter_prune_root(meter *m)
+/* Count and trace the root as pruned; no node is visited then. */
+static inline void meter_record_pruned_root(meter *m)
 {
     m->count.pruned++;
-    meter_trace(m, OCTREE_ROOT, OCTREE_TRACE_PRUNED);
+    meter_call_tracer(m, OCTREE_ROOT, OCTREE_TRACE_PRUNED);
 }
 
 static inline void add_cost(octree_cost *sum, const octree_cost *cost)
@@ -127,8 +130,8 @@ static inline void add_cost(octree_cost *sum, const octree_cost *cost)
     sum->taken += cost->taken;
 }
 
-/* Add the counts to the caller's octree_cost. */
-static inline void meter_report(const meter *m)
+/* Add the counts to the caller's octree_cost, if the caller wants the cost. */
+static inline void meter_add_to_cost(const meter *m)
 {
     if (m->how->cost)
         add_cost(m->how->cost, &m->count);

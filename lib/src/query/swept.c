@@ -5,25 +5,30 @@
  * visits far too many nodes. The exact test of one point (sweep.h) is too slow for every point.
  *
  * Idea: three tests, from cheap to exact: the box around the step by integer keys, the convex hull of the step by
- * doubles with an error bound, and sweep_touches() for points that neither decides.
+ * doubles with an error bound, and sweep_touches() for the points that the hull's error bound leaves undecided.
  *
- * The box position +- r moves from a by d. It sweeps a zonotope: a convex body whose faces are the six of the box
- * around the step and up to six more, whose normals are perpendicular to d and to one axis. In the plane of the axes i
- * and j the normal is (-d_j, d_i), and a point p lies between the two faces if
+ * The box position +- r moves from a by d. On its way it covers a convex body (a zonotope) with up to twelve faces: the
+ * six faces of the box around the step, and up to three pairs of parallel faces whose normals are perpendicular to d
+ * and to one axis. A pair whose normal lies in the plane of the axes i and j has the normal (-d_j, d_i), and a point p
+ * lies between the two faces if
  *
  *     |side(p)| <= r (|d_i| + |d_j|) = R,    side(p) = d_i (p_j - a_j) - d_j (p_i - a_i).
  *
- * If d_i or d_j is 0, the box around the step implies this already.
+ * If d_i or d_j is 0, every point in the box around the step fulfils this condition.
  *
  * Error bound. Everything is scaled by a power of two that brings step, positions and world below 8. The scaling has an
  * error below 2^-1074. Let u = 2^-53 and S = |d_i| far_j + |d_j| far_i + R, where far_i is the distance on axis i from
- * a to the farther end of the world. For a point, the error of side is at most 5u S (roundings in d, in p - a, in the
- * product, in the sum, and their combination), that of R at most 4u S. For a cell, planes are treated as evenly spaced:
- * side at its lowest corner is that of the world's lowest corner (5u S) plus two products of a key (4u of at most 2S
- * each); four sums of terms of at most 3S add 12u S, in total 33u S. The planes themselves are at most two ulps of the
- * world's coordinates off their ideal position (test_exact_planes); four are used. A band of 128u S, plus those ulps
- * times d, plus 2^-1000 for underflow, on either side of R covers all of this: beyond it a point is certainly outside,
- * within it certainly inside.
+ * a to the farther end of the world.
+ *
+ * For a point, the error of side() is at most 5u S (roundings in d, in p - a, in the product, in the sum, and their
+ * combination), and the error of R is at most 4u S. For a cell, planes are treated as evenly spaced. side() at the
+ * cell's lowest corner is side() at the world's lowest corner (error 5u S) plus two products with a key (each at most
+ * 2S, with an error of 4u times that). Four sums of terms of at most 3S add 12u S. The total is 33u S. The planes
+ * themselves are at most two ulps of the world's coordinates off their ideal position (test_exact_planes); the code
+ * allows four ulps.
+ *
+ * To cover all of these errors, R gets a band of 128u S, plus the four ulps times d, plus 2^-1000 for underflow, on
+ * either side. If |side(p)| is above the band, p is certainly outside; if it is below the band, p is certainly inside.
  */
 #include "../exact/float_mode.h"
 #include "region.h"
@@ -35,8 +40,9 @@ typedef struct hull_faces {
     double step_i, step_j;       /* the components of the step d on the axes i and j */
     double lowest;               /* the value of side() at the world's lowest corner */
     double per_key_i, per_key_j; /* the decrease of side() per key on axis i, and its increase per key on axis j */
-    double reach, whole; /* points and cells farther than `reach`, R plus the error band, are not touched; those nearer
-                          * than `whole`, R minus the error band, are touched. `whole` may be negative */
+    /* reach: R plus the error band; points and cells with a larger |side()| are not touched. whole: R minus the error
+     * band, which may be negative; points and cells with a smaller |side()| lie between the faces */
+    double reach, whole;
 } hull_faces;
 
 typedef struct hull {
@@ -45,7 +51,7 @@ typedef struct hull {
     unsigned face_count; /* 1 if the step changes two coordinates, 3 if it changes three */
 } hull;
 
-/* The largest absolute coordinate on an axis. */
+/* Returns the largest absolute coordinate on an axis. */
 static double largest_coordinate(const axis *a)
 {
     return larger(fabs(a->min), fabs(a->max));
@@ -97,9 +103,9 @@ static hull_faces make_faces(const axis_view view[3], double size, int i, int j)
     };
 }
 
-/* Make the hull of a diagonal step. False for a step along one axis: its hull is the box around the step, and *h is not
- * written. */
-static bool hull_make(hull *h, const octree *tree, const sweep *box)
+/* Make the hull of a diagonal step. Returns false for a step along one axis, and does not write *h: the hull of such a
+ * step is the box around the step. */
+static bool make_hull(hull *h, const octree *tree, const sweep *box)
 {
     bool moves[3];
     for (int i = 0; i < 3; i++)
@@ -121,8 +127,8 @@ static bool hull_make(hull *h, const octree *tree, const sweep *box)
     return true;
 }
 
-/* The octants of a cell that may lie between all pairs of faces, and the octants that certainly lie between them. `low`
- * holds the lowest keys of the cell. */
+/* Returns masks of the octants of a cell: those that may lie between all pairs of faces, and those that certainly lie
+ * between them. `low` holds the lowest keys of the cell. */
 static octant_masks find_hull_octants(const hull *h, const int32_t low[3], unsigned depth)
 {
     const double half = (double)cell_size(depth) / 2, quarter = half / 2;
@@ -162,15 +168,15 @@ static octant_masks enter_swept_cell(void *shape, const octree *tree, unsigned d
 {
     swept_shape *s = shape;
     const octant_masks around = box_shape_enter(&s->around, tree, depth, octant);
-    /* If only one octant meets the box, skip the hull here: the hull is compared with this octant's children
-     * instead. */
+    /* If only one octant meets the box, the hull is not compared with the octants here, but with the octants of that
+     * octant. */
     if ((around.meets & (around.meets - 1)) == 0)
         return (octant_masks){around.meets, 0};
     const octant_masks between = find_hull_octants(&s->hull, s->around.low[depth], depth);
     return (octant_masks){around.meets & between.meets, around.inside & between.inside};
 }
 
-/* Return true if the moving box touches a point that lies in the box around the step. */
+/* Returns whether the moving box touches a point that lies in the box around the step. */
 static bool is_point_touched(const swept_shape *s, const double p[3])
 {
     bool certain = true;
@@ -200,7 +206,7 @@ static void search_swept_box(const octree *tree, const sweep *box, const octree_
     swept_shape shape;
     shape.around = box_shape_make(tree, around, around);
     shape.box = *box;
-    const bool diagonal = hull_make(&shape.hull, tree, box);
+    const bool diagonal = make_hull(&shape.hull, tree, box);
     region r = {tree, &shape, enter_swept_cell, scan_swept_points, visit_unless_self, visitor, .meter.how = how};
     if (!diagonal) { /* for a step along one axis, the box around the step is the exact answer */
         r.enter = box_shape_enter;
