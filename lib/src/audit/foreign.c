@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* foreign.c - checks that the nodes of a foreign index form a forest. It keeps a copy of the current nodes with
- * their depths, kinds and point counts. */
+/* foreign.c - checks that the nodes of a foreign index form a forest, and keeps a copy of the current nodes with their
+ * depths, kinds and point counts. */
 #include "foreign.h"
 #include "../exact/float_mode.h"
 #include "octree/digest.h"
@@ -16,7 +16,7 @@ const char *octree_node_visit_name(octree_node_visit visit)
 }
 
 #define DEPTH_UNKNOWN UINT_MAX
-/* the temporary depth of a node on the path that find_depths() walks, until the real depth is known */
+/* a temporary depth: find_depths() marks with it the nodes on its path, until their real depths are known */
 #define DEPTH_ON_PATH (UINT_MAX - 1)
 
 /* ---- Checks ------------------------------------------------------------------------------------------------- */
@@ -52,7 +52,7 @@ static size_t find_node_place(const list *keys, uint64_t id)
     return first < keys->count && items[first].id == id ? items[first].place : SIZE_MAX;
 }
 
-static octree_status list_node_keys(arena *memory, const octree_foreign_tree *tree, list *keys, size_t *fault)
+static octree_status make_node_keys(arena *memory, const octree_foreign_tree *tree, list *keys, size_t *fault)
 {
     bool sorted = true;
     for (size_t i = 0; i < tree->node_count; i++) {
@@ -76,7 +76,7 @@ static octree_status list_node_keys(arena *memory, const octree_foreign_tree *tr
     return OCTREE_OK;
 }
 
-static octree_status list_node_places(arena *memory, const octree_foreign_tree *tree, list *places, const list *keys,
+static octree_status make_node_places(arena *memory, const octree_foreign_tree *tree, list *places, const list *keys,
                                       size_t *fault)
 {
     for (size_t i = 0; i < tree->node_count; i++) {
@@ -94,12 +94,12 @@ static octree_status list_node_places(arena *memory, const octree_foreign_tree *
     return OCTREE_OK;
 }
 
-/* Find the depths of a node and of its ancestors. The function walks up to an ancestor whose depth is known and
- * marks the nodes on the way. Then it walks back down and sets the depths. If the walk up reaches a marked node,
- * this node is its own ancestor, which is an error. */
-static octree_status find_depths(arena *memory, octree_foreign_place *places, size_t from, list *path)
+/* Find the depths of a node and of its ancestors. The function walks up to an ancestor whose depth is known and marks
+ * the nodes on the way. Then it walks back down and sets the depths. If the walk up reaches a marked node, the marked
+ * node is its own ancestor, which is an error. */
+static octree_status find_depths(arena *memory, octree_foreign_place *places, size_t start, list *path)
 {
-    size_t at = from;
+    size_t at = start;
     path->count = 0;
     for (; at != SIZE_MAX && places[at].depth == DEPTH_UNKNOWN; at = places[at].parent) {
         places[at].depth = DEPTH_ON_PATH;
@@ -117,17 +117,17 @@ static octree_status find_depths(arena *memory, octree_foreign_place *places, si
     return OCTREE_OK;
 }
 
-/* Make a list of the nodes' places, and a list of the nodes' keys sorted by id. Return the error of
- * octree_foreign_check(), and set *fault to the wrong node. */
+/* Make the list `places` of the nodes, and the list `keys` of the nodes' ids and indices, sorted by id. Returns the
+ * status of octree_foreign_check(). On an error, *fault is the index of the wrong node. */
 static octree_status index_nodes(arena *memory, const octree_foreign_tree *tree, list *places, list *keys,
                                  size_t *fault)
 {
     *fault = 0;
     if (!tree->nodes && tree->node_count)
         return OCTREE_NULL_ARGUMENT;
-    octree_status status = list_node_keys(memory, tree, keys, fault);
+    octree_status status = make_node_keys(memory, tree, keys, fault);
     if (status == OCTREE_OK)
-        status = list_node_places(memory, tree, places, keys, fault);
+        status = make_node_places(memory, tree, places, keys, fault);
     octree_foreign_place *items = places->items;
     list path = {0};
     for (size_t i = 0; status == OCTREE_OK && i < places->count; i++) {
@@ -195,8 +195,8 @@ static uint64_t digest_foreign_node(uint64_t digest, const octree_foreign_node *
     return octree_digest_word(digest, (uint64_t)node->precision);
 }
 
-/* Set place->kind to the index of the node's kind in the list of kinds. A new kind is appended to the list. If the
- * list is full, further kinds share its last index. False when there is no memory. */
+/* Set place->kind to the index of the node's kind in the list of kinds. A new kind is appended to the list. If the list
+ * is full, further kinds get the last index of the list. Returns false if memory runs out. */
 static bool assign_node_kind(foreign *f, octree_foreign_place *place)
 {
     const char(*kinds)[OCTREE_NODE_KIND] = f->kinds.items;
@@ -215,8 +215,8 @@ static bool assign_node_kind(foreign *f, octree_foreign_place *place)
     return true;
 }
 
-/* Add to each node's count the points of all its descendants. The walk starts at each leaf and goes up. It continues
- * with the parent of a node only after all children of the parent are done. */
+/* Add to each node's count the points of all its descendants. A walk starts at each leaf and goes up. The walk goes on
+ * to a parent only when the parent's last child is done. */
 static void sum_points_below(foreign *f)
 {
     octree_foreign_place *places = f->places.items;

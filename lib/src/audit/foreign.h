@@ -26,14 +26,15 @@ typedef struct unlisted_point {
     bool held; /* true: the point lies in the box of a leaf that lists no points, so this leaf holds the point */
 } unlisted_point;
 
-/* Whether the current query visited, pruned or hit a foreign node. */
+/* For one foreign node: whether the current query visited, pruned or hit the node. */
 typedef struct foreign_mark {
     /* the number foreign.query of the last query that named the node; if the current query has another number, the
      * other members of the mark are not valid */
     uint64_t query;
     octree_node_visit visit;
     bool reported;
-    /* used only in foreign_set_nodes(): the number of children whose points were not yet added to the node's count */
+    /* used only in foreign_set_nodes(): the number of children whose points are not yet included in the node's count of
+     * points */
     size_t pending;
 } foreign_mark;
 
@@ -63,31 +64,33 @@ typedef struct foreign {
     bool checked;
 } foreign;
 
-/* Copy nodes that octree_foreign_check() accepts, and make the copies the current nodes. False when there is no memory.
- */
+/* Copy nodes that octree_foreign_check() accepts, and make the copies the current nodes. Returns false if memory runs
+ * out. */
 bool foreign_set_nodes(foreign *f, const octree_foreign_tree *tree);
 void foreign_release(foreign *f);
 
-/* The index of the node with this id; SIZE_MAX if no node has the id. */
+/* Returns the index of the node with this id, or SIZE_MAX if no node has the id. */
 size_t foreign_find_node(const foreign *f, uint64_t id);
 
-/* The index, in f->holdings, of the first holding of a point. The holdings of other nodes that list the point
- * follow. */
+/* Returns the index, in f->holdings, of the first holding of a point. The holdings of other nodes that list the point
+ * follow. If no node lists the point, the holding at the returned index, if any, has another id. */
 size_t foreign_find_first_holding(const foreign *f, uint64_t point);
 
-/* Whether a position lies in the box of a node. Position and box are compared with the precision of the node. */
+/* Returns whether a position lies in the box of a node. Position and box are compared with the precision of the
+ * node. */
 bool foreign_node_contains(const octree_foreign_node *node, const double position[3]);
 
-/* Begin a tick: clear everything that the queries of the last tick recorded about nodes. */
+/* Begin a tick: clear everything that was recorded about nodes during the queries of the last tick. */
 void foreign_begin_tick(foreign *f);
 
-/* Find the wrong nodes that can be found without queries. Call this function after all changes of a tick. False when
- * there is no memory. Cost: nothing if neither the nodes nor the tree changed. Else O(n log n), where n is the
- * number of nodes, points and listed ids, and one range search for each leaf that lists no points. */
+/* Find the wrong nodes that can be found without queries. Call this function after all changes of a tick. Returns false
+ * if memory runs out. Cost: O(1) if neither the nodes nor the tree changed; else O(n log n), where n is the number of
+ * nodes, points and listed ids, and one range search for each leaf that lists no points. */
 bool foreign_check_nodes(foreign *f, const audited_points *points);
 
-/* Record which nodes a query visited, pruned and hit. Report the nodes that the query named or pruned wrongly.
- * `answer` is the index of the query's answer among the answers of the tick. False when there is no memory. */
+/* Record which nodes a query visited, pruned and hit. Add to the wrong nodes the nodes that the query named although
+ * they do not exist, and the nodes that it pruned wrongly. `answer` is the index of the query's answer among the
+ * answers of the tick. Returns false if memory runs out. */
 bool foreign_record_query(foreign *f, judge *j, const judged_query *about, size_t answer);
 
 /* Set the pointers and counts of f->state. After this call, the lists must not grow before the next tick. */

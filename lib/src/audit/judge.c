@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* judge.c - judges the answer of a foreign index by the exact answer.
  *
- * The problem: comparing two lists of ids would report right answers as wrong. An index may promise exact answers,
- * answers that are exact for positions rounded to floats, or answers within epsilon. If several neighbours are at the
- * same distance, any of them is right. Some indexes leave out the boundary of a region.
+ * The problem: a plain comparison of two lists of ids would report right answers as wrong. An index may promise exact
+ * answers, answers that are exact for positions rounded to floats, or answers within epsilon. If several neighbours are
+ * at the same distance, any of them is right. Some indexes leave out the boundary of a region.
  *
  * The idea: make two lists of points, the foreign answer and the exact answer. The positions in both lists are exact
  * or rounded, as the index promises.
@@ -15,9 +15,9 @@
  * For neighbours, the distances are compared rank by rank, so that ties need no rule. Squared distances in doubles
  * decide if they differ by more than their error; otherwise exact arithmetic decides (metric.h).
  *
- * If the index promises floats, the exact answer is made again for rounded positions. Rounding moves a point by at
- * most a fixed fraction of the world's largest coordinate. The region is enlarged by this distance. All points in the
- * enlarged region are collected, and their rounded positions decide.
+ * If the index promises answers for floats, the exact answer is made again, for rounded positions. Rounding moves a
+ * point by at most a fixed fraction of the world's largest coordinate. The region is enlarged by this distance. All
+ * points in the enlarged region are collected, and their rounded positions decide.
  *
  * Cost: a sort of both lists; for floats, also one or more searches.
  */
@@ -58,7 +58,7 @@ static void begin_judging(judge_state *s, judge *j, const judged_query *about, o
     j->foreign.count = j->exact.count = 0;
 }
 
-static judged_point judge_point(const judge_state *s, const octree_point *point)
+static judged_point make_judged_point(const judge_state *s, const octree_point *point)
 {
     judged_point p = {.point = *point, .target = s->asked.target};
     for (int i = 0; i < 3; i++)
@@ -105,8 +105,8 @@ static int compare_ranks(const void *a, const void *b)
 
 /* ---- The foreign answer ------------------------------------------------------------------------------------- */
 
-/* Record how the answer is wrong. If a kind with a lower value is already recorded, that kind is kept. `id` is used
- * only for the kinds that name an id. */
+/* Record how the answer is wrong, unless a kind of error with a lower value is already recorded. `id` is the id that is
+ * wrong, for the kinds of error that have one; the lowest id is kept. */
 static void record_wrong_kind(judge_state *s, octree_wrong_kind wrong, uint64_t id)
 {
     octree_judgement *made = s->made;
@@ -144,7 +144,7 @@ static void list_foreign_answer(judge_state *s)
             record_wrong_kind(s, OCTREE_WRONG_UNKNOWN, query->answer[i]);
             continue;
         }
-        judged_point p = judge_point(s, &point);
+        judged_point p = make_judged_point(s, &point);
         if (is_skipped(s, &p))
             record_wrong_kind(s, OCTREE_WRONG_SKIPPED, point.id);
         else
@@ -156,19 +156,19 @@ static void list_foreign_answer(judge_state *s)
 
 /* ---- The exact answer --------------------------------------------------------------------------------------- */
 
-/* List the exact answer for exact positions. The tree has already answered the query for the game, so no search is
- * needed. */
+/* List the exact answer for positions that are not rounded. The tree has already given this answer to the game, so no
+ * search is needed. */
 static void list_exact_answer(judge_state *s)
 {
     const judged_query *about = s->about;
     for (size_t i = 0; !s->failed && i < about->answer->count; i++) {
         judged_point p =
-            judge_point(s, about->exact_points ? &about->exact_points[i] : &about->exact_neighbors[i].point);
+            make_judged_point(s, about->exact_points ? &about->exact_points[i] : &about->exact_neighbors[i].point);
         append_judged_point(s, &s->judge->exact, &p);
     }
 }
 
-/* The largest distance, along one axis, by which rounding to floats moves a point of the world. */
+/* Returns the largest distance, along one axis, by which rounding to floats moves a point of the world. */
 static double largest_rounding_error(const octree *tree)
 {
     double largest = 0;
@@ -181,7 +181,7 @@ static double largest_rounding_error(const octree *tree)
 static bool collect_judged_point(const octree_point *point, void *context)
 {
     judge_state *s = context;
-    judged_point p = judge_point(s, point);
+    judged_point p = make_judged_point(s, point);
     const query_rules *rules = query_rules_of(s->asked.kind);
     const int outside = s->asked.bounds == OCTREE_BOUNDS_OPEN ? 0 : 1;
     if (!is_skipped(s, &p) && (!rules->compare || rules->compare(&s->asked, p.at, 0) < outside))
@@ -189,8 +189,8 @@ static bool collect_judged_point(const octree_point *point, void *context)
     return !s->failed;
 }
 
-/* Collect the points in a ball around the target. The arguments of the search are valid, so only a lack of memory can
- * make the search fail. A failure sets s->failed. */
+/* Collect the points within radius + slack of the target, or all points if this sum is not below DBL_MAX. The arguments
+ * of the search are valid, so only a lack of memory can make the search fail. A failure sets s->failed. */
 static void collect_ball(judge_state *s, double radius, double slack)
 {
     static const octree_box all = {{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}};
@@ -202,8 +202,8 @@ static void collect_ball(judge_state *s, double radius, double slack)
         octree_range(tree, &all, collect_judged_point, s);
 }
 
-/* Search larger and larger balls. Stop when the k-th neighbour in the ball is nearer than every point outside the
- * ball. */
+/* Store the k nearest points, by rounded positions, in the list `exact`. Search larger and larger balls, until the k-th
+ * neighbour in the ball is nearer than every point outside the ball. */
 static void collect_nearest(judge_state *s, double slack)
 {
     const octree_answer *answer = s->about->answer;
@@ -227,8 +227,8 @@ static void collect_nearest(judge_state *s, double slack)
     exact->count = exact->count < k ? exact->count : k;
 }
 
-/* An upper bound of the distance by which rounding moves any point of the world. In space this distance is at most
- * sqrt(3) times the largest rounding along one axis. */
+/* Returns an upper bound of the distance by which rounding moves any point of the world: this distance is at most
+ * sqrt(3) times the largest rounding error along one axis. Returns 0 if positions are not rounded. */
 static double rounding_slack(const judge_state *s)
 {
     return s->rounds ? 2 * largest_rounding_error(s->about->points->tree) : 0;
@@ -236,7 +236,7 @@ static double rounding_slack(const judge_state *s)
 
 /* Visit all points that may lie in the region after the foreign index rounds their positions. The searched box is
  * valid, so the search cannot fail. */
-static void search_region(judge_state *s, octree_point_visitor visit)
+static void visit_region_points(judge_state *s, octree_point_visitor visit)
 {
     const octree_box bound = query_rules_of(s->asked.kind)->bound(&s->asked, rounding_slack(s));
     octree_range(s->about->points->tree, &bound, visit, s);
@@ -249,7 +249,7 @@ static void list_rounded_exact_answer(judge_state *s)
     if (is_neighbor_query(s))
         collect_nearest(s, rounding_slack(s));
     else
-        search_region(s, collect_judged_point);
+        visit_region_points(s, collect_judged_point);
 }
 
 static void find_exact_answer(judge_state *s)
@@ -269,8 +269,8 @@ static void list_wrong_point(judge_state *s, const judged_point *p, size_t *coun
     ++*count;
 }
 
-/* Whether an answer is right both with and without a point. This is so on the boundary of a region with the bounds
- * EITHER and, if `slack` is above 0, within the distance `slack` of the region. */
+/* Returns whether an answer is right both with and without a point. This is so on the boundary of a region with the
+ * bounds EITHER and, if `slack` is above 0, within the distance `slack` of the region. */
 static bool is_point_optional(const judge_state *s, const judged_point *p, double slack)
 {
     return (slack > 0 && query_rules_of(s->asked.kind)->compare(&s->asked, p->at, slack) <= 0) ||
@@ -281,28 +281,29 @@ static bool is_point_optional(const judge_state *s, const judged_point *p, doubl
 static bool count_boundary_point(const octree_point *point, void *context)
 {
     judge_state *s = context;
-    const judged_point p = judge_point(s, point);
+    const judged_point p = make_judged_point(s, point);
     s->boundary += !is_skipped(s, &p) && is_on_boundary(&s->asked, p.at);
     return true;
 }
 
-/* If all wrong points lie on the boundary of the region, find the bounds of the query with which the answer is right.
- * The bounds are EITHER if the answer contains only a part of the points on the boundary. */
+/* All wrong points lie on the boundary of the region: find the bounds with which the answer to the query would be
+ * right. The bounds are EITHER if the answer contains only a part of the points on the boundary. */
 static void find_accepting_bounds(judge_state *s)
 {
     octree_judgement *made = s->made;
     const bool missing = made->on_boundary == OCTREE_WRONG_MISSING;
     s->boundary = 0;
-    search_region(s, count_boundary_point);
+    visit_region_points(s, count_boundary_point);
     made->accepting = (missing ? made->missing_count : made->extra_count) < s->boundary ? OCTREE_BOUNDS_EITHER
                       : missing                                                         ? OCTREE_BOUNDS_OPEN
                                                                                         : OCTREE_BOUNDS_CLOSED;
 }
 
-/* List the points of `from` that are not in `without` as wrong, except optional points. Both lists are sorted by id.
- * `wrong` is the kind of the listed points: MISSING or EXTRA. */
-static void judge_difference(judge_state *s, octree_wrong_kind wrong, const list *from, const list *without,
-                             double slack, size_t *count)
+/* List as wrong the points of the list `from` that are not in the list `without`, except optional points. Both lists
+ * are sorted by id. `wrong` is the kind of error: MISSING or EXTRA. *count is increased by the number of listed
+ * points. */
+static void list_difference_as_wrong(judge_state *s, octree_wrong_kind wrong, const list *from, const list *without,
+                                     double slack, size_t *count)
 {
     const judged_point *items = from->items, *others = without->items;
     bool on_boundary = true;
@@ -325,13 +326,13 @@ static void judge_region(judge_state *s)
 {
     judge *j = s->judge;
     list_sort(&j->exact, sizeof(judged_point), compare_ids);
-    judge_difference(s, OCTREE_WRONG_MISSING, &j->exact, &j->foreign, 0, &s->made->missing_count);
-    judge_difference(s, OCTREE_WRONG_EXTRA, &j->foreign, &j->exact, s->asked.epsilon, &s->made->extra_count);
+    list_difference_as_wrong(s, OCTREE_WRONG_MISSING, &j->exact, &j->foreign, 0, &s->made->missing_count);
+    list_difference_as_wrong(s, OCTREE_WRONG_EXTRA, &j->foreign, &j->exact, s->asked.epsilon, &s->made->extra_count);
 }
 
 /* ---- Neighbours --------------------------------------------------------------------------------------------- */
 
-/* Whether point `a` is too far from the target for the rank it has in the answer. Point `b` is the exact neighbour of
+/* Returns whether point `a` is too far from the target for its rank in the answer. Point `b` is the exact neighbour of
  * this rank and is nearer than `a`. Point `a` may be farther than `b` only by the factor 1 + epsilon. */
 static bool is_too_far(const judge_state *s, const judged_point *a, const judged_point *b)
 {
@@ -359,9 +360,9 @@ static void judge_ranks(judge_state *s, const judged_point *foreign, const judge
         record_wrong_kind(s, OCTREE_WRONG_FARTHER, 0);
 }
 
-/* List the missing and the extra points of a wrong answer for neighbours. A right answer contains all points that
- * are nearer than the last exact neighbour. Its other points are as far as the last exact neighbour. It contains no
- * point that is farther. */
+/* List the missing and the extra points of a wrong answer for neighbours. A right answer contains all points that are
+ * nearer than the last exact neighbour, and no point that is farther. The other points of a right answer are as far as
+ * the last exact neighbour. */
 static void list_wrong_neighbors(judge_state *s)
 {
     const judge *j = s->judge;
@@ -400,9 +401,9 @@ static void judge_neighbors(judge_state *s, size_t given)
 
 /* ---- An answer ---------------------------------------------------------------------------------------------- */
 
-/* Compare the foreign answer with the exact answer. If memory ran out, a list may be incomplete; do nothing then.
- * `given` is the number of ids in the foreign answer. */
-static void compare_lists(judge_state *s, size_t given)
+/* Compare the list of the foreign answer with the list of the exact answer. Do nothing if memory ran out, because a
+ * list may then be incomplete. `given` is the number of ids in the foreign answer. */
+static void compare_foreign_with_exact(judge_state *s, size_t given)
 {
     if (!s->failed && is_neighbor_query(s))
         judge_neighbors(s, given);
@@ -417,7 +418,7 @@ bool judge_answer(judge *j, const judged_query *about, octree_judgement *made)
     begin_judging(&s, j, about, made);
     list_foreign_answer(&s);
     find_exact_answer(&s);
-    compare_lists(&s, about->query->answer_count);
+    compare_foreign_with_exact(&s, about->query->answer_count);
     if (!s.failed && made->on_boundary)
         find_accepting_bounds(&s);
     return !s.failed;
@@ -435,8 +436,8 @@ static void remove_lost_points(list *l, point_test *is_lost, void *context)
     l->count = kept;
 }
 
-/* Replace the foreign answer by all points that a right answer may contain: the points that are at most epsilon
- * farther than the last exact neighbour. */
+/* Replace the foreign answer by all points that a right answer may contain: the points that are at most 1 + epsilon
+ * times as far as the last exact neighbour. */
 static void list_possible_neighbors(judge_state *s)
 {
     const list *exact = &s->judge->exact;
@@ -479,8 +480,9 @@ bool judge_without_lost_points(judge *j, const judged_query *about, point_test *
     if (s.failed || j->foreign.count == j->exact.count)
         return !s.failed;
     list_best_answer(&s, is_lost, context);
-    compare_lists(&s, j->foreign.count);
-    /* only lost points can be missing here: the best answer contains all other points that a right answer needs */
+    compare_foreign_with_exact(&s, j->foreign.count);
+    /* only lost points can be missing here, because the best answer contains all other points that a right answer
+     * needs */
     const octree_point *missed = j->wrong.items;
     for (size_t i = 0; !s.failed && made.wrong && i < made.missing_count; i++)
         s.failed = !report(&missed[listed + i], context);

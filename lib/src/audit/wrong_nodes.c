@@ -3,8 +3,8 @@
  * pruned them wrongly.
  *
  * The problem: indexes differ. An index may store its points anywhere: in leaves, in inner nodes, or in several nodes
- * at once. Its nodes may list their points or not, its boxes may overlap, and its answers may be approximate. A rule
- * of one index does not hold for another, so this file reports only nodes that are wrong in every index.
+ * at once. The nodes of an index may list their points or not, their boxes may overlap, and answers may be approximate.
+ * A rule of one index does not hold for another, so this file reports only nodes that are wrong in every index.
  *
  * The idea: decide which nodes hold a point. A node holds the points that it lists. A leaf that lists nothing holds
  * all points in its box. A point that no node holds is lost.
@@ -12,7 +12,7 @@
  * A query that prunes nodes may lose points. A node that holds a point is excluded if, on the way from this node up to
  * the root, the first node that the query named was pruned. If all nodes that hold the point are excluded, the query
  * loses the point. The prune is wrong only if even the best answer without the lost points is wrong
- * (judge_without_lost_points()). A prune that does no harm is therefore never reported.
+ * (judge_without_lost_points()). So a prune that does no harm to the answer is never reported.
  *
  * Cost: a sort of the listed ids, and one judgement for each query that pruned nodes.
  */
@@ -55,8 +55,8 @@ static octree_foreign_place *foreign_places(const foreign *f)
     return f->places.items;
 }
 
-/* Count a wrong node. While the list has room, also add the node to the list. `place` is the index of the node;
- * SIZE_MAX if the report is about a node that does not exist. False when there is no memory. */
+/* Count a wrong node. While the list has room, also add the node to the list. `place` is the index of the node, or
+ * SIZE_MAX if the error concerns no existing node. Returns false if memory runs out. */
 static bool report_wrong_node(foreign *f, size_t place, octree_wrong_node wrong)
 {
     f->state.wrong[wrong.kind]++;
@@ -69,7 +69,7 @@ static bool report_wrong_node(foreign *f, size_t place, octree_wrong_node wrong)
 
 /* ---- Boxes -------------------------------------------------------------------------------------------------- */
 
-static octree_box rounded_box(const octree_box *box)
+static octree_box round_box_to_floats(const octree_box *box)
 {
     octree_box rounded;
     for (int i = 0; i < 3; i++) {
@@ -83,19 +83,19 @@ bool foreign_node_contains(const octree_foreign_node *node, const double positio
 {
     if (box_contains(&node->box, position) || node->precision == OCTREE_DOUBLES)
         return box_contains(&node->box, position);
-    const octree_box box = rounded_box(&node->box);
+    const octree_box box = round_box_to_floats(&node->box);
     const double rounded[3] = {round_to_float(position[0]), round_to_float(position[1]), round_to_float(position[2])};
     return box_contains(&box, rounded);
 }
 
-/* Whether the box of a child lies in the box of its parent. If the child or the parent has the precision FLOATS, the
- * boxes are compared as floats. */
+/* Returns whether the box of a child lies in the box of its parent. If the child or the parent has the precision
+ * FLOATS, the boxes are compared as floats. */
 static bool is_within_parent(const octree_foreign_node *child, const octree_foreign_node *parent)
 {
     octree_box inner = child->box, outer = parent->box;
     if (child->precision == OCTREE_FLOATS || parent->precision == OCTREE_FLOATS) {
-        inner = rounded_box(&inner);
-        outer = rounded_box(&outer);
+        inner = round_box_to_floats(&inner);
+        outer = round_box_to_floats(&outer);
     }
     return box_contains(&outer, inner.min) && box_contains(&outer, inner.max);
 }
@@ -112,8 +112,8 @@ static bool check_boxes_in_parents(foreign *f)
     return ok;
 }
 
-/* Check the points that a node lists, and report the points that are unknown or outside the node's box. False when
- * there is no memory. */
+/* Check the points that a node lists, and report the points that are unknown or outside the node's box. Returns false
+ * if memory runs out. */
 static bool check_listed_points(foreign *f, const audited_points *points, size_t place)
 {
     const octree_foreign_node *node = foreign_places(f)[place].node;
@@ -141,8 +141,8 @@ static int compare_by_place(const void *a, const void *b)
     return p->place != q->place ? (p->place > q->place) - (p->place < q->place) : (p->id > q->id) - (p->id < q->id);
 }
 
-/* Report the points that a node lists more than once. The reports are sorted by node and then by point; f->holdings
- * is sorted by point. */
+/* Report the points that a node lists more than once. f->holdings is sorted by point, but the reports are sorted by
+ * node and then by point. Returns false if memory runs out. */
 static bool report_repeated_points(foreign *f)
 {
     const foreign_holding *items = f->holdings.items;
@@ -159,7 +159,7 @@ static bool report_repeated_points(foreign *f)
     return ok;
 }
 
-static bool is_listed_by_leaf(const foreign *f, uint64_t point)
+static bool is_listed_by_node(const foreign *f, uint64_t point)
 {
     const size_t first = foreign_find_first_holding(f, point);
     return first < f->holdings.count && ((const foreign_holding *)f->holdings.items)[first].id == point;
@@ -176,11 +176,11 @@ typedef struct holding_search {
     foreign *foreign;
     const audited_points *points;
     const octree_foreign_node *leaf;
-    size_t lost; /* the number of unlisted points for which no leaf was found yet */
+    size_t lost; /* the number of unlisted points for which no leaf that holds them was found yet */
     bool failed; /* true: the memory ran out */
 } holding_search;
 
-static bool is_audited_point(const audited_points *points, uint64_t id)
+static bool is_id_of_key_player(const audited_points *points, uint64_t id)
 {
     return points->own_id && *points->own_id == id;
 }
@@ -190,7 +190,7 @@ static bool collect_unlisted_point(const octree_point *point, void *context)
 {
     holding_search *s = context;
     foreign *f = s->foreign;
-    const bool listed = is_audited_point(s->points, point->id) || is_listed_by_leaf(f, point->id);
+    const bool listed = is_id_of_key_player(s->points, point->id) || is_listed_by_node(f, point->id);
     s->failed =
         !listed && !list_push(f->memory, &f->unlisted, &(unlisted_point){point->id, false}, sizeof(unlisted_point));
     return !s->failed;
@@ -210,8 +210,8 @@ static bool mark_held_point(const octree_point *point, void *context)
     return s->lost > 0;
 }
 
-/* A box that contains every position which, rounded to floats, lies in the box of the leaf. */
-static octree_box enlarged_box(const octree_foreign_node *leaf)
+/* Returns a box that contains every position which, rounded to floats, lies in the box of the leaf. */
+static octree_box enlarge_box_for_floats(const octree_foreign_node *leaf)
 {
     octree_box box = leaf->box;
     for (int i = 0; leaf->precision == OCTREE_FLOATS && i < 3; i++) {
@@ -221,21 +221,21 @@ static octree_box enlarged_box(const octree_foreign_node *leaf)
     return box;
 }
 
-static void mark_points_in_boxes(holding_search *search)
+static void mark_points_held_by_leaves(holding_search *search)
 {
     const octree_foreign_place *places = foreign_places(search->foreign);
     for (size_t i = 0; search->lost > 0 && i < search->foreign->places.count; i++) {
         if (!is_leaf_without_list(&places[i]))
             continue;
-        const octree_box box = enlarged_box(places[i].node);
+        const octree_box box = enlarge_box_for_floats(places[i].node);
         search->leaf = places[i].node;
         /* The box is valid, so the search cannot fail. */
         octree_range(search->points->tree, &box, mark_held_point, search);
     }
 }
 
-/* Report the points that no node holds, sorted by id. False when there is no memory. */
-static bool find_lost_points(foreign *f, const audited_points *points)
+/* Report the points that no node holds, sorted by id. Returns false if memory runs out. */
+static bool report_lost_points(foreign *f, const audited_points *points)
 {
     static const octree_box all = {{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}};
     holding_search search = {.foreign = f, .points = points};
@@ -244,7 +244,7 @@ static bool find_lost_points(foreign *f, const audited_points *points)
     search.lost = f->unlisted.count;
     const unlisted_point *unlisted = f->unlisted.items;
     list_sort(&f->unlisted, sizeof *unlisted, compare_first_words);
-    mark_points_in_boxes(&search);
+    mark_points_held_by_leaves(&search);
     bool ok = !search.failed;
     for (size_t i = 0; ok && search.lost > 0 && i < f->unlisted.count; i++)
         if (!unlisted[i].held)
@@ -272,7 +272,7 @@ void foreign_begin_tick(foreign *f)
         state->visits[kind] = 0;
 }
 
-/* Find the wrong nodes that can be found without queries. False when there is no memory. */
+/* Find the wrong nodes that can be found without queries. Returns false if memory runs out. */
 static bool find_wrong_nodes_without_queries(foreign *f, const audited_points *points)
 {
     octree_foreign_state *state = &f->state;
@@ -284,7 +284,7 @@ static bool find_wrong_nodes_without_queries(foreign *f, const audited_points *p
     for (size_t i = 0; ok && i < f->places.count; i++)
         ok = check_listed_points(f, points, i);
     list_sort(&f->holdings, sizeof(foreign_holding), foreign_compare_keys);
-    f->checked = ok && report_repeated_points(f) && find_lost_points(f, points);
+    f->checked = ok && report_repeated_points(f) && report_lost_points(f, points);
     f->standing = f->wrong.count;
     memcpy(f->standing_counts, state->wrong, sizeof state->wrong);
     f->version = octree_version(points->tree);
@@ -304,7 +304,7 @@ bool foreign_check_nodes(foreign *f, const audited_points *points)
 
 /* ---- Queries ------------------------------------------------------------------------------------------------ */
 
-/* A query that is being recorded, and the foreign nodes that the query names. */
+/* The query that is being recorded, as the context of callbacks. */
 typedef struct node_query {
     foreign *foreign;
     const audited_points *points;
@@ -316,7 +316,7 @@ static foreign_mark *foreign_marks(const foreign *f)
     return f->marks.items;
 }
 
-/* Record that the query visited, pruned or hit the node with this id. False when there is no memory. */
+/* Record that the query visited, pruned or hit the node with this id. Returns false if memory runs out. */
 static bool record_node_visit(const node_query *q, octree_node_visit visit, uint64_t id)
 {
     foreign *f = q->foreign;
@@ -335,8 +335,8 @@ static bool record_node_visit(const node_query *q, octree_node_visit visit, uint
     return list_push(f->memory, &f->visits, &place, sizeof place);
 }
 
-/* On the way from the node at `place` up to the root, find the first node that the query named. If the query pruned
- * this node, return its index: it excludes the node at `place` from the query. Else return SIZE_MAX. */
+/* On the way from the node at `place` up to the root, find the first node that the query named. Returns the index of
+ * this node if the query pruned it: the query then excludes the node at `place`, too. Otherwise returns SIZE_MAX. */
 static size_t find_pruned_ancestor(const foreign *f, size_t place)
 {
     while (place != SIZE_MAX && foreign_marks(f)[place].query != f->query)
@@ -344,8 +344,8 @@ static size_t find_pruned_ancestor(const foreign *f, size_t place)
     return place != SIZE_MAX && foreign_marks(f)[place].visit == OCTREE_NODE_PRUNED ? place : SIZE_MAX;
 }
 
-/* The index of the next node that holds a point; SIZE_MAX if no more nodes hold it. *at must be 0 before the first
- * call. */
+/* Returns the index of the next node that holds a point, or SIZE_MAX if no further node holds the point. *at must be 0
+ * before the first call. */
 static size_t find_next_holding_node(const foreign *f, const octree_point *point, size_t *at)
 {
     const foreign_holding *items = f->holdings.items;
@@ -360,12 +360,13 @@ static size_t find_next_holding_node(const foreign *f, const octree_point *point
     return SIZE_MAX;
 }
 
-/* Whether the query pruned all nodes that hold the point. False if no node holds the point. */
+/* A point_test: returns whether the query excluded all nodes that hold the point by pruning them or an ancestor.
+ * Returns false if no node holds the point. */
 static bool is_point_pruned(const octree_point *point, void *context)
 {
     const node_query *q = context;
     size_t at = 0, holders = 0;
-    if (is_audited_point(q->points, point->id))
+    if (is_id_of_key_player(q->points, point->id))
         return false;
     for (size_t place; (place = find_next_holding_node(q->foreign, point, &at)) != SIZE_MAX; holders++)
         if (find_pruned_ancestor(q->foreign, place) == SIZE_MAX)
@@ -373,8 +374,8 @@ static bool is_point_pruned(const octree_point *point, void *context)
     return holders > 0;
 }
 
-/* Report the nodes that hold a point; the query lost the point because it pruned all of these nodes. For each query, a
- * node is reported only once, with the first lost point. */
+/* A point_visit: report the pruned nodes because of which the query lost a point. For each query, a node is reported
+ * only once, with the first lost point. Returns false if memory runs out. */
 static bool report_pruned_point(const octree_point *point, void *context)
 {
     const node_query *q = context;
