@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* bodies.c - the bodies of a game: a hash table by id, their motion, and the edits of a tick.
  *
- * A body's motion starts at an origin at some tick. Its position is computed from the origin, the velocity and the
- * number of ticks since then, so that rounding errors do not add up. A body that bounces follows a triangle wave
- * between the two faces of the world (reflect_path()). Many moves at once go through octree_move_many(), which is
- * faster than single moves from a few hundred points on.
+ * A body's motion starts at an origin at some tick. The position at a later tick is computed from the origin, the
+ * velocity and the number of ticks since the start, so that rounding errors do not add up. A body that bounces follows
+ * a triangle wave between the two faces of the world (reflect_path()). Many moves at once go through
+ * octree_move_many(), which is faster than single moves from a few hundred points on.
  */
 #include "bodies.h"
 #include "../exact/float_rules.h"
@@ -18,7 +18,8 @@ static size_t find_home_slot(const bodies *b, uint64_t id)
     return (size_t)octree_digest_word(OCTREE_DIGEST_START, id) & (b->slot_count - 1);
 }
 
-/* Return the slot that holds an id, or the empty slot into which the id would be inserted. Requires slot_count > 0. */
+/* Returns the slot that holds an id, or the empty slot into which the id would be inserted. slot_count must be above
+ * 0. */
 static size_t find_body_slot(const bodies *b, uint64_t id)
 {
     size_t slot = find_home_slot(b, id);
@@ -41,7 +42,8 @@ moving_body *bodies_find(const bodies *b, uint64_t id)
     return entry ? &bodies_items(b)[entry - 1] : NULL;
 }
 
-/* Make room for `count` bodies, so that at least half of the slots are empty. False when there is no memory. */
+/* Make room in the hash table for `count` bodies, so that at least half of the slots stay empty. Returns false if
+ * memory runs out. */
 static bool make_room_in_slots(bodies *b, arena *memory, size_t count)
 {
     if (2 * count <= b->slot_count)
@@ -64,8 +66,8 @@ static bool is_moving(const double velocity[3])
     return velocity[0] != 0 || velocity[1] != 0 || velocity[2] != 0;
 }
 
-/* Add a body whose id is not in use. The motion of the body starts now: at its position, at the tick `tick`. False when
- * there is no memory. */
+/* Add a body whose id is not in use. The motion of the body starts at its position, at the tick `tick`. Returns false
+ * if memory runs out. */
 static bool bodies_add(bodies *b, arena *memory, const octree_game_body *body, uint64_t tick)
 {
     if (!make_room_in_slots(b, memory, b->items.count + 1))
@@ -82,8 +84,8 @@ static bool bodies_add(bodies *b, arena *memory, const octree_game_body *body, u
     return true;
 }
 
-/* Empty a slot of the hash table and close the gap that it leaves. Each entry that follows the gap moves into it,
- * unless this would put the entry before the slot of its hash value. */
+/* Empty a slot of the hash table and close the gap. Each entry after the gap moves into the gap, unless the gap lies
+ * before the slot to which the entry's hash value points. */
 static void clear_slot(bodies *b, size_t gap)
 {
     const size_t mask = b->slot_count - 1;
@@ -121,10 +123,10 @@ static void store_body_position(moving_body *body, const double to[3], uint64_t 
     memcpy(body->position, to, sizeof body->position);
 }
 
-/* Fold a straight path into an interval, as if the path were reflected at both ends: a triangle wave with period 2 *
- * (max - min). If the period overflows, the computation uses quarters of all lengths. A path that still overflows stays
- * at `origin`. *direction is 1 if the body moves in the direction of `velocity`, -1 if it moves in the opposite
- * direction, and 0 if it is at rest. */
+/* Returns the position after `ticks` ticks on a path that is reflected at both ends of an interval: a triangle wave
+ * with the period 2 * (max - min). If the period overflows, the computation uses quarters of all lengths. If the path
+ * still overflows, the position is `origin`. *direction is 1 if the body moves in the direction of `velocity`, -1 if it
+ * moves in the opposite direction, and 0 if it is at rest. */
 static double reflect_path(double origin, double velocity, double ticks, double min, double max, int *direction)
 {
     const double straight = origin + velocity * ticks;
@@ -145,8 +147,8 @@ static double reflect_path(double origin, double velocity, double ticks, double 
     return position < min ? min : position > max ? max : position;
 }
 
-/* Compute the position and the velocity of a body on one axis. The faces of the world reflect the body. When the body
- * is at a face, its velocity already points back into the world. */
+/* Compute the position and the velocity of a body on one axis. The faces of the world reflect the body. If the body is
+ * exactly at a face, its velocity is the velocity after the reflection. */
 static void compute_body_on_axis(const moving_body *body, const octree_box *world, double ticks, int axis,
                                  octree_game_body *now)
 {
@@ -159,8 +161,8 @@ static void compute_body_on_axis(const moving_body *body, const octree_box *worl
     now->velocity[axis] = (leaves ? -velocity : velocity) + 0.0; /* adding 0.0 turns -0.0 into 0.0 */
 }
 
-/* Compute the position and velocity of a body at a tick. Most bodies have not reached a face of the world yet; a single
- * test without branches recognizes them. */
+/* Compute the position and velocity of a body at a tick. Most bodies have not reached a face of the world yet; a test
+ * without branches recognizes such bodies. */
 static octree_game_body body_at_tick(const moving_body *body, const octree_box *world, uint64_t tick)
 {
     octree_game_body now = {.id = body->id};
@@ -181,8 +183,8 @@ static void restart_motion(moving_body *body, const octree_box *world, const dou
 {
     const octree_game_body now = body_at_tick(body, world, tick);
     for (int i = 0; i < 3; i++)
-        /* A computed velocity of 0 can also mean that the body is too fast to follow. Such a body keeps its stored
-         * velocity. */
+        /* A computed velocity of 0 can also mean that the body is too fast: its path overflows (reflect_path()). Such a
+         * body keeps its stored velocity. */
         if (now.velocity[i] != 0)
             body->velocity[i] = now.velocity[i];
     memcpy(body->origin, place, sizeof body->origin);
@@ -196,7 +198,7 @@ static void record_changed_position(octree_game *game, const double place[3])
     tree_summary_record_change(&game->summary, &game->memory, game->tree, place);
 }
 
-octree_status game_insert(octree_game *game, const double position[3], uint64_t id)
+octree_status game_insert_point(octree_game *game, const double position[3], uint64_t id)
 {
     const octree_status status = octree_insert(game->tree, position, id);
     if (status == OCTREE_OK)
@@ -204,7 +206,7 @@ octree_status game_insert(octree_game *game, const double position[3], uint64_t 
     return status;
 }
 
-static octree_status game_remove(octree_game *game, const double position[3], uint64_t id)
+static octree_status game_remove_point(octree_game *game, const double position[3], uint64_t id)
 {
     const octree_status status = octree_remove(game->tree, position, id);
     if (status == OCTREE_OK)
@@ -212,7 +214,7 @@ static octree_status game_remove(octree_game *game, const double position[3], ui
     return status;
 }
 
-octree_status game_move(octree_game *game, const double from[3], uint64_t id, const double to[3])
+octree_status game_move_point(octree_game *game, const double from[3], uint64_t id, const double to[3])
 {
     const octree_status status = octree_move(game->tree, from, id, to);
     if (status != OCTREE_OK)
@@ -229,15 +231,15 @@ bool game_record_refusal(octree_game *game, uint64_t id, octree_status why, cons
     return list_push(&game->memory, &game->refusals, &refusal, sizeof refusal);
 }
 
-/* If `status` says that the tree refused an edit, record the refusal in the tick. Returns false if memory runs out, and
- * also if `status` is NO_MEMORY. */
+/* If `status` is an error other than NO_MEMORY, record in the tick that the tree refused the point. Returns false if
+ * memory runs out, and also if `status` is NO_MEMORY. */
 static bool record_if_refused(octree_game *game, uint64_t id, octree_status status, const double position[3])
 {
     return status == OCTREE_OK || (status != OCTREE_NO_MEMORY && game_record_refusal(game, id, status, position));
 }
 
-/* Return the tick at which the motion of an edited body starts. This is the tick before the current one, because a tick
- * applies its edits before it moves the bodies. */
+/* Returns the tick at which the motion of an edited body starts. This is the tick before the current one, because a
+ * tick applies its edits before it moves the bodies. */
 static uint64_t motion_start_tick(const octree_game *game)
 {
     return game->tick.number ? game->tick.number - 1 : 0;
@@ -278,16 +280,16 @@ static bool insert_body(octree_game *game, const octree_game_body *body)
 {
     octree_status status = game_check_body(game, body);
     if (status == OCTREE_OK)
-        status = game_insert(game, body->position, body->id);
+        status = game_insert_point(game, body->position, body->id);
     return game_add_body(game, body, status);
 }
 
 static bool remove_body(octree_game *game, uint64_t id)
 {
-    /* Recorded as the position of a refused removal, because a removal has no position. */
+    /* the position in the refusal of a removal: a removal has no position */
     static const double nowhere[3] = {0, 0, 0};
     moving_body *body = bodies_find(&game->bodies, id);
-    const octree_status status = body ? game_remove(game, body->position, id) : OCTREE_NOT_FOUND;
+    const octree_status status = body ? game_remove_point(game, body->position, id) : OCTREE_NOT_FOUND;
     if (status == OCTREE_OK)
         bodies_remove(&game->bodies, body);
     return record_if_refused(game, id, status, nowhere);
@@ -296,7 +298,7 @@ static bool remove_body(octree_game *game, uint64_t id)
 static bool move_body(octree_game *game, uint64_t id, const double to[3])
 {
     moving_body *body = bodies_find(&game->bodies, id);
-    const octree_status status = body ? game_move(game, body->position, id, to) : OCTREE_NOT_FOUND;
+    const octree_status status = body ? game_move_point(game, body->position, id, to) : OCTREE_NOT_FOUND;
     if (status == OCTREE_OK) {
         store_body_position(body, to, game->tick.number);
         restart_motion(body, &game->session->tree.world, to, motion_start_tick(game));
@@ -329,7 +331,7 @@ typedef struct motion {
 
 #define MOVE_SIZE (sizeof(octree_point) + sizeof(double[3]) + sizeof(octree_status) + sizeof(uint32_t))
 
-/* Allocate the four arrays in one memory block, which begins with the points. False when there is no memory. */
+/* Allocate the four arrays in one memory block, which begins with the points. Returns false if memory runs out. */
 static bool motion_allocate(motion *m, arena *memory, size_t room)
 {
     *m = (motion){.room = room, .points = arena_allocate(memory, room * MOVE_SIZE)};
@@ -370,8 +372,8 @@ static void collect_moves_by_velocity(const octree_game *game, motion *m)
 
 enum { MANY = 256 }; /* from this number of moves on, octree_move_many() is faster than single moves */
 
-/* Move the points in the tree, without changing the bodies. False when there is no memory; some points may have
- * moved. */
+/* Move the points in the tree, without changing the bodies. Returns false if memory runs out; some points may have
+ * moved then. */
 static bool move_points(octree *tree, motion *m)
 {
     if (m->count >= MANY)
@@ -385,7 +387,7 @@ static bool move_points(octree *tree, motion *m)
 }
 
 /* Move the points in the tree and then the bodies. `edited` is true if the moves are edits; an edit restarts the motion
- * of its body. False when there is no memory. */
+ * of its body. Returns false if memory runs out. */
 static bool apply_motion(octree_game *game, motion *m, bool edited)
 {
     bool ok = move_points(game->tree, m);
@@ -419,22 +421,22 @@ static void collect_run_of_moves(octree_game *game, const octree_edit *edits, si
     }
 }
 
-/* Apply a list of edits that are all moves. The list is divided into runs; a run moves no body twice. False when there
- * is no memory. */
+/* Apply a list of edits that are all moves. The list is divided into runs; a run moves no body twice. Returns false if
+ * memory runs out. */
 static bool apply_move_edits(octree_game *game, const octree_edit *edits, size_t count)
 {
     motion m;
     bool ok = motion_allocate(&m, &game->memory, count);
     for (size_t done = 0; ok && done < count; done += m.count ? m.count : 1) {
         collect_run_of_moves(game, edits + done, count - done, &m);
-        /* A run without moves means that the next edit moves an unknown body. apply_edit() refuses such an edit. */
+        /* If a run has no moves, its first edit moves an unknown body. apply_edit() refuses such an edit. */
         ok = m.count > 0 ? apply_motion(game, &m, true) : apply_edit(game, edits + done);
     }
     motion_release(&m, &game->memory);
     return ok;
 }
 
-static size_t count_moves(const octree_edit *edits, size_t count)
+static size_t count_leading_moves(const octree_edit *edits, size_t count)
 {
     size_t moves = 0;
     while (moves < count && edits[moves].kind == OCTREE_EDIT_MOVE)
@@ -446,7 +448,7 @@ bool game_apply_edits(octree_game *game, const octree_input *input)
 {
     bool ok = true;
     for (size_t i = 0, done; ok && i < input->edit_count; i += done) {
-        const size_t moves = count_moves(input->edits + i, input->edit_count - i);
+        const size_t moves = count_leading_moves(input->edits + i, input->edit_count - i);
         done = moves >= MANY ? moves : 1;
         ok = moves >= MANY ? apply_move_edits(game, input->edits + i, moves) : apply_edit(game, input->edits + i);
     }
@@ -478,7 +480,7 @@ bool game_list_movers(octree_game *game)
         /* Show the position that the tree stores. The stored position differs from the computed position if a full leaf
          * refused the move. */
         memcpy(now.position, body->position, sizeof now.position);
-        /* A body that is too fast to follow does not move. */
+        /* A body whose path overflows (reflect_path()) does not move. */
         if (is_moving(now.velocity) && !list_push(&game->memory, &game->movers, &now, sizeof now))
             return false;
     }

@@ -6,8 +6,8 @@
 #include "../tree/pool.h"
 #include "octree/game.h"
 
-/* A body and its motion. The position is computed from the origin of the motion and the number of ticks since its
- * start, not from the previous tick. */
+/* A body and its motion. The position is computed from the origin and the number of ticks since the motion started, not
+ * from the position in the previous tick. */
 typedef struct moving_body {
     uint64_t id;
     double position[3]; /* the position that the tree stores */
@@ -16,7 +16,8 @@ typedef struct moving_body {
     uint64_t since;   /* the tick at which the body was at the position `origin` */
     uint64_t moved;   /* the last tick that moved the body; UINT64_MAX: no tick has moved it */
     double before[3]; /* the position that the tree stored before the tick `moved` */
-    size_t run;       /* the number of the last run of edits that moved the body; 0: no run has moved it */
+    /* the number of the last run of edits that moved the body (see bodies.runs); 0: no run has moved the body */
+    size_t run;
 } moving_body;
 
 typedef struct bodies {
@@ -35,28 +36,28 @@ static inline moving_body *bodies_items(const bodies *b)
     return b->items.items;
 }
 
-/* Find the body with an id. Returns null if there is none. */
+/* Returns the body with an id, or null if no body has the id. The pointer is valid until a body is added or removed. */
 moving_body *bodies_find(const bodies *b, uint64_t id);
 
 /* Insert or move a point in the tree, and record the changed positions for the tree summary. Returns the status of
  * octree_insert() or octree_move(). */
-octree_status game_insert(octree_game *game, const double position[3], uint64_t id);
-octree_status game_move(octree_game *game, const double from[3], uint64_t id, const double to[3]);
+octree_status game_insert_point(octree_game *game, const double position[3], uint64_t id);
+octree_status game_move_point(octree_game *game, const double from[3], uint64_t id, const double to[3]);
 
-/* Add a refusal to the tick. False when there is no memory. */
+/* Add a refusal to the tick. Returns false if memory runs out. */
 bool game_record_refusal(octree_game *game, uint64_t id, octree_status why, const double position[3]);
 
 /* Check whether a body can be inserted. Returns DUPLICATE if its id is in use, NOT_FINITE if its velocity is not
  * finite, otherwise OK. */
 octree_status game_check_body(const octree_game *game, const octree_game_body *body);
 
-/* Add a body after the tree was asked to insert its point and returned `status`. If `status` is OK, the body is added;
- * otherwise a refusal is recorded. False when there is no memory. */
+/* Add a body whose point is already in the tree if `status` is OK. Otherwise record that the body was refused, with
+ * `status` as the reason. Returns false if memory runs out. */
 bool game_add_body(octree_game *game, const octree_game_body *body, octree_status status);
 
-/* The steps of a tick. game_apply_edits() applies the edits in order. game_move_bodies() moves each body by its
- * velocity. game_list_movers() lists the moving bodies as they are after the tick. All three return false when there is
- * no memory. */
+/* The parts of a tick. game_apply_edits() applies the edits in order. game_move_bodies() moves each body by its
+ * velocity. game_list_movers() lists the bodies with a velocity, as they are after the tick. All three return false if
+ * memory runs out. */
 bool game_apply_edits(octree_game *game, const octree_input *input);
 bool game_move_bodies(octree_game *game);
 bool game_list_movers(octree_game *game);

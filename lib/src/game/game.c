@@ -27,12 +27,12 @@ const char *octree_shape_name(octree_shape_kind kind)
 
 /* ---- The collision test --------------------------------------------------------------------------------------
  *
- * The test takes place before the player's step is made. It finds the points that collide with the player at the end
- * of the step, without the player's own point. So a step that collides is never made and need not be undone.
+ * The test takes place before the player's step is made. The test finds the points that collide with the player at the
+ * end of the step, except the player's own point. So a step that collides is never made and need not be undone.
  *
  * If the session has swept collisions, the whole path of the player is tested. A query of the tree finds the points at
- * rest. The bodies that this tick has moved are tested one by one: the tree stores only the end of a body's path, and
- * the path must be taken relative to the player's path.
+ * rest. The bodies that this tick has moved are tested one by one, because the tree stores only the end of a body's
+ * path, but the test needs the whole path, relative to the player's.
  */
 
 static bool was_moved_in_tick(const octree_game *game, const moving_body *body)
@@ -52,19 +52,19 @@ static bool collect_hit(const octree_point *point, void *context)
 }
 
 /* Collect the points of the tree that collide with the player. If the session has swept collisions, bodies that this
- * tick has moved are left out. False when there is no memory. */
+ * tick has moved are left out. Returns false if memory runs out. */
 static bool collect_hit_points(octree_game *game, const octree_point *self)
 {
     const octree_tick *tick = &game->tick;
     const double *from = tick->swept ? tick->from : tick->attempt;
-    const octree_search how = game_search_options(game, &game->tick.hit_cost);
+    const octree_search how = game_make_search_options(game, &game->tick.hit_cost);
     /* The arguments are valid, so the search cannot fail. */
     octree_collide_swept(game->tree, from, tick->attempt, game->session->player.box_size, self, &how, collect_hit,
                          game);
     return !game->out_of_memory;
 }
 
-/* Collect the bodies that this tick has moved and that collide with the player. False when there is no memory. */
+/* Collect the bodies that this tick has moved and that collide with the player. Returns false if memory runs out. */
 static bool collect_hit_moved_bodies(octree_game *game)
 {
     const sweep box = {game->tick.from, game->tick.attempt, game->session->player.box_size};
@@ -83,8 +83,8 @@ static bool collect_hit_moved_bodies(octree_game *game)
     return true;
 }
 
-/* For each hit, in the order of the hits, list the position that its point had before the tick. False when there is no
- * memory. */
+/* For each hit, in the order of the hits, list the position that its point had before the tick. Returns false if memory
+ * runs out. */
 static bool list_hit_origins(octree_game *game)
 {
     const octree_point *hits = game->hits.items;
@@ -100,8 +100,8 @@ static bool list_hit_origins(octree_game *game)
 }
 
 /* Collect the points that collide with the player into `hits`, sorted by id. Without swept collisions, the player's box
- * is tested at the position `to`. With swept collisions, the box is tested on its whole path to `to`. False when there
- * is no memory. */
+ * is tested at the position `to`. With swept collisions, the box is tested on its whole path to `to`. Returns false if
+ * memory runs out. */
 static bool test_collision(octree_game *game, const double to[3])
 {
     octree_tick *tick = &game->tick;
@@ -119,26 +119,27 @@ static bool test_collision(octree_game *game, const double to[3])
 
 /* ---- The player's step -------------------------------------------------------------------------------------- */
 
-/* The direction in which a key moves along an axis: 1, -1 or 0. */
+/* Returns the direction in which a key moves the player along an axis: 1, -1 or 0. */
 static int key_direction(char key, int axis)
 {
     return (key == "dwe"[axis]) - (key == "asf"[axis]);
 }
 
-/* Record that the player's step was refused, so that the player stays. In a session with swept collisions, test again
- * for a player at rest, to find the bodies that move into the player. */
+/* Record that the player's step was refused, so that the player stays where it is. In a session with swept collisions,
+ * repeat the collision test for a player at rest, to find the bodies that move into the player. Returns false if memory
+ * runs out. */
 static bool refuse_player_step(octree_game *game, octree_status why, const double to[3])
 {
     return game_record_refusal(game, game->session->player.id, why, to) &&
            (!game->session->player.sweep || test_collision(game, game->tick.player));
 }
 
-/* Make a step whose end is inside the world and free of hits. A full leaf can still refuse the step. False when there
- * is no memory. */
+/* Make a step whose end is inside the world and free of hits. A full leaf can still refuse the step. Returns false if
+ * memory runs out. */
 static bool make_player_step(octree_game *game, const int64_t steps[3], const double to[3])
 {
     const uint64_t id = game->session->player.id;
-    const octree_status status = game_move(game, game->tick.player, id, to);
+    const octree_status status = game_move_point(game, game->tick.player, id, to);
     if (status != OCTREE_OK)
         return status != OCTREE_NO_MEMORY && refuse_player_step(game, status, to);
     memcpy(game->steps, steps, sizeof game->steps);
@@ -163,8 +164,8 @@ static void store_player_positions(octree_game *game)
     tick->hit_cost = (octree_cost){0};
 }
 
-/* Make the player's step for the tick's key, unless the collision test or the tree prevents it. False when there is no
- * memory. */
+/* Make the player's step for the tick's key, unless the collision test or the tree prevents the step. Returns false if
+ * memory runs out. */
 static bool step_player(octree_game *game)
 {
     store_player_positions(game);
@@ -215,7 +216,7 @@ audited_points game_audited_points(const octree_game *game)
                             .own_id = player->kind == OCTREE_PLAYER_KEYS ? &player->id : NULL};
 }
 
-static bool check_foreign_nodes(octree_game *game, const octree_foreign_tree *replacement)
+static bool replace_and_check_foreign_nodes(octree_game *game, const octree_foreign_tree *replacement)
 {
     const audited_points points = game_audited_points(game);
     return (!replacement || foreign_set_nodes(&game->foreign, replacement)) &&
@@ -223,18 +224,18 @@ static bool check_foreign_nodes(octree_game *game, const octree_foreign_tree *re
 }
 
 /* Check the foreign nodes. Then ask the queries and list the shapes. Queries and shapes of this tick come first.
- * Queries and shapes that belong to every tick follow. False when there is no memory. */
+ * Queries and shapes that belong to every tick follow. Returns false if memory runs out. */
 static bool run_queries_and_list_shapes(octree_game *game, const octree_input *input)
 {
     const octree_input always = session_input(game->session, OCTREE_EVERY_TICK);
-    return check_foreign_nodes(game, input->foreign) && game_run_query_of_key(game) &&
+    return replace_and_check_foreign_nodes(game, input->foreign) && game_run_query_of_key(game) &&
            game_run_queries(game, input->queries, input->query_count) &&
            game_run_queries(game, always.queries, always.query_count) && game_finish_queries(game) &&
            list_shapes(game, input->shapes, input->shape_count) && list_shapes(game, always.shapes, always.shape_count);
 }
 
-/* Store the splits and merges of the tick, and the digest and the statistics of the tree. False when there is no
- * memory. */
+/* Store the splits and merges of the tick, and the digest and the statistics of the tree. Returns false if memory runs
+ * out. */
 static bool summarize_tree(octree_game *game)
 {
     tree_summary *summary = &game->summary;
@@ -251,7 +252,7 @@ static bool summarize_tree(octree_game *game)
     return ok;
 }
 
-/* Set the tick's pointers to the lists. The lists must not grow any more in this tick. */
+/* Set the pointers and counts of octree_tick to the game's lists. The lists must not grow any more in this tick. */
 static void publish_tick(octree_game *game)
 {
 #define PUBLISH(name, shown_count, type)                                                                               \
@@ -282,8 +283,8 @@ static octree_status run_queries_and_publish_tick(octree_game *game, const octre
 
 /* ---- The beginning and the end of a game -------------------------------------------------------------------- */
 
-/* Put the player at its first position, or at the center of the world. The center is a sum of halves, so that nothing
- * overflows. */
+/* Store the player's first position, or the center of the world if the player is not moved by keys, and insert a player
+ * that is moved by keys into the tree. The center is a sum of halves, so that nothing overflows. */
 static octree_status place_player(octree_game *game)
 {
     const octree_player *player = &game->session->player;
@@ -293,7 +294,7 @@ static octree_status place_player(octree_game *game)
     if (player->kind != OCTREE_PLAYER_KEYS)
         return OCTREE_OK;
     memcpy(game->tick.player, player->position, sizeof game->tick.player);
-    return game_insert(game, player->position, player->id);
+    return game_insert_point(game, player->position, player->id);
 }
 
 static octree_status start_game(octree_game *game)
@@ -385,13 +386,13 @@ static void record_edits(octree_tick *tick, const octree_input *input)
     }
 }
 
-static bool play_changes(octree_game *game, const octree_input *input)
+static bool apply_changes(octree_game *game, const octree_input *input)
 {
     record_edits(&game->tick, input);
     return game_apply_edits(game, input) && game_move_bodies(game) && step_player(game);
 }
 
-/* Play one tick. `given` is the input of the tick; if it is null, the session's input is used. */
+/* Play one tick. `given` is the input of the tick; if `given` is null, the session's input is used. */
 static octree_status play_tick(octree_game *game, char key, const octree_input *given)
 {
     if (is_running_callback(game->tree))
@@ -407,7 +408,7 @@ static octree_status play_tick(octree_game *game, char key, const octree_input *
     /* in a gap the player makes no step */
     if (input->gap)
         store_player_positions(game);
-    else if (!play_changes(game, input))
+    else if (!apply_changes(game, input))
         return OCTREE_NO_MEMORY;
     return run_queries_and_publish_tick(game, input);
 }

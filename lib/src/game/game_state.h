@@ -7,8 +7,8 @@
 #include "../audit/foreign.h"
 #include "tree_summary.h"
 
-/* The lists that octree_tick points to. Each row has the name of a list, the member of octree_tick for its item count,
- * and the type of its items. */
+/* The lists to which octree_tick points. Each row has the name of the list here and in octree_tick, the member of
+ * octree_tick that has the number of its items, and the type of its items. */
 #define GAME_SHOWN_LISTS(X)                                                                                            \
     X(hits, hit_count, octree_point)                                                                                   \
     X(refusals, refusal_count, octree_refusal)                                                                         \
@@ -20,8 +20,8 @@
     X(shapes, shape_count, octree_shape)                                                                               \
     X(movers, mover_count, octree_game_body)
 
-/* All lists that are empty at the start of a tick: GAME_SHOWN_LISTS, the positions that the hits had before the tick
- * (only with swept collisions), and the points and neighbours of all answers. */
+/* All lists that are emptied at the start of a tick: GAME_SHOWN_LISTS; hit_from, the positions of the hits before the
+ * tick (only with swept collisions); and the points and neighbours of all answers. */
 #define GAME_LISTS(X)                                                                                                  \
     GAME_SHOWN_LISTS(X)                                                                                                \
     X(hit_from, none, double[3])                                                                                       \
@@ -33,8 +33,8 @@ struct octree_game {
     octree *tree;
     arena memory;
     bodies bodies;
-    /* On each axis, the number of the player's steps up minus steps down. These numbers determine the player's
-     * position. */
+    /* On each axis, the number of steps that the player made upwards minus the number of steps downwards. These numbers
+     * determine the player's position. */
     int64_t steps[3];
     double fastest; /* the largest initial speed of the session's bodies along one axis */
     bool quit;

@@ -8,9 +8,9 @@
 
 /* ---- The queries of a tick ---------------------------------------------------------------------------------- */
 
-/* Judge the foreign answer and the foreign nodes of a query. The exact answer is the last one in game->answers.
- * `points` and `neighbors` are the lengths of the lists of results before this answer was appended. False when there is
- * no memory. */
+/* Judge the foreign answer and the foreign nodes of a query. The exact answer is the last answer in game->answers.
+ * `points` and `neighbors` are the lengths that the two lists of results had before the exact answer was appended.
+ * Returns false if memory runs out. */
 static bool judge_foreign_query(octree_game *game, const octree_query *query, const octree_search *how, size_t points,
                                 size_t neighbors)
 {
@@ -40,7 +40,7 @@ static bool run_game_query(octree_game *game, const octree_query *query, bool by
     octree_answer *answer = list_append(&game->memory, &game->answers, sizeof *answer);
     if (!answer)
         return false;
-    query_run run = {.tree = game->tree, .how = game_search_options(game, NULL), .memory = &game->memory};
+    query_run run = {.tree = game->tree, .how = game_make_search_options(game, NULL), .memory = &game->memory};
     run.points = &game->found_points;
     run.neighbors = &game->found_neighbors;
     run.how.skip = query->at_player ? OCTREE_SKIP_ID : OCTREE_SKIP_NONE;
@@ -67,7 +67,7 @@ bool game_run_query_of_key(octree_game *game)
 
 /* Set the pointers of each answer to its part of the lists of results. The lists must not grow any more in this
  * tick. */
-static void assign_results(octree_game *game)
+static void assign_results_to_answers(octree_game *game)
 {
     const octree_point *points = game->found_points.items;
     const octree_neighbor *neighbors = game->found_neighbors.items;
@@ -96,12 +96,13 @@ static void record_visit(octree_address node, octree_trace_kind touch, void *con
     game->out_of_memory |= !list_push(&game->memory, &game->visits, &visit, sizeof visit);
 }
 
-octree_search game_search_options(octree_game *game, octree_cost *cost)
+octree_search game_make_search_options(octree_game *game, octree_cost *cost)
 {
     return (octree_search){.cost = cost, .trace = record_visit, .trace_context = game};
 }
 
-/* Compare two visits by their nodes. Visits of the same node are ordered: visited, taken whole, pruned. */
+/* Compare two visits by their nodes. Of the visits of one node, those that visited the node come first, then those that
+ * took it whole, then those that pruned it. */
 static int compare_visits(const void *a, const void *b)
 {
     static const int weakness[OCTREE_TRACE_KINDS] = {
@@ -110,7 +111,7 @@ static int compare_visits(const void *a, const void *b)
     return p->node == q->node ? weakness[p->touch] - weakness[q->touch] : compare_addresses(&p->node, &q->node);
 }
 
-static void sort_visits(octree_game *game)
+static void sort_and_merge_visits(octree_game *game)
 {
     octree_tick *tick = &game->tick;
     octree_visit *visits = game->visits.items;
@@ -150,7 +151,7 @@ static bool add_result_leaves(octree_game *game)
     return ok;
 }
 
-static void sort_leaves(octree_game *game)
+static void sort_and_merge_leaves(octree_game *game)
 {
     octree_address *leaves = game->hit_leaves.items;
     size_t kept = 0;
@@ -165,8 +166,8 @@ bool game_finish_queries(octree_game *game)
 {
     if (game->out_of_memory || !add_result_leaves(game))
         return false;
-    assign_results(game);
-    sort_visits(game);
-    sort_leaves(game);
+    assign_results_to_answers(game);
+    sort_and_merge_visits(game);
+    sort_and_merge_leaves(game);
     return true;
 }

@@ -22,7 +22,7 @@ double octree_random_unit(uint64_t *state)
     return (double)(octree_random(state) >> 11) * 0x1p-53;
 }
 
-/* Return a random value with mean 0 and variance 1, between -6 and 6: the sum of twelve uniform values, shifted
+/* Returns a random value with mean 0 and variance 1, between -6 and 6: the sum of twelve uniform values, shifted
  * (Irwin-Hall distribution). */
 static double random_normal(uint64_t *state)
 {
@@ -43,8 +43,8 @@ static void sample_uniform(uint64_t seed, size_t count, double (*rows)[3])
             rows[n][i] = 2 * octree_random_unit(&seed) - 1;
 }
 
-/* Return a normally distributed random value around `center`. A value outside [-1, 1] is drawn again, so that points do
- * not pile up on the faces of the box. */
+/* Returns a normally distributed random value around `center`, in [-1, 1]. A value outside [-1, 1] is drawn again, so
+ * that points do not pile up on the faces of the box. */
 static double random_within(uint64_t *state, double center, double sigma)
 {
     double x;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* session.c - checks a session, finds the input of a tick in it, and loads its bodies. Also defines the paper's
- * session. */
+/* session.c - checks a session, finds the session's input for a tick, and loads the session's bodies. Also defines the
+ * paper's session. */
 #include "session.h"
 #include "../exact/float_mode.h"
 #include "game_state.h"
@@ -88,7 +88,7 @@ octree_status octree_input_check(const octree_input *input)
     return status == OCTREE_OK && input->gap ? check_gap(input->gap) : status;
 }
 
-/* Check the ticks of an array of items; each item begins with its tick. The ticks must ascend. If `distinct` is true,
+/* Check that an array of items is in ascending order of ticks; each item begins with its tick. If `distinct` is true,
  * no two ticks may be equal. */
 static octree_status check_tick_order(const void *items, size_t size, size_t count, bool distinct)
 {
@@ -137,7 +137,7 @@ octree_status game_check_session(const octree_session *s, const octree *tree)
 
 /* ---- The input of a tick ------------------------------------------------------------------------------------ */
 
-/* Return the items that belong to a tick, and store their number in *found. Null if there are none. */
+/* Returns the items that belong to a tick, and stores their number in *found. Returns null if the tick has no items. */
 static const void *find_items_of_tick(const void *items, size_t size, size_t count, uint64_t tick, size_t *found)
 {
     const size_t first = find_item_by_first_word(items, size, count, tick);
@@ -164,8 +164,8 @@ octree_input session_input(const octree_session *s, uint64_t tick)
 
 /* ---- Loading ------------------------------------------------------------------------------------------------ */
 
-/* Store the points of all bodies whose velocity is finite. A body with an infinite or NaN velocity is refused. Returns
- * the number of points. */
+/* Store in points[] the points of all bodies whose velocity is finite; the game refuses the other bodies. Returns the
+ * number of points. Also sets game->fastest. */
 static size_t collect_bodies_of_finite_velocity(octree_game *game, octree_point *points)
 {
     size_t count = 0;
@@ -182,7 +182,8 @@ static size_t collect_bodies_of_finite_velocity(octree_game *game, octree_point 
 }
 
 /* Add the bodies to the game. `statuses` are the results of inserting the points of the bodies into the tree. If an id
- * is a duplicate, its point is already in the tree; this does no harm, because octree_game_create() fails. */
+ * is a duplicate, the tree may already hold the point of the second body; this does no harm, because
+ * octree_game_create() then fails. */
 static octree_status add_bodies(octree_game *game, const octree_status *statuses)
 {
     for (size_t i = 0; i < game->session->body_count; i++) {

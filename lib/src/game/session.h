@@ -5,11 +5,11 @@
 
 #include "octree/game.h"
 
-/* Return the session's input for a tick, or for OCTREE_EVERY_TICK: the edits, queries, shapes, gap and foreign nodes,
+/* Returns the session's input for a tick, or for OCTREE_EVERY_TICK: the edits, queries, shapes, gap and foreign nodes,
  * but not the player's key. Cost: O(log n) for n items in the session. */
 octree_input session_input(const octree_session *session, uint64_t tick);
 
-/* Return true if a key can be the player's key in a tick: any key of game.h except q, which ends the session. */
+/* Returns whether a key is one of the keys of game.h that play a tick: every key except q, which ends the session. */
 bool is_game_key(char key);
 
 /* Check a session. `tree` is the empty tree of the session. Returns the errors that octree_game_create() documents. */

@@ -14,8 +14,8 @@ typedef struct subtree {
     uint64_t sum; /* the sum of digest_node() of all nodes of the subtree */
 } subtree;
 
-/* The state of an update. An update walks the tree in pre-order. All lists are in pre-order too, so one index per list
- * is enough. */
+/* The state of an update. An update walks the tree in pre-order. The lists are in pre-order too, so each list needs
+ * only one index, which never goes back. */
 typedef struct update {
     tree_summary *to;
     arena *memory;
@@ -27,7 +27,7 @@ void tree_summary_record_change(tree_summary *s, arena *memory, const octree *tr
 {
     if (!s->known)
         return;
-    /* If more positions have changed, sorting them costs more than walking the whole tree. */
+    /* If more positions have changed, sorting the positions costs more than walking the whole tree. */
     const bool few = s->touched.count < 64 + tree->root.count / 16;
     const uint64_t code = morton_code(tree->axes, position);
     s->known = few && list_push(memory, &s->touched, &code, sizeof code);
@@ -49,8 +49,9 @@ static void add_inner_node(update *u, octree_address address)
     u->out_of_memory |= !list_push(u->memory, &u->to->inner, &address, sizeof address);
 }
 
-/* Find the subtree with this address in the list of the last update. Returns null if the list has no such subtree. */
-static const subtree *find_subtree_before(update *u, octree_address address)
+/* Find the subtree with this address in the list of the previous update. Returns null if the list has no such
+ * subtree. */
+static const subtree *find_previous_subtree(update *u, octree_address address)
 {
     const subtree *before = u->to->subtrees_before.items;
     const size_t count = u->to->subtrees_before.count;
@@ -59,8 +60,8 @@ static const subtree *find_subtree_before(update *u, octree_address address)
     return u->next_before < count && before[u->next_before].address == address ? &before[u->next_before] : NULL;
 }
 
-/* Return true if a point in the cell with this address has changed since the last update. */
-static bool has_changed(update *u, octree_address address)
+/* Returns whether a point in the cell with this address was inserted or removed since the previous update. */
+static bool has_cell_changed(update *u, octree_address address)
 {
     const uint64_t *codes = u->to->touched.items;
     const size_t count = u->to->touched.count;
@@ -71,7 +72,7 @@ static bool has_changed(update *u, octree_address address)
     return u->next_touched < count && codes[u->next_touched] - first < UINT64_C(1) << below;
 }
 
-static void copy_inner_nodes_before(update *u, const subtree *before)
+static void copy_previous_inner_nodes(update *u, const subtree *before)
 {
     const octree_address *addresses = u->to->inner_before.items;
     for (size_t i = 0; i < before->inner_count; i++)
@@ -83,16 +84,16 @@ static void add_nodes_below(update *u, octree_stats *stats, uint64_t *sum, const
 
 static void add_subtree(update *u, const node *n, octree_address address)
 {
-    const subtree *before = find_subtree_before(u, address);
+    const subtree *before = find_previous_subtree(u, address);
     subtree *made = list_append(u->memory, &u->to->subtrees, sizeof *made);
     if (!made) {
         u->out_of_memory = true;
         return;
     }
     const size_t first_inner = u->to->inner.count;
-    if (before && !has_changed(u, address)) {
+    if (before && !has_cell_changed(u, address)) {
         *made = *before;
-        copy_inner_nodes_before(u, before);
+        copy_previous_inner_nodes(u, before);
     } else {
         *made = (subtree){.address = address};
         add_nodes_below(u, &made->stats, &made->sum, n, address, true);
@@ -138,7 +139,7 @@ static void add_stats(octree_stats *to, const octree_stats *of)
     }
 }
 
-static void swap_lists(list *now, list *before)
+static void swap_and_clear_lists(list *now, list *before)
 {
     const list kept = *before;
     *before = *now;
@@ -150,8 +151,8 @@ bool tree_summary_update(tree_summary *s, arena *memory, const octree *tree)
 {
     update u = {.to = s, .memory = memory};
     uint64_t sum = 0;
-    swap_lists(&s->subtrees, &s->subtrees_before);
-    swap_lists(&s->inner, &s->inner_before);
+    swap_and_clear_lists(&s->subtrees, &s->subtrees_before);
+    swap_and_clear_lists(&s->inner, &s->inner_before);
     if (!s->known || s->capacity != tree->def.leaf_capacity)
         s->subtrees_before.count = 0;
     list_sort(&s->touched, sizeof(uint64_t), compare_first_words);
@@ -170,8 +171,8 @@ bool tree_summary_update(tree_summary *s, arena *memory, const octree *tree)
     return s->known;
 }
 
-/* Append to `out` the addresses of `a` that are not in `b`. False when there is no memory. */
-static bool append_difference(arena *memory, const list *a, const list *b, list *out)
+/* Append to `out` the addresses in `a` that are not in `b`. Returns false if memory runs out. */
+static bool append_missing_addresses(arena *memory, const list *a, const list *b, list *out)
 {
     const octree_address *in_a = a->items, *in_b = b->items;
     for (size_t i = 0, j = 0; i < a->count; i++) {
@@ -187,6 +188,6 @@ static bool append_difference(arena *memory, const list *a, const list *b, list 
 
 bool tree_summary_list_splits_and_merges(const tree_summary *s, arena *memory, list *splits, list *merges)
 {
-    return append_difference(memory, &s->inner, &s->inner_before, splits) &&
-           append_difference(memory, &s->inner_before, &s->inner, merges);
+    return append_missing_addresses(memory, &s->inner, &s->inner_before, splits) &&
+           append_missing_addresses(memory, &s->inner_before, &s->inner, merges);
 }
