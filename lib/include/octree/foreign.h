@@ -33,7 +33,7 @@ typedef struct octree_ids {
     size_t count;
 } octree_ids;
 
-/* Exclusive upper bound of the ids of foreign nodes. Session files store ids as JSON numbers (doubles), which hold
+/* Exclusive upper bound of the ids of foreign nodes. Session files store ids as JSON numbers (doubles), which represent
  * every integer below this bound exactly. */
 #define OCTREE_NODE_ID_LIMIT (UINT64_C(1) << 53)
 
@@ -59,8 +59,7 @@ typedef struct octree_foreign_node {
     octree_precision precision;
 } octree_foreign_node;
 
-/* All nodes of a foreign index. The nodes are valid from tick `tick` until the next tick for which the session gives
- * nodes. */
+/* All nodes of a foreign index, as they are from tick `tick` until the next tick for which the session gives nodes. */
 typedef struct octree_foreign_tree {
     uint64_t tick;
     /* the nodes in any order; null if node_count is 0, which means that the foreign index is empty */
@@ -89,19 +88,19 @@ typedef enum octree_node_visit {
  * OCTREE_NODE_VISITS. */
 const char *octree_node_visit_name(octree_node_visit visit);
 
-/* How a foreign node is provably wrong. A node holds the points that it lists. A leaf whose has_points is false holds
- * all points in its box. */
+/* How a foreign node is provably wrong. In these rules, a node holds the points that it lists, and a leaf whose
+ * has_points is false holds all points in its box. */
 typedef enum octree_wrong_node_kind {
     OCTREE_NODE_OUTSIDE_PARENT, /* the node's box reaches outside its parent's box */
     OCTREE_NODE_UNKNOWN_POINT,  /* the node lists an id that no point has at this tick */
     OCTREE_NODE_OUTSIDE_POINT,  /* the node lists a point that is outside the node's box */
     OCTREE_NODE_REPEATED_POINT, /* the node lists a point more than once */
-    /* no node holds the point. The point of a player that key presses move may be missing */
+    /* no node holds the point. This is no error for a player that key presses move */
     OCTREE_NODE_LOST_POINT,
     OCTREE_NODE_UNKNOWN_NODE, /* a query names the id of a foreign node that does not exist */
     /* A query pruned all nodes that hold a point, although every right answer contains the point. A node counts as
-     * pruned if the query names it as pruned and not as visited. If the query does not name the node, the node counts
-     * as pruned if its nearest named ancestor does. */
+     * pruned if the query names it as pruned and not as visited. A node that the query does not name counts as pruned
+     * if its nearest named ancestor counts as pruned. */
     OCTREE_NODE_PRUNED_POINT,
     OCTREE_WRONG_NODE_KINDS
 } octree_wrong_node_kind;

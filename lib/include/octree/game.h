@@ -5,15 +5,15 @@
  * state before any key press. The order of events within a tick is: edits, points that move by their velocity, the
  * player's step, the collision test, the queries.
  *
- * Without sweep, the collision test looks only at the positions at the end of a tick. So a point and the player may
- * jump over each other in one tick. With octree_player.sweep the test covers the whole path of the player, and the
- * whole path of every body that moves by its velocity or by an edit. The path in a tick is a straight line at constant
- * speed, from the position stored at the end of the previous tick to the position stored at the end of this tick, even
- * for a body that bounces. The path of an inserted body starts at the position of its insertion. The path of a player's
- * step is tested even if the step is then taken back.
+ * Without octree_player.sweep, the collision test looks only at the positions at the end of a tick. So a point and the
+ * player may pass each other in one tick without a collision. With octree_player.sweep the test covers the whole path
+ * of the player, and the whole path of every body that moves by its velocity or by an edit. The path in a tick is a
+ * straight line at constant speed, from the position stored at the end of the previous tick to the position stored at
+ * the end of this tick, even for a body that bounces. The path of an inserted body starts at the position of its
+ * insertion. The path of a player's step is tested even if the step is then taken back.
  *
- * Keys: w/s = +y/-y, d/a = +x/-x, e/f = +z/-z, n asks for the nearest neighbour, . waits, q ends the session (it plays
- * no tick).
+ * Keys: w/s = +y/-y, d/a = +x/-x, e/f = +z/-z, n asks for the nearest neighbour, . waits, q ends the session without
+ * playing a tick.
  */
 #ifndef OCTREE_GAME_H
 #define OCTREE_GAME_H
@@ -33,7 +33,7 @@ typedef struct octree_game_body {
     double velocity[3];
 } octree_game_body;
 
-/* Which point the player is, and what moves it. */
+/* Which point is the player, and what moves the player. */
 typedef enum octree_player_kind {
     OCTREE_PLAYER_KEYS, /* the player is a point of its own, which the game inserts first and key presses move */
     /* The player is the body that has the player's id, as long as this body exists. Edits and its velocity move the
@@ -52,7 +52,7 @@ typedef struct octree_player {
     double step;     /* the distance that the player moves for one key press, >= 0 */
     double box_size; /* half the side of the collision box: the box is position +- box_size on each axis; >= 0 */
     /* true: the collision test covers the whole path of the tick. false: as in the paper, only the end of the player's
-     * step is tested. Such a test finds every collision only if player and point move along one axis, at most 2 *
+     * step is tested. Such a test finds every collision only if player and point move along one axis, by at most 2 *
      * box_size per tick relative to each other */
     bool sweep;
 } octree_player;
@@ -95,8 +95,9 @@ typedef struct octree_shape {
 #define OCTREE_GAP_TEXT 160
 
 /* A tick for which the session has no data, because the recording program lost the data. At this tick nothing is
- * played, asked or shown, even if the session has edits or queries for the tick. The changes that the gap lost come
- * with the next tick. Bodies with a velocity then also move as far as they would have moved in the gap. */
+ * played, asked or shown, even if the session has edits or queries for the tick. The edits of the next tick contain the
+ * changes that were lost in the gap. In the next tick, bodies with a velocity also move as far as they would have moved
+ * in the gap. */
 typedef struct octree_gap {
     uint64_t tick;
     char why[OCTREE_GAP_TEXT]; /* the reason of the gap: printable ASCII with its final zero, at least one character */
@@ -113,7 +114,7 @@ typedef struct octree_sampled {
         uint64_t seed;
     } velocities; /* each component of a velocity is a random number from -speed to speed */
     bool by_points, by_velocities;
-    bool known; /* false: the bodies were not made from seeds, and the other members are not read */
+    bool known; /* true: the bodies were made from these seeds; false: the other members are not read */
 } octree_sampled;
 
 /* The complete input of a game. The game borrows the struct and its arrays: they must outlive the game. */
@@ -171,8 +172,9 @@ typedef enum octree_event {
 /* Returns the name of one event, such as "moved". Returns null unless exactly one known bit is set. */
 const char *octree_event_name(octree_event event);
 
-/* A refusal of a point. Either the tree refused to insert or move the point: at loading, by an edit, by its velocity,
- * or by the player's step into a full leaf. Or an edit names a point that does not exist. */
+/* A refusal of a point. Either the tree refused to insert or move the point: when the bodies were loaded, in an edit,
+ * in a move by the point's velocity, or in the player's step into a full leaf. Or an edit names a point that does not
+ * exist. */
 typedef struct octree_refusal {
     uint64_t id;
     octree_status why;
@@ -181,11 +183,11 @@ typedef struct octree_refusal {
 
 /* A node that the collision test or the queries of a tick visited or pruned. */
 typedef struct octree_visit {
-    /* the node's address in the tree at the time of the search. The player's step comes after the collision test, and
-     * may merge a node that the test visited */
+    /* the node's address in the tree at the time of the search. The player's step is made after the collision test, and
+     * may merge a node that the test visited, so that this node no longer exists */
     octree_address node;
-    /* what the searches did with the node: visited it, took it whole, or pruned it. If searches differ, the first of
-     * these three applies */
+    /* what the searches did with the node. If searches differ: VISITED if one of them visited the node, else TAKEN if
+     * one took it whole, else PRUNED */
     octree_trace_kind touch;
     bool taken; /* true: at least one search took the node whole */
 } octree_visit;
@@ -196,8 +198,8 @@ typedef struct octree_tick {
     uint64_t number;
     char key;        /* the key that was pressed in the tick; 0 at tick 0 */
     unsigned events; /* bit mask of octree_event values */
-    /* false: there is no player. `player`, `attempt` and `from` are then those of the last tick with a player, or, if
-     * no tick had one, the center of the world */
+    /* false: there is no player. `player`, `attempt` and `from` then have the values of the last tick with a player or,
+     * if no tick had a player, are the center of the world */
     bool has_player;
     double player[3]; /* the player's position after the tick */
     /* the player's position in the collision test: the end of the step, even if the step was taken back */
@@ -208,7 +210,7 @@ typedef struct octree_tick {
     double from[3];
     const octree_point *hits; /* the points that collide with the player, sorted by id */
     size_t hit_count;
-    /* the position of each hit before the tick, in the order of `hits`; null if `swept` is false */
+    /* the position that each hit had before the tick, in the order of `hits`; null if `swept` is false */
     const double (*hit_from)[3];
     /* the cost of the collision test. With octree_player.sweep, hit_cost.points includes all bodies that moved */
     octree_cost hit_cost;
@@ -263,8 +265,9 @@ void octree_game_destroy(octree_game *game);
 
 /* Play one tick with this key instead of the key of the session. Errors: NULL_ARGUMENT, BUSY (a visitor, tracer or task
  * of the game's tree is running), BAD_KEY (nothing is played); NO_MEMORY (the game must not be stepped again). Cost:
- * O(queries + v log v) for v visits; O(bodies) if a body has a velocity or with sweep; and if inner nodes changed, 8
- * bytes for each inner node and the points near the changes, or all points after very many changes. */
+ * O(queries + v log v) for v visits. If a body has a velocity or octree_player.sweep is true, add O(bodies). If the
+ * tree changed, add O(inner nodes) to copy their addresses of 8 bytes, and O(points near the changes), or O(all points)
+ * after very many changes. */
 octree_status octree_game_step(octree_game *game, char key);
 
 /* The input of one tick, for a program that makes its session while the game runs. The member `tick` of edits, queries,

@@ -97,7 +97,7 @@ octree_status octree_tune(octree *tree, const octree_mix *mix);
 octree_status octree_insert(octree *tree, const double position[3], uint64_t id);
 
 /* Algorithm 2. Remove the point with this position and id. Nodes whose points now fit one leaf merge. Cost: O(D + M).
- * Errors: NULL_ARGUMENT, NOT_FINITE, OUTSIDE, NOT_FOUND, NO_MEMORY (a merge allocates a leaf); the tree is then
+ * Errors: NULL_ARGUMENT, NOT_FINITE, OUTSIDE, NOT_FOUND, NO_MEMORY (a merge must allocate a leaf); the tree is then
  * unchanged. */
 octree_status octree_remove(octree *tree, const double position[3], uint64_t id);
 
@@ -134,7 +134,8 @@ octree_status octree_remove_many(octree *tree, const octree_point *points, size_
  * a simulation in which nearly all points move at each step, this is the fastest change: no point is looked up.
  *
  * statuses[i] receives the status of points[i], and *inserted the number of points with the status OK. `statuses` and
- * `inserted` may be null. Errors: NULL_ARGUMENT, TOO_MANY, NO_MEMORY, BUSY. The change log ends, as with octree_clear.
+ * `inserted` may be null. Errors: NULL_ARGUMENT, TOO_MANY, NO_MEMORY, BUSY. The change log is discarded, as by
+ * octree_clear.
  *
  * Cost: that of building the tree by octree_insert_many (octree-bench --op frame_100%). Old and new points are in
  * memory at the same time. */
@@ -189,22 +190,23 @@ typedef struct octree_change {
  * inside the visitor return OCTREE_BUSY. */
 typedef void (*octree_change_visitor)(const octree_change *change, void *context);
 
-/* Visit the changes since the cursor, in the order in which they were made, and advance the cursor to the present. The
- * changes of a batch have the order of the batch. Returns true if the changes since the cursor were known and visited.
+/* Visit the changes since the cursor, in the order in which they were made, and advance the cursor past the last
+ * change. The changes of a batch have the order of the batch. Returns true if the changes since the cursor were known
+ * and visited.
  *
- * Returns false if the changes are not known. Nothing is visited, the cursor still advances, and from now on the tree
- * logs its changes. The caller then reads the whole tree. Changes are not known: for a zero cursor or a cursor of
+ * Returns false if the changes are not known. Nothing is visited, but the cursor advances, and from now on the tree
+ * logs its changes. The caller should then read the whole tree. Changes are not known: for a zero cursor or a cursor of
  * another tree; after octree_clear, octree_replace_all, octree_tune, octree_reworld and octree_compact; after a
- * shortage of memory; and if more changes happened since the last call than a quarter of the points (at least 1024).
- * Too many changes also end logging until the next call.
+ * shortage of memory; and if the number of changes since the last call is above 1024 and above a quarter of the number
+ * of points. So many changes also turn logging off until the next call.
  *
- * `log_name` tells this tree's log from all other logs, even from that of a tree that is created later at the same
- * address. It is used if this call starts a log. Give a number other than 0 that no log had before, such as the next
- * number of a sequence with a random start.
+ * `log_name` becomes the name of the log if this call starts one. The name distinguishes this log from all other logs,
+ * also from the log of a tree that is created later at the same address. Give a number other than 0 that no log had
+ * before, such as the next number of a sequence with a random start.
  *
  * A tree logs nothing until the first call. Calls may run beside queries and on many threads, each with its own cursor.
- * Returns false for null. Cost: O(changes visited). A logged change costs some nanoseconds and 64 bytes, up to four
- * times that while the log grows. */
+ * Returns false for null. Cost: O(changes visited). A logged change costs some nanoseconds and 64 bytes, or up to 256
+ * bytes while the log grows. */
 bool octree_changes_since(const octree *tree, size_t log_name, octree_cursor *cursor, octree_change_visitor visit,
                           void *context);
 
@@ -237,13 +239,14 @@ octree_status octree_range(const octree *tree, const octree_box *box, octree_poi
 octree_status octree_range_search(const octree *tree, const octree_box *box, const octree_search *how,
                                   octree_point_visitor visit, void *context);
 
-/* Store the number of points in a closed box in *count; on an error store 0. Nodes inside the box are counted without
- * visiting their children. Errors and cost: those of octree_range. */
+/* Store the number of points in a closed box in *count; on an error store 0. The points of a node inside the box are
+ * counted without visiting the node's children. Errors and cost: those of octree_range. */
 octree_status octree_range_count(const octree *tree, const octree_box *box, size_t *count);
 
 /* Visit every point at a distance of at most `radius` from a centre, in no stated order. The centre may be outside the
  * world. With epsilon > 0 every point within `radius` is visited, and no point beyond radius + epsilon is visited. In
- * FAST mode a distance may be wrong by a factor of 1 + 2^-50 or by 2^-490 of the world's extent, whichever is more.
+ * FAST mode, the distance that is compared with the radius may be wrong by a factor of 1 + 2^-50 or by 2^-490 of the
+ * world's extent, whichever is more.
  *
  * Errors: NULL_ARGUMENT, NOT_FINITE, BAD_SIZE (radius or epsilon < 0), BAD_OPTION. Cost: O(nodes that meet the ball +
  * points in their leaves). */
@@ -278,17 +281,17 @@ octree_status octree_collide_search(const octree *tree, const double center[3], 
 
 /* Swept collision: visit every point that a moving box touches. The box is position +- box_size, and moves in a
  * straight line from the position `from` to the position `to`, both included. Coordinates are compared as real numbers.
- * No point is missed, however long the step is.
+ * No point is missed, however far the box moves.
  *
- * A collision test at the two ends alone finds every point only if the step is along one axis and at most 2 * box_size
- * long. `self` means the same as in octree_collide. The answer is exact whatever the options say.
+ * A collision test at the two ends alone finds every point only if the box moves along one axis, by at most 2 *
+ * box_size. `self` means the same as in octree_collide. The answer is always exact: epsilon and the mode are not used.
  *
  * Errors: as octree_collide_search. Cost: O(nodes that the box touches on its way + points in their leaves). */
 octree_status octree_collide_swept(const octree *tree, const double from[3], const double to[3], double box_size,
                                    const octree_point *self, const octree_search *how, octree_point_visitor visit,
                                    void *context);
 
-/* Store the box that octree_collide searches in *box. On each axis the box extends from the smallest to the largest
+/* Store in *box the box that octree_collide searches. On each axis the box extends from the smallest to the largest
  * double that is within box_size of the centre. Errors: NULL_ARGUMENT, NOT_FINITE, BAD_SIZE (box_size < 0); *box is
  * then unchanged. Cost: O(1). */
 octree_status octree_collision_box(const double center[3], double box_size, octree_box *box);
@@ -303,15 +306,15 @@ octree_status octree_nearest(const octree *tree, const double target[3], octree_
                              octree_neighbor *nearest);
 
 /* Store the k nearest points in neighbors[0 .. *count - 1], ordered by distance, then id, then position. *count is the
- * smaller of k and the number of points that are not skipped; 0 on an error. The array must have room for *count
- * neighbours; it may be null for k = 0.
+ * smaller of k and the number of points that are not skipped; 0 on an error. The array `neighbors` must have room for
+ * this number; it may be null if k is 0.
  *
- * In EXACT mode real distances determine each neighbour. In FAST mode the i-th distance is at most 1 + 2^-50 times the
- * true i-th distance or 2^-490 of the world's extent more than it, whichever is greater.
+ * In EXACT mode real distances determine each neighbour. In FAST mode, the i-th distance is at most the greater of two
+ * bounds: 1 + 2^-50 times the true i-th distance, and the true i-th distance plus 2^-490 of the world's extent.
  *
  * With epsilon > 0 the i-th distance is at most (1 + epsilon) times the true i-th distance. Proof: a node is pruned
  * only if its box is farther than the k-th best distance so far divided by 1 + epsilon. Every point in the node is then
- * that far too, and the k-th best distance only decreases.
+ * at least as far as the box, and the k-th best distance only decreases.
  *
  * Errors: NULL_ARGUMENT, NOT_FINITE, BAD_SIZE (epsilon < 0), BAD_OPTION. k = 0 and an empty tree are no errors. Cost:
  * O(D + M + k log k) on average for points of bounded density, O(n log k) at worst. */
@@ -352,12 +355,12 @@ typedef octree_walk_order (*octree_node_visitor)(const octree_node *node, void *
  * nodes; an empty tree has a root. Errors: NULL_ARGUMENT. Cost: O(nodes). */
 octree_status octree_walk(const octree *tree, octree_node_visitor visit, void *context);
 
-/* Store a description of the node at an address in *node. Errors: NULL_ARGUMENT, NOT_FOUND. Cost: O(D). */
+/* Store in *node a description of the node at an address. Errors: NULL_ARGUMENT, NOT_FOUND. Cost: O(D). */
 octree_status octree_node_at(const octree *tree, octree_address address, octree_node *node);
 
-/* Describe the leaf whose cell contains a position. No point needs to be stored there. If no node exists for the
- * position's octant, describe the deepest node on the path to it. Errors: NULL_ARGUMENT, NOT_FINITE, OUTSIDE. Cost:
- * O(D). */
+/* Store in *node a description of the leaf whose cell contains a position; no point needs to be stored at the position.
+ * If there is no such leaf, describe the deepest node whose cell contains the position. Errors: NULL_ARGUMENT,
+ * NOT_FINITE, OUTSIDE. Cost: O(D). */
 octree_status octree_locate(const octree *tree, const double position[3], octree_node *node);
 
 /* Count the tree's points, nodes, leaves and bytes. Errors: NULL_ARGUMENT. Cost: O(nodes). */
@@ -366,8 +369,8 @@ octree_status octree_statistics(const octree *tree, octree_stats *stats);
 /* Returns the number of points, in O(1). Returns 0 for null. */
 size_t octree_count(const octree *tree);
 
-/* Returns a version number, which changes with every change of the contents. If two calls return the same number,
- * nothing has changed between the calls. Returns 0 for null. */
+/* Returns the version of the tree, a number that every change of the contents changes. If two calls return the same
+ * number, nothing has changed between the calls. Returns 0 for null. */
 uint64_t octree_version(const octree *tree);
 
 /* Returns a digest of the world, the options, the nodes and the points. Equal contents and options give equal digests
@@ -401,9 +404,10 @@ char *octree_address_format(octree_address address, char text[OCTREE_ADDRESS_TEX
  * none of these forms. */
 bool octree_address_parse(const char *text, octree_address *address);
 
-/* Returns the box of the cell at an address, whether or not a node exists there. Plane k of 2^d on an axis is computed
- * by a closed form, which increases with k and never overflows. If all steps of the computation are exact, as in the
- * world [-1000, 1000], the planes are the same as with the paper's (min + max) / 2. Cost: O(D). */
+/* Returns the box of the cell at an address, whether or not a node exists there. At depth d, an axis is divided by the
+ * planes 0 to 2^d. Plane k is computed by a closed form, which increases with k and never overflows. If all steps of
+ * the computation are exact, as in the world [-1000, 1000], the planes are the same as with the paper's (min + max) /
+ * 2. Cost: O(D). */
 octree_box octree_cell_box(const octree_box *world, octree_address address);
 
 #ifdef __cplusplus

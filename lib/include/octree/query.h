@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* query.h - queries as data: a struct for a query of any kind, a struct for its answer, and a table of all kinds of
- * queries.
+/* query.h - queries as data: a struct for a query of any kind, a struct for the answer to such a query, and a table of
+ * the kinds of queries.
  *
  * Session files, games, audits and pictures work on these structs. A program that only searches a tree calls the
  * functions of octree.h instead.
@@ -16,7 +16,7 @@ extern "C" {
 
 /* ---- The tables --------------------------------------------------------------------------------------------- */
 
-/* The types of the rows of OCTREE_QUERY_MEMBER_MAP. The type of a member decides how the member is checked, read,
+/* The types of the members in OCTREE_QUERY_MEMBER_MAP. The type of a member decides how the member is checked, read,
  * written, printed and rounded to floats. */
 typedef enum octree_member_type {
     OCTREE_MEMBER_BOX,      /* octree_box: six numbers, NaN is refused, infinities are allowed */
@@ -26,11 +26,12 @@ typedef enum octree_member_type {
     OCTREE_MEMBER_BOUNDS,   /* octree_bounds; session files may leave it out, which means closed */
 } octree_member_type;
 
-/* Whether the points exactly on the boundary of a region belong to the answer. Real numbers decide, not rounded
- * distances.
+/* Whether points exactly on the boundary of a region belong to the answer. Coordinates and distances are compared as
+ * real numbers, without rounding.
  *
- * CLOSED: they belong to it. OPEN: they do not belong to it, as in an index that tests `distance < radius`. EITHER: the
- * answer of a foreign index may contain any of them; the exact answer contains all. */
+ * CLOSED: such points belong to the answer. OPEN: such points do not belong to the answer, as in an index that tests
+ * `distance < radius`. EITHER: the answer of a foreign index may contain any of these points; the exact answer contains
+ * all of them. */
 typedef enum octree_bounds {
     OCTREE_BOUNDS_CLOSED,
     OCTREE_BOUNDS_OPEN,
@@ -41,9 +42,9 @@ typedef enum octree_bounds {
 /* The name of bounds in session files: "closed", "open" or "either". Null for bounds >= OCTREE_BOUNDS_KINDS. */
 const char *octree_bounds_name(octree_bounds bounds);
 
-/* The members of octree_query and octree_answer that only some kinds of query read. A row has the member, the member's
- * type, and its key in session files. Answers list their members in this order. To add a member, add a row here and a
- * field to both structs. */
+/* The members of octree_query and octree_answer that only some kinds of query read. The columns: the name of the
+ * member's constants, the member, its type, and its key in session files. Answers list their members in this order. To
+ * add a member, add a row here and a field to both structs. */
 #define OCTREE_QUERY_MEMBER_MAP(X)                                                                                     \
     X(BOX, box, BOX, "box")                                                                                            \
     X(TARGET, target, POSITION, "at")                                                                                  \
@@ -123,9 +124,9 @@ const char *octree_query_name(octree_query_kind kind);
 
 #define OCTREE_EVERY_TICK UINT64_MAX
 
-/* A query. A game asks the query at the end of a tick, after all changes of the tree. Queries for neighbours skip the
- * game's player; other queries find the player like any other point. In a tick without a player, queries with at_player
- * are not asked. */
+/* A query. A game asks the query at the end of a tick, after all changes of the tree. Queries for neighbours with
+ * at_player skip the game's player; other queries find the player like any other point. In a tick without a player,
+ * queries with at_player are not asked. */
 typedef struct octree_query {
     uint64_t tick; /* the number of the tick at which the query is asked, or OCTREE_EVERY_TICK */
     octree_query_kind kind;
@@ -136,8 +137,9 @@ typedef struct octree_query {
     size_t k;             /* the number of neighbours to find; if the tree has fewer points, all points are found */
     double radius;        /* the radius of the ball, >= 0 */
     octree_bounds bounds; /* read for boxes and balls: whether the boundary belongs to the answer */
-    /* the points that no answer may contain. NONE skips only the game's player, and only in queries for neighbours.
-     * COINCIDENT skips points at the target, and is an error in a query without a target */
+    /* the points that no answer may contain. NONE: no point is skipped, except the game's player in a query for
+     * neighbours with at_player. COINCIDENT: points at the target are skipped; this is an error in a query without a
+     * target */
     octree_skip skip;
     uint64_t skip_id; /* the id of the skipped points; read only with OCTREE_SKIP_ID */
     double epsilon; /* the permitted error of the answer, finite and >= 0: a ratio for neighbours, a length for regions;
@@ -150,8 +152,8 @@ typedef struct octree_query {
     const uint64_t *answer; /* read if `answered` is true: the ids that the foreign index returned, in any order; null
                                if answer_count is 0 */
     size_t answer_count;
-    /* visits[v]: the ids of the foreign nodes that the query visited, pruned or hit. A game checks by the exact answer
-     * whether pruning a node was wrong, and allows for precision and epsilon */
+    /* visits[v]: the ids of the foreign nodes that the query visited, pruned or hit. A game compares with the exact
+     * answer to check whether the query was wrong to prune a node; the check allows for precision and epsilon */
     octree_ids visits[OCTREE_NODE_VISITS];
 } octree_query;
 
@@ -163,8 +165,8 @@ octree_status octree_query_check(const octree_query *query);
 
 /* ---- Answers ------------------------------------------------------------------------------------------------ */
 
-/* How the answer of a foreign index is wrong. The values are ordered: if an answer is wrong in several ways, the lowest
- * value is reported. */
+/* How the answer of a foreign index is wrong. If an answer is wrong in several ways, the lowest of the values is
+ * reported. */
 typedef enum octree_wrong_kind {
     OCTREE_WRONG_NONE,
     /* the answer contains an id that no point has at this tick, such as the id of a removed point */
@@ -205,8 +207,8 @@ typedef struct octree_judgement {
     const octree_point *missing;
     /* the number of missing points; the recall of the answer is 1 - missing_count / expected */
     size_t missing_count;
-    /* points that the foreign answer contains but no right answer does; sorted like `missing`. UNKNOWN and SKIPPED
-     * points are not in this list */
+    /* points that are in the foreign answer but in no right answer; sorted like `missing`. Ids that are UNKNOWN and
+     * points that are SKIPPED are not in this list */
     const octree_point *extra;
     size_t extra_count;
     /* only for regions: MISSING if points are missing and all of them lie exactly on the boundary of the region; EXTRA
@@ -243,8 +245,9 @@ typedef struct octree_answer {
 } octree_answer;
 
 /* Answer a query outside a game. `player` is the player's position, for a query with at_player; it may be null for
- * other queries. `how` may be null; how->skip and how->epsilon apply if the query itself has none. A foreign answer is
- * not judged. The cost is stored in answer->cost; how->cost is not used. Release the answer with octree_answer_release.
+ * other queries. `how` may be null; how->skip applies if the query's skip is NONE, and how->epsilon if the query's
+ * epsilon is 0. A foreign answer is not judged. The cost is stored in answer->cost; how->cost is not used. Release the
+ * answer with octree_answer_release.
  *
  * Errors: those of octree_query_check and octree_range_search, NULL_ARGUMENT, NO_MEMORY; the answer is then empty. The
  * memory comes from the tree's allocator, which must be safe to call from this thread. */
@@ -252,7 +255,7 @@ octree_status octree_query_answer(const octree *tree, const octree_query *query,
                                   const octree_search *how, octree_answer *answer);
 void octree_answer_release(const octree *tree, octree_answer *answer);
 
-/* Store a box that contains the region of an answer in *bound. Returns false if the result is neighbours, which may lie
+/* Store in *bound a box that contains the region of an answer. Returns false if the result is neighbours, which may lie
  * anywhere. The box of a large ball may be infinite. */
 bool octree_answer_bound(const octree_answer *answer, octree_box *bound);
 

@@ -28,7 +28,7 @@ typedef enum octree_sample_kind {
 /* Returns the name of a kind of distribution, such as "uniform" or "gaussian". Returns null for an unknown kind. */
 const char *octree_sample_name(octree_sample_kind kind);
 
-/* Find the kind of distribution that has this name. Returns false if there is no such kind. */
+/* Store in *kind the kind of distribution that has this name. Returns false if no kind has the name. */
 bool octree_sample_parse(const char *name, octree_sample_kind *kind);
 
 /* Write `count` positions within `box` to `positions`. Each position is a row of three doubles. Errors: NULL_ARGUMENT,

@@ -70,7 +70,7 @@ typedef struct octree_node {
     unsigned depth;
     bool leaf;
     uint8_t octants; /* bit i is set if octant i has a node; 0 for a leaf */
-    /* the box of the node's cell. Its faces inside the world are the planes with which insertion compares
+    /* the box of the node's cell. The faces of this box inside the world are the planes with which insertion compares
      * coordinates */
     octree_box box;
     size_t count; /* the number of points in and below this node */
@@ -133,9 +133,9 @@ typedef struct octree_executor {
 } octree_executor;
 
 /* The value of leaf_capacity with which the tree chooses its capacity itself, as octree_tune does: first when the tree
- * reaches 1024 points, then each time the number of points has doubled. The mix of operations is the mix that was last
- * given to octree_tune, or the default mix. OCTREE_AUTO requires OCTREE_GROW, because a chosen capacity must not cause
- * the tree to refuse a point. The contents of the tree and the chosen capacity determine the nodes. */
+ * reaches 1024 points, then each time the number of points has doubled. The mix of operations (octree_mix) is the mix
+ * that was last given to octree_tune, or the default mix. OCTREE_AUTO requires OCTREE_GROW, because a chosen capacity
+ * must not cause the tree to refuse a point. The contents of the tree and the chosen capacity determine the nodes. */
 #define OCTREE_AUTO (SIZE_MAX - 1)
 
 /* Everything that defines an empty tree. Start from octree_def_default() and change some members. */
@@ -167,7 +167,7 @@ typedef enum octree_skip {
 } octree_skip;
 
 /* How distances are compared. EXACT compares distances as real numbers, FAST compares them as doubles. If two distances
- * differ by less than a rounding error, FAST may take the farther point for the nearer. FAST needs half the
+ * differ by less than a rounding error, FAST may treat the farther point as the nearer one. FAST needs half the
  * instructions where many distances are equal and several neighbours are searched, as on a lattice. For other points
  * FAST is about as fast as EXACT. */
 typedef enum octree_mode {
@@ -175,16 +175,16 @@ typedef enum octree_mode {
     OCTREE_FAST,
 } octree_mode;
 
-/* The work of a query, as counts that are the same on every machine. A query adds to the counts, so that one struct can
- * sum the work of many queries. */
+/* The work of a query, as counts that are the same on every machine. A query adds its work to the counts, so that one
+ * struct can sum the work of many queries. */
 typedef struct octree_cost {
     uint64_t nodes;  /* the number of visited nodes, leaves included */
     uint64_t leaves; /* the number of visited leaves */
     uint64_t points; /* the number of points that were compared with the query one by one */
-    /* the number of nodes that were skipped because their box is out of reach, without their descendants */
+    /* the number of nodes that were skipped because their box is out of reach; their descendants are not counted */
     uint64_t pruned;
     /* the number of nodes whose box is inside the range, so that all their points match without comparison. The other
-     * counts do not include these nodes and their points */
+     * counts do not include these nodes, their descendants and their points */
     uint64_t taken;
 } octree_cost;
 
@@ -201,13 +201,14 @@ typedef enum octree_trace_kind {
  * tracer return OCTREE_BUSY. */
 typedef void (*octree_tracer)(octree_address node, octree_trace_kind kind, void *context);
 
-/* Options of a search. A zeroed struct, or a null pointer to the options, means an exact search that skips no point. */
+/* Options of a search. A struct whose members are all zero, or a null pointer instead of the options, means an exact
+ * search that skips no point. */
 typedef struct octree_search {
     octree_skip skip; /* the points to skip; read only by searches for neighbours */
     uint64_t skip_id; /* the id of the skipped points; read only with OCTREE_SKIP_ID */
     octree_mode mode; /* how distances are compared; boxes are compared exactly in both modes */
     /* the permitted error, finite and >= 0: a ratio for neighbours, a length for ranges; each search function explains
-     * its meaning */
+     * what epsilon means */
     double epsilon;
     octree_cost *cost;   /* the counts to which the work of the search is added; null: do not count */
     octree_tracer trace; /* the function to call for each node that the search reaches; null: do not trace */
