@@ -147,8 +147,9 @@ static const lined_box *find_old_box(const lined_boxes *in, size_t from, const s
     return NULL;
 }
 
-/* Add the next box of the scene. If an equal old box is found from index *old on, the new box takes over its lines, and
- * the old boxes before the found box lose their lines. */
+/* Add the next box of the scene. If an equal old box is found at index *old or later, the new box gets the lines of
+ * this old box. The old boxes that the search skipped are then removed from their lines, and *old becomes the index
+ * after the found box. Returns false if memory runs out. */
 static bool add_box(box_lines *kept, const scene_box *box, size_t *old, bool *changed)
 {
     const lined_box *next = *old < kept->before.count ? &kept->before.items[*old] : NULL,

@@ -30,9 +30,10 @@ static size_t count_same_quads(const quad_list *a, const quad_list *b)
     return same;
 }
 
-/* Returns whether the picture of the first `same` quads should be kept for the next frame. The first `start` of these
- * quads are drawn already. Returns false if keeping the picture would save too little time, or if memory runs out. */
-static bool can_keep_picture(canvas *c, size_t start, size_t same, size_t pixels)
+/* Allocate the buffer in which the picture of the first `same` quads is kept for the next frame. The first `start` of
+ * these quads are drawn already. Returns false if keeping the picture would save too little time, or if memory runs
+ * out. */
+static bool reserve_kept_picture(canvas *c, size_t start, size_t same, size_t pixels)
 {
     if (same - start < WORTH_KEEPING)
         return false;
@@ -51,7 +52,7 @@ size_t canvas_fill_quads(canvas *c, quad_list *quads, uint8_t *indices)
     else
         memset(indices, 0, pixels);
     c->kept_count = kept;
-    if (can_keep_picture(c, start, same, pixels)) {
+    if (reserve_kept_picture(c, start, same, pixels)) {
         fill_quads(quads->items + start, same - start, all, indices);
         memcpy(c->kept, indices, pixels);
         c->kept_count = start = same;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* clip.c - clips quads to a rectangle with the algorithm of Sutherland and Hodgman (1974). The polygon is cut at one
- * side of the rectangle after the other. Each cut walks around the corners, keeps the corners inside, and adds a corner
- * where an edge crosses the side.
+/* clip.c - clips quads to a rectangle with the algorithm of Sutherland and Hodgman (1974). The quad is treated as a
+ * polygon, which is cut at each of the four sides of the rectangle in turn. Each cut walks around the corners, keeps
+ * the corners inside, and adds a corner where an edge crosses the side.
  *
  * All coordinates, also of new corners, are multiples of 1/256 pixel. GL would clip too, but in single precision, and
  * the pixels would depend on the CPU. find_crossing() sorts the two ends of an edge before it divides. So two quads
@@ -12,7 +12,7 @@
  * around its first corner. */
 #include "quads.h"
 
-/* A cut removes at least one corner of a convex polygon and adds two: 4 corners and 4 cuts give at most 8. */
+/* A cut that changes a convex polygon removes at least one corner and adds two: 4 corners and 4 cuts give at most 8. */
 #define MOST_CORNERS 8
 
 typedef struct polygon {
@@ -66,7 +66,8 @@ static void clip_to_bound(polygon *p, int axis, int side, int32_t bound)
     }
 }
 
-/* Split a polygon into quads that share its first corner; the last quad may be a triangle. */
+/* Split a polygon into quads that share the first corner of the polygon. If the last quad has only three different
+ * corners, the last corner is repeated. Returns the number of quads. */
 static int split_into_quads(const polygon *p, const quad *whole, quad pieces[CLIP_PIECES])
 {
     int count = 0;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* context.c - chooses and opens an off-screen GL context. Its helpers load the libraries for all kinds of contexts. */
+/* context.c - chooses and opens an off-screen GL context. context_osmesa.c and context_egl.c load their libraries with
+ * functions of this file. */
 #include "context.h"
 
 #include "cores.h"
@@ -134,8 +135,7 @@ static bool can_start_threads(unsigned wanted)
     return count == wanted;
 }
 
-/* The number of threads that Mesa may start: llvmpipe starts one thread per core, at most 32, and Mesa starts two more
- * for its disk cache. */
+/* llvmpipe starts one thread per core, at most 32. Mesa starts two more threads for its disk cache. */
 void context_limit_threads(void)
 {
     if (!can_start_threads(count_cores() + 2))

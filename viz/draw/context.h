@@ -34,8 +34,8 @@ typedef struct renderer_choice {
 } renderer_choice;
 
 /* A function that is called when DRAW_AUTO falls back to the context `name`: the preferred context `instead_of` is
- * installed but cannot be opened, for the reason `why`. The function is global to the process. By default it is null,
- * and nothing is reported. */
+ * installed but cannot be opened, for the reason `why`. A process has one such function. By default the function is
+ * null, and nothing is reported. */
 typedef void draw_context_report(const char *name, const char *instead_of, const char *why);
 void draw_context_set_report(draw_context_report *report);
 
@@ -49,8 +49,8 @@ struct context {
     draw_context kind;
     void *library; /* handle of the loaded library, set by context_create() */
 
-    /* Make the context current, even if its library reports that it is current already. Contexts of different kinds
-     * share the current context of Mesa, so a library may not notice that another library has changed it. */
+    /* Make the context current, even if its library reports that the context is current already. OSMesa and EGL share
+     * the current context of Mesa, and one library may not notice that the other has changed the current context. */
     bool (*make_current)(context *c);
 
     /* Look up a GL function in this context's own library, because two GL libraries in one process export the same

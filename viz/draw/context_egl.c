@@ -31,7 +31,7 @@ typedef struct egl_context {
     EGLContext mesa;
 } egl_context;
 
-static bool find_egl_functions(egl *egl, void *library)
+static bool load_egl_functions(egl *egl, void *library)
 {
 #define EGL_FIND(name) context_find_symbol(library, "egl" #name, &egl->name, sizeof egl->name)
     return EGL_FIND(GetProcAddress) && EGL_FIND(QueryString) && EGL_FIND(GetError) && EGL_FIND(Initialize) &&
@@ -103,7 +103,7 @@ static void close_context(context *face)
     free(c);
 }
 
-static bool open_mesa(egl_context *c, bool any_renderer)
+static bool create_mesa_context(egl_context *c, bool any_renderer)
 {
     const egl *egl = &c->egl;
     c->display = open_display(egl, any_renderer);
@@ -121,7 +121,7 @@ context *context_egl_open(const renderer_choice *choice, octreel_error *error)
                                     "EGL, the off-screen renderer, cannot be loaded (Debian: libegl1)", error);
     if (!c)
         return NULL;
-    if (find_egl_functions(&c->egl, c->face.library) && open_mesa(c, choice->any_renderer))
+    if (load_egl_functions(&c->egl, c->face.library) && create_mesa_context(c, choice->any_renderer))
         return &c->face;
     error_set(error,
               "EGL cannot create an OpenGL context without a display (Debian: libegl-mesa0 and libgl1-mesa-dri): error "

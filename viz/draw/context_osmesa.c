@@ -40,7 +40,7 @@ static void close_context(context *face)
     free(c);
 }
 
-static bool open_mesa(osmesa_context *c)
+static bool create_mesa_context(osmesa_context *c)
 {
     OSMesaContext (*create)(const int *, OSMesaContext);
     void *library = c->face.library;
@@ -64,7 +64,7 @@ context *context_osmesa_open(const renderer_choice *choice, octreel_error *error
                                        "OSMesa, the off-screen renderer, cannot be loaded (Debian: libosmesa6)", error);
     if (!c)
         return NULL;
-    if (open_mesa(c))
+    if (create_mesa_context(c))
         return &c->face;
     error_set(error, "OSMesa cannot create an OpenGL compatibility context");
     close_context(&c->face);

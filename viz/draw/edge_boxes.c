@@ -8,9 +8,9 @@
  * The idea: compute backwards from the sample to a coordinate on the line. Then find the box edges that contain this
  * coordinate, by a binary search among all box edges sorted by line.
  *
- * From sample to line: a column (or row) of the picture is a plane through the eye. The plane cuts the segment in the
- * ratio of the distances of its two ends from the plane. This is exact under perspective, where equal steps on the line
- * are not equal steps in the picture. */
+ * From sample to line: a column (or row) of the picture is a plane through the eye. The plane divides the segment in
+ * the ratio of the distances of the two ends of the segment from the plane. This is exact under perspective, where
+ * equal steps on the line are not equal steps in the picture. */
 #include "edge_boxes.h"
 #include "project.h"
 
@@ -39,7 +39,7 @@ static box_edge make_box_edge(const scene_box *box, size_t index, unsigned axis,
     };
 }
 
-bool edge_boxes_find_all(edge_boxes *all, const scene *s)
+bool edge_boxes_collect_edges(edge_boxes *all, const scene *s)
 {
     *all = (edge_boxes){.scene = s};
     const size_t size = 12 * sizeof *all->items;
@@ -76,7 +76,7 @@ typedef struct stroke {
     bool speck;        /* true: the edge is shorter than a sample, so each sample of the stroke shows the whole edge */
 } stroke;
 
-static stroke project_edge_line(const scene *s, const edge *e)
+static stroke make_edge_stroke(const scene *s, const edge *e)
 {
     unsigned axis = 0;
     while (axis < 2 && e->ends[0][axis] == e->ends[1][axis])
@@ -101,8 +101,8 @@ static stroke project_edge_line(const scene *s, const edge *e)
     return k;
 }
 
-/* Returns the coordinate on the edge's line of the point that appears at a column or row of the picture. The result is
- * clamped to the ends of the merged edge. */
+/* Find the point of the edge that appears at column (or row) `pixel` of the picture. Returns the coordinate of this
+ * point along the edge's line. The result is clamped to the ends of the merged edge. */
 static double find_coordinate_at_pixel(const scene *s, const stroke *k, double pixel)
 {
     const camera *c = &s->camera;
@@ -131,7 +131,8 @@ static size_t find_first_edge(const edge_boxes *all, const line_key *wanted)
     return low;
 }
 
-static bool is_on_line(const edge_boxes *all, size_t i, const stroke *k)
+/* Returns whether box edge number i lies on the line of a stroke and does not begin after the end of the stroke. */
+static bool is_edge_on_line(const edge_boxes *all, size_t i, const stroke *k)
 {
     return i < all->count && line_key_compare(&all->items[i].line, &k->line) == 0 && all->items[i].from <= k->to;
 }
@@ -143,10 +144,10 @@ static double find_distance_from_edge(const box_edge *edge, double at)
 
 size_t edge_boxes_find_owner(const edge_boxes *all, const edge *e, int x, int y)
 {
-    const stroke k = project_edge_line(all->scene, e);
+    const stroke k = make_edge_stroke(all->scene, e);
     const double at = k.speck ? k.from : find_coordinate_at_pixel(all->scene, &k, (k.across ? y : x) + 0.5);
     const box_edge *best = NULL;
-    for (size_t i = find_first_edge(all, &k.line); is_on_line(all, i, &k); i++) {
+    for (size_t i = find_first_edge(all, &k.line); is_edge_on_line(all, i, &k); i++) {
         const box_edge *found = &all->items[i];
         const bool gives = found->depth == e->depth && all->scene->boxes.items[found->box].style.role == e->style.role;
         if (gives && found->to >= k.from &&
@@ -159,7 +160,7 @@ size_t edge_boxes_find_owner(const edge_boxes *all, const edge *e, int x, int y)
 void edge_boxes_visit_sharing(const edge_boxes *all, const edge *e, int x, int y,
                               void (*visit)(size_t box, void *context), void *context)
 {
-    const stroke k = project_edge_line(all->scene, e);
+    const stroke k = make_edge_stroke(all->scene, e);
     double low = k.from, high = k.to;
     if (!k.speck) {
         const int pixel = k.across ? y : x;
@@ -168,7 +169,7 @@ void edge_boxes_visit_sharing(const edge_boxes *all, const edge *e, int x, int y
         low = fmin(ends[0], ends[1]);
         high = fmax(ends[0], ends[1]);
     }
-    for (size_t i = find_first_edge(all, &k.line); is_on_line(all, i, &k); i++)
+    for (size_t i = find_first_edge(all, &k.line); is_edge_on_line(all, i, &k); i++)
         if (all->items[i].from <= high && all->items[i].to >= low)
             visit(all->items[i].box, context);
 }

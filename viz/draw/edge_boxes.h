@@ -5,7 +5,7 @@
 
 #include "edges.h"
 
-/* One edge of one box. */
+/* One edge of one box: the interval [from, to] on its line. `box` is the index of the box in the scene. */
 typedef struct box_edge {
     line_key line;
     double from, to;
@@ -21,14 +21,14 @@ typedef struct edge_boxes {
 } edge_boxes;
 
 /* List and sort the edges of all boxes of a scene. Returns false if memory runs out. */
-bool edge_boxes_find_all(edge_boxes *all, const scene *s);
+bool edge_boxes_collect_edges(edge_boxes *all, const scene *s);
 void edge_boxes_release(edge_boxes *all);
 
 /* Returns the index of the box that gives the merged edge `e` its colour at sample (x, y). */
 size_t edge_boxes_find_owner(const edge_boxes *all, const edge *e, int x, int y);
 
 /* Visit all boxes that have an edge where the merged edge `e` passes through sample (x, y). These include the box that
- * gives the merged edge its colour there. Some boxes are visited twice. */
+ * gives the merged edge its colour there. A box may be visited twice. */
 void edge_boxes_visit_sharing(const edge_boxes *all, const edge *e, int x, int y,
                               void (*visit)(size_t box, void *context), void *context);
 

@@ -7,11 +7,11 @@
  *
  * The idea: edges that overlap lie on the same line. box_lines.c groups the edges by line; it compares coordinates
  * exactly, because nodes share planes bit for bit. On its line an edge is an interval. The intervals of a line are
- * sorted by their start. One sweep then walks along the line and emits, for each part of it, the shallowest interval
- * that covers this part. Most intervals are dropped before they are sorted: a parent box comes before its children, and
- * an edge of a child that lies on an edge of the parent is not visible.
+ * sorted by their start. One sweep then walks along the line and emits, for each part of the line, the shallowest
+ * interval that covers this part. Most intervals are dropped before they are sorted: a parent box comes before its
+ * children, and an edge of a child that lies on an edge of the parent is not visible.
  *
- * A line keeps its merged edges from frame to frame until one of its boxes is added or removed. */
+ * A line keeps its merged edges from frame to frame until a box with an edge on the line is added or removed. */
 #include "edges.h"
 #include "array.h"
 
@@ -220,8 +220,8 @@ static bool extend_or_add_edge(const sweep *w, const interval *of, double from, 
     return true;
 }
 
-/* Returns the shallowest of the first `begun` intervals that ends after coordinate `at`. Returns null if all of these
- * intervals have ended. */
+/* Among the first `begun` intervals, returns the shallowest interval that ends after coordinate `at`. Returns null if
+ * all of these intervals have ended. */
 static const interval *find_shallowest(const interval *line, size_t begun, double at)
 {
     const interval *best = NULL;
@@ -252,10 +252,10 @@ static bool sweep_line(const sweep *w, const interval *line, size_t count)
         while (begun < count && line[begun].from <= at)
             begun++;
         const interval *now = find_shallowest(line + first, begun - first, at);
-        if (!now) {
+        if (!now) { /* the begun intervals have length 0; only a box that is a single point has such an edge */
             const double *end = find_last_end(w);
             if (!(end && *end == at) && !add_edge(w, &line[first], at, at))
-                return false; /* only the edge of a box that is a single point has length 0 */
+                return false;
             first = begun;
             at = begun < count ? line[begun].from : at;
             continue;

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* fill.c - the integer rasterizer: fills quads with exactly the pixels that llvmpipe gives them.
+/* fill.c - the integer rasterizer: fills exactly the pixels of a quad that llvmpipe would fill.
  *
  * GL's rule, which llvmpipe follows to the bit: a pixel is drawn if its centre is inside the shape. A centre on an edge
  * counts as inside if the edge is a left edge or a horizontal top edge. So two shapes with a common edge never draw the
  * same pixel. A quad is drawn as the triangles 0 1 2 and 0 2 3, in either winding. Corners are multiples of 1/256
- * pixel, so that integers decide exactly what GL decides.
+ * pixel, so that integer arithmetic is exact and comes to the same decisions as GL.
  *
  * Testing every pixel of a quad's bounding box would be slow. Instead, an edge is walked from row to row (or column to
  * column) as Bresenham's algorithm walks a line. The point where the edge crosses a row is stored as a whole pixel and
@@ -49,7 +49,8 @@ static void fill_rectangle(const target *t, const quad *q)
     const int top = find_first_pixel(y[0] < y[2] ? y[0] : y[2], t->height);
     const int bottom = find_first_pixel(y[0] < y[2] ? y[2] : y[0], t->height);
     uint8_t *row = t->bytes + (size_t)top * (size_t)t->width + left;
-    if (right - left == 1) { /* most points of a cloud: memset() would take longer than the pixel */
+    if (right - left == 1) { /* true of most points of a cloud; a call of memset() would take longer than storing one
+                              * pixel */
         for (int i = top; i < bottom; i++, row += t->width)
             *row = q->color;
         return;
@@ -61,11 +62,11 @@ static void fill_rectangle(const target *t, const quad *q)
 /* ---- Edges -------------------------------------------------------------------------------------------------- */
 
 /* An edge that is walked pixel by pixel along one axis. `at` is the first pixel of the current row (or column) whose
- * centre is at or after the point where the edge crosses that row. The centre is beyond / whole pixels after that
- * point. */
+ * centre is at or after the point where the edge crosses that row. This centre lies (beyond / whole) pixels after the
+ * crossing point. */
 typedef struct edge_walk {
     int64_t at, beyond;
-    /* the distance between the crossings of two adjacent rows: turn + (fraction rest / whole) pixels */
+    /* the distance between the crossings of two adjacent rows: turn + rest / whole pixels */
     int64_t turn, rest;
     int64_t whole;
 } edge_walk;
@@ -82,7 +83,8 @@ static int64_t divide_rounding_down(int64_t a, int64_t b, int64_t *rest)
     return quotient;
 }
 
-/* Begin to walk the edge from (a0, b0) to (a1, b1), a0 < a1, at the centre of pixel number `pixel` on axis a. */
+/* Begin to walk the edge from (a0, b0) to (a1, b1) along axis a, where a0 < a1. The walk begins at the centre of pixel
+ * number `pixel` of axis a. */
 static edge_walk begin_edge_walk(int32_t a0, int32_t b0, int32_t a1, int32_t b1, int pixel)
 {
     const int64_t length = (int64_t)a1 - a0, rise = (int64_t)b1 - b0;
@@ -106,9 +108,9 @@ static void advance_edge(edge_walk *w)
 
 /* ---- Strips -------------------------------------------------------------------------------------------------
  *
- * Most lines of stroke.c are strips: parallelograms with two sides parallel to an axis and a whole number of pixels
- * long. Every row (or column) then has the same number of pixels, and only one edge needs to be walked.
- */
+ * Most lines of stroke.c are strips: parallelograms with two sides that are parallel to an axis and whose length is a
+ * whole number of pixels. Every row (or column) then has the same number of pixels, and only one edge needs to be
+ * walked. */
 
 /* Returns whether a quad is a strip: its sides 0-3 and 1-2 are parallel to the axis `across` and have the same length,
  * which is a whole number of pixels. */
@@ -131,12 +133,12 @@ typedef struct strip_walk {
     ptrdiff_t next; /* the number of bytes from this row (or column) to the next */
     fill_axis across;
     int steps, width;
-    bool lower_is_out; /* true: a pixel whose centre lies on the strip's lower edge is outside the strip */
-    edge_walk lower;
+    bool lower_is_out; /* true: a pixel whose centre lies on the edge `lower` is outside the strip */
+    edge_walk lower;   /* the long edge with the lower coordinates on `across` */
     uint8_t color;
 } strip_walk;
 
-static int64_t find_strip_start(const strip_walk *w)
+static int64_t find_first_strip_pixel(const strip_walk *w)
 {
     return w->lower.at + (w->lower_is_out && w->lower.beyond == 0);
 }
@@ -144,7 +146,7 @@ static int64_t find_strip_start(const strip_walk *w)
 static void fill_strip_clipped(strip_walk w)
 {
     for (; w.steps > 0; w.steps--, w.step += w.next, advance_edge(&w.lower)) {
-        const int64_t first = find_strip_start(&w);
+        const int64_t first = find_first_strip_pixel(&w);
         for (int64_t j = first < 0 ? 0 : first; j < first + w.width && j < w.across.size; j++)
             w.step[j * w.across.step] = w.color;
     }
@@ -153,7 +155,7 @@ static void fill_strip_clipped(strip_walk w)
 static void fill_strip_unclipped(strip_walk w)
 {
     for (; w.steps > 0; w.steps--, w.step += w.next, advance_edge(&w.lower)) {
-        uint8_t *pixel = w.step + (ptrdiff_t)find_strip_start(&w) * w.across.step;
+        uint8_t *pixel = w.step + (ptrdiff_t)find_first_strip_pixel(&w) * w.across.step;
         for (int j = 0; j < w.width; j++, pixel += w.across.step)
             *pixel = w.color;
     }
@@ -166,8 +168,9 @@ static bool is_strip_inside(const int32_t across[4], int size)
     return across[0] >= 0 && across[1] >= 0 && across[2] <= end && across[3] <= end;
 }
 
-/* Fill a strip. By GL's rule, a centre on the strip's lower edge is inside the strip. Exception: on a flat strip that
- * falls to the right, the lower edge is neither a left edge nor a top edge, so a centre on it is outside. */
+/* Fill a strip. `flat` is true if the strip is walked along x. By GL's rule, a pixel centre on the long edge with the
+ * lower coordinates is inside the strip. Exception: if a flat strip falls to the right, this edge is neither a left
+ * edge nor a horizontal top edge, so a centre on the edge is outside. */
 static void fill_strip(const target *t, const quad *q, bool flat)
 {
     const int32_t *along = flat ? q->x : q->y, *across = flat ? q->y : q->x;
@@ -195,25 +198,25 @@ static void fill_strip(const target *t, const quad *q, bool flat)
 /* The left or right side of a quad: a chain of edges, walked from row to row. */
 typedef struct side {
     int corner; /* the number of the corner at which the current edge ends */
-    int way;    /* 1 or 3: added to a corner's number, modulo 4, it gives the next corner of the chain */
+    int step;   /* 1 or 3: corner (i + step) modulo 4 comes after corner i in the chain */
     int end;    /* the row after the last row of the current edge */
     edge_walk edge;
 } side;
 
-/* Advance to the edge that crosses the centres of a row's pixels. */
+/* Begin to walk the next edge of the side that reaches the centres of a row's pixels. */
 static void begin_next_edge_of_side(side *s, const quad *q, int row, int height)
 {
     int from;
     do {
         from = s->corner;
-        s->corner = (from + s->way) & 3;
+        s->corner = (from + s->step) & 3;
         s->end = find_first_pixel(q->y[s->corner], height);
     } while (s->end <= row);
     s->edge = begin_edge_walk(q->y[from], q->x[from], q->y[s->corner], q->x[s->corner], row);
 }
 
 /* Fill a convex quad. `turn` is the sign of the quad's area: positive if its corners go clockwise on the screen. */
-static void fill_convex(const target *t, const quad *q, int turn)
+static void fill_convex_quad(const target *t, const quad *q, int turn)
 {
     int top = 0, bottom = 0;
     for (int i = 1; i < 4; i++) {
@@ -221,7 +224,7 @@ static void fill_convex(const target *t, const quad *q, int turn)
         bottom = q->y[i] > q->y[bottom] ? i : bottom;
     }
     const int end = find_first_pixel(q->y[bottom], t->height);
-    side left = {.corner = top, .way = turn > 0 ? 3 : 1}, right = {.corner = top, .way = turn > 0 ? 1 : 3};
+    side left = {.corner = top, .step = turn > 0 ? 3 : 1}, right = {.corner = top, .step = turn > 0 ? 1 : 3};
     for (int row = find_first_pixel(q->y[top], t->height); row < end; row++) {
         if (row >= left.end)
             begin_next_edge_of_side(&left, q, row, t->height);
@@ -254,7 +257,7 @@ static void fill_triangle(const target *t, const quad *q, int b, int c)
     alone.x[1] = q->x[b], alone.y[1] = q->y[b];
     alone.x[2] = alone.x[3] = q->x[c], alone.y[2] = alone.y[3] = q->y[c];
     if (turn)
-        fill_convex(t, &alone, turn);
+        fill_convex_quad(t, &alone, turn);
 }
 
 static void fill_quad(const target *t, const quad *q)
@@ -271,7 +274,7 @@ static void fill_quad(const target *t, const quad *q)
     const int turn = find_corner_turn(q, 0, 1, 2);
     if (turn && find_corner_turn(q, 1, 2, 3) == turn && find_corner_turn(q, 2, 3, 0) == turn &&
         find_corner_turn(q, 3, 0, 1) == turn) {
-        fill_convex(t, q, turn);
+        fill_convex_quad(t, q, turn);
         return;
     }
     fill_triangle(t, q, 1, 2);

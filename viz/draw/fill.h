@@ -56,7 +56,7 @@ surface *surface_open(int width, int height, const renderer_choice *choice, octr
 
 /* ---- renderer.c ---------------------------------------------------------------------------------------------- */
 
-/* Returns whether the picture of a scene has the renderer's size in samples. Returns false with an error. */
+/* Returns true if the picture of a scene has the renderer's size in samples; otherwise false with an error. */
 bool renderer_fits_scene(const renderer *r, const scene *s, octreel_error *error);
 
 /* Fill quads, in the given order, with the renderer's rasterizer on a background of zeros. Read a part of the picture

@@ -3,8 +3,8 @@
  * rasterize.
  *
  * The framebuffer has one channel, which holds indices of colours, as PNG files do. The viewport is a square whose side
- * is a power of two. The conversion from 1/256 pixel to clip space and back is then exact in single precision, and no
- * CPU can round it differently, with or without FMA. clip.c clips all quads to this square, so that GL has nothing to
+ * is a power of two. The conversion from 1/256 pixel to clip space and back is then exact in single precision, and has
+ * the same result on every CPU, with or without FMA. clip.c clips all quads to this square, so that GL has nothing to
  * clip. */
 #include "context.h"
 #include "fill.h"
@@ -48,7 +48,7 @@ typedef struct gl {
 #undef GL_MEMBER
 } gl;
 
-/* Look up all GL functions. Returns false with an error that names the first missing function. */
+/* Look up all GL functions. If functions are missing, returns false with an error that names the last of them. */
 static bool load_gl_functions(gl *functions, const context *c, octreel_error *error)
 {
     const char *missing = NULL;

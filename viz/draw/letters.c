@@ -10,8 +10,8 @@
 /* Text that begins more than this many pixels away from the origin cannot reach into a picture. */
 #define FARTHEST 1e6
 
-/* Move *pixel from the projection of a world position to the pixel at which the text beside the position begins. If the
- * position is inside the picture, the text is moved so that it lies inside the picture too. */
+/* Replace the pixel of a label's world position by the top left pixel of the text beside this position. If the text of
+ * a visible position would extend beyond the right or the lower border of the picture, the text is moved inside. */
 static void move_beside_position(const scene *s, const scene_label *label, double pixel[2])
 {
     const int aside[2] = {s->text.width / 2, -(s->text.height / 2)};

@@ -14,8 +14,8 @@ typedef struct draw_box {
  * renderer. */
 void visit_text_boxes(const scene *s, void (*visit)(const draw_box *box, void *context), void *context);
 
-/* Add the characters of a label: at its pixel, or beside the projection of its world position. `s` is from
- * project_scene_to_samples(). Private to this folder. */
+/* Add the quads of a label's characters, at the label's pixel or beside the projection of its world position. `s` is
+ * from project_scene_to_samples(). Private to this folder. */
 void add_label_letters(quad_list *list, const scene *s, const scene_label *label);
 
 #endif

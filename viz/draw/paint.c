@@ -95,7 +95,7 @@ static bool is_point_marker(const scene_marker *marker)
 }
 
 /* Allocate p->nearest, zeroed, with one byte for each sample, and p->places, with one entry for each marker. */
-static bool reserve_points(painter *p, const scene *s)
+static bool reserve_point_buffers(painter *p, const scene *s)
 {
     const size_t samples = (size_t)s->view.width * (size_t)s->view.height;
     if (!array_grow(&p->nearest, samples, &p->nearest_room, 1) ||
@@ -109,7 +109,7 @@ static bool reserve_points(painter *p, const scene *s)
  * covers the points of all other bands. */
 static bool paint_points(painter *p, const scene *s)
 {
-    if (!reserve_points(p, s))
+    if (!reserve_point_buffers(p, s))
         return false;
     project_points(s, s->markers.items, s->markers.count, p->places);
     for (size_t i = 0; i < s->markers.count; i++) {
@@ -178,7 +178,7 @@ bool painter_paint_scene(painter *p, const scene *picture)
         if (s->panels.items[i].style.role == ROLE_OWN)
             splats_fill_panel(&p->splats, s, &s->panels.items[i]);
     }
-    /* segments in picture coordinates are painted after panels, because they cover panels */
+    /* segments in picture coordinates cover panels, so these segments are painted after panels */
     paint_segments(p, s, true);
     for (size_t i = 0; i < s->labels.count; i++) {
         quads_begin_element(&p->quads, SCENE_LABEL, i);

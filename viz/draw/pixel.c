@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* pixel.c - finds the elements that are drawn at each sample, at one pixel, and by some layers.
+/* pixel.c - finds the topmost element at each sample, all elements at one pixel, and the pixels of some layers.
  *
  * The technique is known as "item buffer": the quads of the picture are drawn a second time, and each quad has the
  * number of its element instead of its colour. The same rasterizer draws the same quads in the same order. So each
@@ -25,32 +25,33 @@
 
 /* ---- The scene and its close-up ------------------------------------------------------------------------------ */
 
-/* A painted scene: the scene or its close-up. It has one stroke for each merged edge, and one for each element that is
- * not a box. Strokes are numbered from 1 in the order of elements. The strokes of a close-up come after the strokes of
- * the scene around it. */
+/* One of the two painted scenes of a picture: the outer scene, or the close-up inside it. A scene has one stroke for
+ * each merged edge, and one stroke for each element that is not a box. Strokes are numbered from 1: first the merged
+ * edges, then the other elements in their order. The numbers of a close-up's strokes follow the numbers of the outer
+ * scene's strokes. */
 typedef struct source {
     const scene *scene;
     const painter *painter;
     scene fine; /* a copy of `scene` from project_scene_to_samples() */
     edge_boxes boxes;
     uint64_t strokes;         /* the number of strokes of this scene */
-    uint64_t strokes_before;  /* only for a close-up: the number of strokes of the scene around it */
-    uint32_t elements_before; /* only for a close-up: the number of elements of the scene around it */
-    int left, top;            /* position in the picture of the scene's top left sample */
+    uint64_t strokes_before;  /* only for a close-up: the number of strokes of the outer scene */
+    uint32_t elements_before; /* only for a close-up: the number of elements of the outer scene */
+    int left, top;            /* the position of the scene's top left sample in the picture */
     bool points_listed;       /* true: add_painted_points() has listed this scene's points */
 } source;
 
-/* A scene and its close-up. The second entry is empty if the scene has no close-up. */
+/* The outer scene, then its close-up. The second entry is empty if there is no close-up. */
 typedef source sources[2];
 
-static void release_quad_sources(sources all)
+static void release_sources(sources all)
 {
     for (int i = 0; i < 2; i++)
         edge_boxes_release(&all[i].boxes);
 }
 
 /* Fill *from for a scene that `p` has painted. Returns false if memory runs out. */
-static bool open_quad_source(source *from, const scene *s, const painter *p)
+static bool init_source(source *from, const scene *s, const painter *p)
 {
     const int samples = s->view.aa;
     from->scene = s;
@@ -59,21 +60,21 @@ static bool open_quad_source(source *from, const scene *s, const painter *p)
     from->strokes = painter_edge_count(p) + scene_count_elements(s) - s->boxes.count;
     from->left = s->place[0] * samples;
     from->top = s->place[1] * samples;
-    return edge_boxes_find_all(&from->boxes, &from->fine);
+    return edge_boxes_collect_edges(&from->boxes, &from->fine);
 }
 
 /* Fill zeroed sources for a scene and its close-up. The sources must not be moved in memory afterwards. Returns false
  * if memory runs out. */
-static bool open_quad_sources(sources all, const scene *s, const painter *p)
+static bool init_sources(sources all, const scene *s, const painter *p)
 {
-    if (!open_quad_source(&all[0], s, p) || (s->has_closeup && !open_quad_source(&all[1], s->closeup, p->closeup)))
+    if (!init_source(&all[0], s, p) || (s->has_closeup && !init_source(&all[1], s->closeup, p->closeup)))
         return false;
     all[1].strokes_before = all[0].strokes;
     all[1].elements_before = (uint32_t)scene_count_elements(s);
     return true;
 }
 
-static source *find_quad_source(sources all, const quad *q)
+static source *find_source_of_quad(sources all, const quad *q)
 {
     return &all[q->kind >= QUAD_IN_CLOSEUP];
 }
@@ -109,7 +110,7 @@ static bool fill_all_quads(renderer *r, const scene *s, const painter *p, uint8_
 /* Returns the number of the stroke to which a quad belongs. */
 static uint64_t find_stroke_number(sources all, const quad *q)
 {
-    const source *from = find_quad_source(all, q);
+    const source *from = find_source_of_quad(all, q);
     const scene_kind kind = make_quad_element(q, 0).kind;
     if (kind == SCENE_BOX)
         return from->strokes_before + 1 + q->index;
@@ -166,19 +167,19 @@ bool renderer_find_element_numbers(renderer *r, const scene *s, uint32_t *number
         return false;
     painter p = {0}; /* a painter of its own, because the renderer's painter must keep the previous frame */
     sources all = {0};
-    const bool ok = ((painter_paint_scene(&p, s) && open_quad_sources(all, s, &p)) || error_no_memory(error)) &&
+    const bool ok = ((painter_paint_scene(&p, s) && init_sources(all, s, &p)) || error_no_memory(error)) &&
                     draw_stroke_numbers(r, s, &p, all, numbers, error);
     if (ok)
         replace_stroke_numbers(s, all, numbers);
-    release_quad_sources(all);
+    release_sources(all);
     painter_release(&p);
     return ok;
 }
 
 /* ---- Layers -------------------------------------------------------------------------------------------------- */
 
-/* Returns the bit of a quad's layer. If the quad is in a close-up, the bit of LAYER_CLOSEUP is set too. */
-static unsigned find_quad_layers(const scene *s, const painter *p, const quad *q)
+/* Returns 1 << the layer of a quad's element. If the quad is in a close-up, the bit of LAYER_CLOSEUP is set too. */
+static unsigned find_layer_bits_of_quad(const scene *s, const painter *p, const quad *q)
 {
     const scene_element element = make_quad_element(q, q->index);
     const painter *of = element.in_closeup ? p->closeup : p;
@@ -205,7 +206,7 @@ bool renderer_find_layer_mask(renderer *r, const scene *s, unsigned layers, uint
     painter p = {0};
     bool ok = (samples && painter_paint_scene(&p, s)) || error_no_memory(error);
     for (size_t i = 0; ok && i < p.quads.count; i++)
-        p.quads.items[i].color = (layers & find_quad_layers(s, &p, &p.quads.items[i])) != 0;
+        p.quads.items[i].color = (layers & find_layer_bits_of_quad(s, &p, &p.quads.items[i])) != 0;
     ok = ok && fill_all_quads(r, s, &p, samples, error);
     if (ok)
         shrink_mask(&s->view, samples, mask);
@@ -258,8 +259,8 @@ static draw_cover *find_or_append_cover(probe *p, scene_element element)
     return append_cover(p, number);
 }
 
-/* Record that an element covers a sample: the element with the index `index` and the kind of p->quad. Calls come in the
- * order of the quads from the topmost to the lowest. */
+/* Record that an element covers a sample: the element with the index `index` and the kind of p->quad. Must be called
+ * for the topmost quad first and for the lowest quad last. */
 static void add_covered_sample(probe *p, size_t index, int sample)
 {
     draw_cover *cover = find_or_append_cover(p, make_quad_element(p->quad, index));
@@ -312,9 +313,10 @@ static void add_painted_points(probe *p, source *from)
     free(list.items);
 }
 
-static void append_all_points(probe *p)
+/* If p->quad belongs to a point, append the points that it hides or that share it. */
+static void append_points_sharing_quad(probe *p)
 {
-    source *from = find_quad_source(p->sources, p->quad);
+    source *from = find_source_of_quad(p->sources, p->quad);
     if (from->scene->markers.items[p->quad->index].style.layer != LAYER_POINTS)
         return;
     if (view_paints_points(&from->scene->view))
@@ -356,7 +358,7 @@ static unsigned find_covered_sample_bits(renderer *r, const probe *p, bool *ok, 
  * then the boxes that share the edge. */
 static void add_edge_covers(probe *p, unsigned bits)
 {
-    const source *from = find_quad_source(p->sources, p->quad);
+    const source *from = find_source_of_quad(p->sources, p->quad);
     const edge *e = painter_edge_at(from->painter, p->quad->index);
     for (int pass = 0; pass < 2; pass++) {
         for (int i = 0; i < p->part.width * p->part.height; i++) {
@@ -379,7 +381,7 @@ static void add_quad_covers(probe *p, unsigned bits)
         if (bits >> i & 1)
             add_covered_sample(p, p->quad->index, i);
     if (make_quad_element(p->quad, 0).kind == SCENE_MARKER)
-        append_all_points(p);
+        append_points_sharing_quad(p);
     p->taken |= bits;
 }
 
@@ -405,9 +407,9 @@ bool renderer_list_pixel_covers(renderer *r, const scene *s, int x, int y, draw_
     if (x < 0 || y < 0 || x >= s->view.width || y >= s->view.height)
         return error_set(error, "pixel (%d, %d) is outside the picture, which has %d x %d pixels", x, y, s->view.width,
                          s->view.height);
-    p.out_of_memory = !painter_paint_scene(&p.painter, s) || !open_quad_sources(p.sources, s, &p.painter);
+    p.out_of_memory = !painter_paint_scene(&p.painter, s) || !init_sources(p.sources, s, &p.painter);
     const bool ok = p.out_of_memory || add_all_quad_covers(r, &p, error);
-    release_quad_sources(p.sources);
+    release_sources(p.sources);
     painter_release(&p.painter);
     return p.out_of_memory ? error_no_memory(error) : ok;
 }

@@ -6,9 +6,10 @@
 #include "array.h"
 #include "renderer.h"
 
-/* Write to each sample of the picture the number (scene_element_number) of its topmost element, or 0 if there is no
- * element. Where boxes share an edge, the number is the number of the shallowest box. Where points share a quad, it is
- * the number of the point for which the quad was painted. renderer_list_pixel_covers() lists all elements. */
+/* Write one number for each sample of the picture: the number (scene_element_number) of the topmost element at the
+ * sample, or 0 if there is no element. Where boxes share an edge, the topmost element is the shallowest box. Where
+ * points share a quad, the topmost element is the point for which the quad was painted. renderer_list_pixel_covers()
+ * lists the other elements too. */
 bool renderer_find_element_numbers(renderer *r, const scene *s, uint32_t *numbers, octreel_error *error);
 
 /* Find the pixels at which some layers are visible. `layers` has bits 1 << view_layer, also for LAYER_DIAGRAM. The mask
@@ -20,9 +21,9 @@ bool renderer_find_layer_mask(renderer *r, const scene *s, unsigned layers, uint
 typedef struct draw_cover {
     uint32_t number;
     int shown; /* the number of the pixel's samples at which the element is the topmost element */
-    /* The number of the pixel's samples that the element's quads cover. It is 0 for a point hidden by other points, and
-     * for an element without a quad of its own: a box that shares another box's edge, or a point that shares the sample
-     * of an earlier entry. */
+    /* The number of the pixel's samples that the element's quads cover; 0 for a point hidden by other points, and for
+     * an element without a quad of its own: a box that shares another box's edge, or a point that shares the sample of
+     * an earlier entry. */
     int painted;
     uint16_t at; /* the samples that the element's quads cover, one bit each, row by row */
     /* the element's colour at the pixel, as an index of the theme's table; 0 also in gaps of STROKE_CUT */

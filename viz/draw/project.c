@@ -78,7 +78,7 @@ static bool clip_to_side(double a[3], double b[3], int axis, double side, double
     return true;
 }
 
-static bool is_in_picture(const view *v, const double pixel[2])
+static bool is_within_clip_margin(const view *v, const double pixel[2])
 {
     return pixel[0] >= -CLIP_MARGIN && pixel[0] <= v->width + CLIP_MARGIN && pixel[1] >= -CLIP_MARGIN &&
            pixel[1] <= v->height + CLIP_MARGIN;
@@ -88,7 +88,7 @@ static bool is_in_picture(const view *v, const double pixel[2])
  * inside and stay unchanged. */
 static bool clip_to_picture(const view *v, piece *p)
 {
-    if (is_in_picture(v, p->from) && is_in_picture(v, p->to))
+    if (is_within_clip_margin(v, p->from) && is_within_clip_margin(v, p->to))
         return true;
     double a[3] = {p->from[0], p->from[1], 0}, b[3] = {p->to[0], p->to[1], 0};
     const double size[2] = {v->width, v->height};
@@ -205,7 +205,7 @@ typedef struct point_run {
     double seen[RUN]; /* not 0: the point is visible in the picture */
 } point_run;
 
-static void measure_along_axis(const point_run *run, const double axis[3], double seen[RUN])
+static void project_onto_axis(const point_run *run, const double axis[3], double seen[RUN])
 {
     double turned[RUN];
     for (int i = 0; i < RUN; i++)
@@ -239,13 +239,14 @@ static void find_visible_points(const scene *s, point_run *run)
 
 static void project_point_run(const scene *s, point_run *run)
 {
-    const camera c = s->camera; /* a copy of the camera, so that the compiler knows that no write below changes it */
+    const camera c = s->camera; /* a copy of the camera, so that the compiler knows that no write below changes the
+                                 * camera */
     for (int axis = 0; axis < 3; axis++)
         for (int i = 0; i < RUN; i++)
             run->from_eye[axis][i] = camera_to_unit_coordinate(&c, axis, run->from_eye[axis][i]) - c.eye[axis];
-    measure_along_axis(run, c.right, run->across);
-    measure_along_axis(run, c.up, run->along);
-    measure_along_axis(run, c.forward, run->depth);
+    project_onto_axis(run, c.right, run->across);
+    project_onto_axis(run, c.up, run->along);
+    project_onto_axis(run, c.forward, run->depth);
     for (int i = 0; i < RUN; i++) {
         const double scale = c.perspective ? c.zoom / run->depth[i] : c.zoom;
         run->x[i] = c.middle[0] + run->across[i] * scale;

@@ -33,7 +33,7 @@ bool find_pixel_and_depth(const scene *s, const double position[3], double pixel
 typedef struct point_place {
     uint32_t pixel; /* index of the sample in the picture: y * width + x */
     uint8_t band;
-    bool seen; /* true: the point is visible: find_pixel_and_band() would succeed, and the pixel is in the picture */
+    bool seen; /* whether the point is visible: find_pixel_and_band() would succeed, and the pixel is in the picture */
 } point_place;
 
 /* Project the positions of `count` markers. Write one entry of `places` for each marker. */

@@ -24,7 +24,8 @@ typedef struct quad_list {
     quad *items;
     size_t count, room;
     bool out_of_memory;
-    int32_t limits[2]; /* quads are clipped to [0, limits[axis]] on each axis; if a limit is 0, they are not clipped */
+    int32_t limits[2]; /* quads are clipped to [0, limits[axis]] on each axis; if limits[0] is 0, quads are not
+                        * clipped */
     uint8_t kind;      /* kind and index of the element whose quads are being added */
     uint32_t index;
 } quad_list;
@@ -57,9 +58,9 @@ uint16_t make_quad_order(unsigned layer, unsigned band, unsigned depth);
 
 #define QUAD_BANDS THEME_SHADES
 
-/* Returns quad.order for text and panels, which have no view depth and come last in their layer. Text of the axes comes
- * after nodes and points. Text of nodes comes after points and velocities. Ranks of neighbours come after the player.
- */
+/* Returns quad.order for text and panels, which have no view depth and come last in their layer. Text of the axes is
+ * painted after nodes and points, text of nodes after points and velocities, and ranks of neighbours after the
+ * player. */
 uint16_t make_text_order(unsigned layer);
 
 /* ---- clip.c --------------------------------------------------------------------------------------------------- */

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* renderer.h - draws scenes as pictures of one size. A pixel is an index of the theme's colours.
+/* renderer.h - draws scenes as pictures of one size. Each pixel is an index into the theme's table of colours.
  *
- * paint.h turns a scene into flat quads. The integer rasterizer (fill.h) or GL (gl_surface.c) fills them; both give the
- * same pixels. With anti-aliasing, a renderer draws view.aa times as many samples on each axis, and image_shrink()
- * averages them. Lines, markers and text keep their size in the picture. A renderer may be used only from the thread
- * that opened it. */
+ * paint.h turns a scene into flat quads. The integer rasterizer (fill.h) or GL (gl_surface.c) fills these quads; both
+ * give the same pixels. With anti-aliasing, a renderer draws view.aa times as many samples on each axis, and
+ * image_shrink() averages the samples of each pixel. Lines, markers and text keep their size in the picture. A renderer
+ * may be used only from the thread that opened it. */
 #ifndef DRAW_RENDERER_H
 #define DRAW_RENDERER_H
 

@@ -2,13 +2,14 @@
 /* splat_buffer.c - draws discs into a buffer of depths, and computes the light from the depths.
  *
  * A cloud of a million points has 25 million samples of discs in a picture, so the loops over samples decide how fast a
- * view turns. They have no branches, and compilers turn them into vector instructions:
- *    - Discs of a diameter differ only in their position, so a table holds the depths of one disc. Its rows are padded
- *      to whole vectors with samples outside the disc, which lie behind everything.
+ * view turns. These loops have no branches, and compilers turn them into vector instructions:
+ *    - Discs of the same diameter differ only in their position, so one table holds the depths of all of them. The
+ *      rows of the table are padded to whole vectors, with depths that lie behind everything.
  *    - A sample without a disc has the depth EMPTY_DEPTH, behind every disc.
- *    - Two discs seldom have the same depth at a sample. A row of a disc is first drawn as if its ties were lost; if
- *      there was a tie, the row is visited again, and the view depths of both points decide.
- *    - The margin around the picture is empty, so light needs no test whether a neighbour exists. */
+ *    - Two discs seldom have the same depth at a sample. A row of a disc is first drawn as if the disc lost every
+ *      tie. If there was a tie, the row is visited again, and the view depths of the two points decide.
+ *    - The margin around the picture has samples without discs, so that light is computed without a test for the
+ *      picture's border. */
 #include "splat_buffer.h"
 #include "array.h"
 #include "camera.h"
@@ -16,8 +17,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Depths of samples without a disc, and in a table the depth of samples outside the disc. The first is greater than the
- * depth of any disc, and less than the sum of any depth and the second. */
+/* EMPTY_DEPTH is the depth of a sample without a disc. OUTSIDE is a table's entry for a sample outside the disc. For
+ * the depth d of every disc: d < EMPTY_DEPTH < d + OUTSIDE. */
 #define EMPTY_DEPTH ((3 << 28) - 1)
 #define OUTSIDE (5 << 28)
 
@@ -26,7 +27,7 @@
 
 /* ---- Memory --------------------------------------------------------------------------------------------------- */
 
-/* The distances at which a sample is compared with its neighbours. */
+/* The two distances, in samples, at which a sample is compared with its neighbours. */
 static int find_near_reach(const scene *s)
 {
     return s->unit * s->view.aa;
@@ -84,8 +85,9 @@ static int find_table_stride(int side)
     return (side + VECTOR - 1) / VECTOR * VECTOR;
 }
 
-/* Returns the table of a disc's depths below the depth of its centre, row by row. Returns null if memory runs out. */
-static const int32_t *find_table(splat_buffer *b, int side)
+/* Returns the table for discs of diameter `side`, which is made at the first call. An entry says how much deeper a
+ * sample is than the disc's centre; rows come from the top down. Returns null if memory runs out. */
+static const int32_t *find_or_make_table(splat_buffer *b, int side)
 {
     const int stride = find_table_stride(side);
     if (b->tables[side])
@@ -97,8 +99,8 @@ static const int32_t *find_table(splat_buffer *b, int side)
     return b->tables[side] = table;
 }
 
-/* Returns whether point a is nearer than point b. The caller has found that their depths in units are equal. If their
- * view depths are equal too, the point with the lower id counts as nearer. */
+/* Returns whether point a is nearer than point b. The caller has found that the integer depths of both are equal. If
+ * their view depths are equal too, the point with the lower id counts as nearer. */
 static bool is_nearer(const scene *s, size_t a, size_t b)
 {
     double seen[2][3];
@@ -109,7 +111,7 @@ static bool is_nearer(const scene *s, size_t a, size_t b)
     return s->markers.items[a].id < s->markers.items[b].id;
 }
 
-/* Draw one sample of a disc, whose depth there is `at`. */
+/* Draw one sample of a disc. `at` is the depth of the disc at the sample. */
 static void draw_sample(const scene *s, int32_t *depth, uint32_t *owner, int32_t at, uint32_t own)
 {
     if (at > *depth || (at == *depth && (*owner == own || !is_nearer(s, own - 1, *owner - 1))))
@@ -118,7 +120,8 @@ static void draw_sample(const scene *s, int32_t *depth, uint32_t *owner, int32_t
     *owner = own;
 }
 
-/* Draw a row of a disc, except samples where another disc has the same depth. Returns whether there are any. */
+/* Draw a row of a disc, except samples where another disc has the same depth. Returns whether there are such
+ * samples. */
 static bool draw_row(int32_t *restrict depths, uint32_t *restrict owners, const int32_t *restrict table, int count,
                      int32_t depth, uint32_t own)
 {
@@ -165,7 +168,7 @@ bool splat_buffer_draw_disc(splat_buffer *b, const scene *s, size_t index, const
         draw_clipped_disc(b, s, own, q, depth);
         return true;
     }
-    const int32_t *table = find_table(b, q->side);
+    const int32_t *table = find_or_make_table(b, q->side);
     size_t at = (size_t)(q->top + b->margin) * b->stride + (size_t)(q->left + b->margin);
     for (int y = 0; table && y < q->side; y++, at += b->stride)
         if (draw_row(b->depths + at, b->owners + at, table + y * stride, stride, depth, own))
@@ -191,14 +194,15 @@ static int32_t find_slope(int32_t depth, int32_t neighbor, int32_t most)
 }
 
 /* Returns a / b rounded down, for 0 <= a < 2^23 and 0 < b: the quotient of floats is then never rounded up to a whole
- * number. Vectors of integers have no division. */
+ * number. Floats are divided because there are no vector instructions that divide integers. */
 static int32_t divide_small(int32_t a, int32_t b)
 {
     return (int32_t)((float)a / (float)b);
 }
 
-/* Add to each number of a row how much deeper the sample is than its two neighbours at the distance `step`, before and
- * after it. The differences are added first, so that a plane is lit evenly, however steep it is. */
+/* Add to sums[x] how much deeper sample x of the row is than its two neighbours, `step` samples before and after it. A
+ * negative sum of the two differences counts as 0. On a plane the two differences cancel, so that a plane is lit
+ * evenly, however steep the plane is. */
 static void add_slopes(const int32_t *restrict row, int count, ptrdiff_t step, int32_t most, int32_t *restrict sums)
 {
     const int32_t *before = row - step, *after = row + step;
@@ -208,7 +212,8 @@ static void add_slopes(const int32_t *restrict row, int count, ptrdiff_t step, i
     }
 }
 
-/* Add how much deeper each sample of a row is than the eight samples around it at the distance `reach`, in slopes. */
+/* Add to depths[x] how much deeper sample x of the row is than the eight samples around it at the distance `reach`, in
+ * units of depth per sample. `down` is the distance from a row to the next, in samples. `sums` is scratch space. */
 static void add_depth_below_neighbors(const int32_t *row, int count, ptrdiff_t down, int reach, int32_t *restrict sums,
                                       int32_t *restrict depths)
 {

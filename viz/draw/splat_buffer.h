@@ -16,7 +16,7 @@ typedef struct splat_square {
     int left, top, side;
 } splat_square;
 
-/* Discs of up to this diameter are drawn by a table of their depths. */
+/* Discs of up to this diameter are drawn with a table of their depths. */
 #define MOST_TABLE_SIDE 48
 
 /* For each sample, the nearest disc. Around the picture there is a margin of samples without a disc, so that the
@@ -43,11 +43,12 @@ bool find_disc_depth(const splat_square *q, int x, int y, int32_t depth, int32_t
 /* Draw the disc of the marker with this index. Returns false if memory runs out. */
 bool splat_buffer_draw_disc(splat_buffer *b, const scene *s, size_t index, const splat_square *q, int32_t depth);
 
-/* Compute the light at each sample of row y; 256 is full light. Samples without a disc get any number. */
+/* Compute the light at each sample of row y; 256 is full light. The light of samples without a disc is undefined.
+ * `light` must have room for 2 * width numbers; the second half is scratch space. */
 void splat_buffer_find_light(const splat_buffer *b, const scene *s, int y, int32_t *light);
 
-/* The owners of the samples of row y. */
-static inline const uint32_t *splat_buffer_row(const splat_buffer *b, int y)
+/* Returns the owners of the samples of row y. */
+static inline const uint32_t *splat_buffer_row_owners(const splat_buffer *b, int y)
 {
     return b->owners + (size_t)(y + b->margin) * b->stride + (size_t)b->margin;
 }

@@ -166,7 +166,7 @@ static void set_run_colors(splats *t, const splatter *with, uint32_t index, int 
 static void paint_row(splats *t, quad_list *quads, const splatter *with, int y)
 {
     const int width = with->scene->view.width;
-    const uint32_t *owners = splat_buffer_row(&t->nearest, y);
+    const uint32_t *owners = splat_buffer_row_owners(&t->nearest, y);
     if (with->scene->view.shade == SHADE_EDL)
         splat_buffer_find_light(&t->nearest, with->scene, y, t->light);
     for (int x = 0, end; x < width; x = end) {

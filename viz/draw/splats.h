@@ -13,7 +13,7 @@
 /* Buffers that are reused from frame to frame. A zeroed struct is empty. */
 typedef struct splats {
     splat_buffer nearest; /* for each sample, the nearest point */
-    int32_t *light;       /* the light of a row of samples, and as much room again */
+    int32_t *light;       /* the light of a row of samples, and scratch space of the same size */
     /* with POINTS_BY_DENSITY: for each pixel, the number of points whose centre is in the pixel */
     uint32_t *shared;
     theme_color *colors; /* the colour of each sample; valid only for samples with the index THEME_OWN */
@@ -40,7 +40,7 @@ typedef ARRAY(struct splat_covering) splat_list;
 
 typedef struct splat_covering {
     size_t marker; /* the index of the point's marker in the scene */
-    /* the least depth of the point's disc in the square; of equal depths, view_depth decides, and then the lower id */
+    /* the least depth of the point's disc in the square; lists are sorted by `depth`, then by view_depth, then by id */
     int32_t depth;
     double view_depth;
     uint64_t id;

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /* stroke.c - turns lines, markers and panels into quads.
  *
- * GL's own lines and points are not used, because versions of Mesa differ in the pixels that they cover. Here every
- * shape is a quad with corners on a grid of 1/256 sample. For quads, an exact rule decides which pixels they cover
- * (fill.c).
+ * GL's own lines and points are not used, because versions of Mesa differ in the pixels that such lines and points
+ * cover. Here every shape is a quad with corners on a grid of 1/256 sample. For quads, an exact rule decides which
+ * pixels they cover (fill.c).
  *
  * A line is drawn as a parallelogram: each end is widened by half the line's width, along the axis on which the line is
  * shorter. A line of one sample's width thus covers exactly one sample in each column (or row), as with Bresenham's
- * algorithm. The rasterizer sees a strip of constant width, its fastest kind of slanted shape.
+ * algorithm. The rasterizer fills such a strip of constant width faster than any other slanted shape.
  *
  * Bands of depth cut a segment into pieces, which are shaded and ordered separately; dashes continue from piece to
  * piece. A segment shorter than a sample might cover no sample's centre, so it is drawn as a square. */
@@ -143,9 +143,9 @@ static void add_arrow_head(quad_list *list, const pencil *with, const piece *fir
     const double back = length / 2 < most ? length / 2 : most, side = back * HEAD_SIDE / HEAD;
     if (side < with->samples)
         return;
-    for (int way = -1; way <= 1; way += 2) {
-        const double end[2] = {last->to[0] - (dx * back + dy * side * way) / length,
-                               last->to[1] - (dy * back - dx * side * way) / length};
+    for (int sign = -1; sign <= 1; sign += 2) {
+        const double end[2] = {last->to[0] - (dx * back + dy * side * sign) / length,
+                               last->to[1] - (dy * back - dx * side * sign) / length};
         add_line(list, with, last->band, last->to, end);
     }
 }
@@ -213,9 +213,9 @@ static void add_ring(quad_list *list, quad q, const double center[2], int corner
         camera_compute_cosine_sine((double)i / corners, &to[1], &to[0]);
         to[1] = up ? -to[1] : to[1];
         for (int corner = 0; corner < 4; corner++) {
-            const double *way = corner == 0 || corner == 3 ? from : to;
-            q.x[corner] = round_to_subpixel(center[0] + way[0] * radii[corner / 2]);
-            q.y[corner] = round_to_subpixel(center[1] + way[1] * radii[corner / 2]);
+            const double *direction = corner == 0 || corner == 3 ? from : to;
+            q.x[corner] = round_to_subpixel(center[0] + direction[0] * radii[corner / 2]);
+            q.y[corner] = round_to_subpixel(center[1] + direction[1] * radii[corner / 2]);
         }
         quads_add_quad(list, &q);
         from[0] = to[0];

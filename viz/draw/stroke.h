@@ -16,8 +16,8 @@ typedef struct pencil {
 
 pencil stroke_make_pencil(const scene *s, scene_style style, unsigned depth);
 
-/* Add the quads of one segment, which is given as pieces, in the stroke of its style. A visible segment covers at least
- * one pixel, however short the segment is. */
+/* Add the quads of one segment, which consists of `pieces`. The pencil's style chooses the stroke. A visible segment
+ * covers at least one pixel, however short the segment is. */
 void stroke_add_line(quad_list *list, const pencil *with, const piece *pieces, unsigned count);
 
 /* Returns the side of a marker in pixels. The side grows with `unit`, so that markers stay visible in large
