@@ -49,11 +49,11 @@ bool cloud_is_recognised(const unsigned char *bytes, size_t size)
 
 /* ---- Reading ------------------------------------------------------------------------------------------------ */
 
-static bool parse_file_with_content(cloud_file *file)
+static bool parse_points(cloud_file *file)
 {
     if (file->size > 0 && !choose_format(file)->parse(file))
         return false;
-    cloud_finish_values(file);
+    cloud_discard_absent_values(file);
     if (file->out->count > 0)
         return true;
     if (file->out->skipped > 0)
@@ -64,7 +64,7 @@ static bool parse_file_with_content(cloud_file *file)
 static bool parse_cloud_file(cloud_file *file)
 {
     *file->out = (cloud){0};
-    bool parsed = parse_file_with_content(file);
+    bool parsed = parse_points(file);
     if (!parsed)
         cloud_release(file->out);
     return parsed;

@@ -12,9 +12,9 @@
 
 /* ---- Result and errors -------------------------------------------------------------------------------------- */
 
-/* Stores the row of the next point. This function is called only after a point was skipped. Before that, the row of
- * each point is equal to its index. */
-static bool add_row(cloud_file *file)
+/* Stores the row number of the next point. This function is called only after a point was skipped: until then, the row
+ * number of each point is equal to its index. */
+static bool add_row_number(cloud_file *file)
 {
     cloud *points = file->out;
     const bool first = !points->rows;
@@ -32,7 +32,8 @@ void cloud_count_skipped(const cloud_file *file, const char *why)
     file->out->why_skipped = why;
 }
 
-/* Stores the values of the point in a row. The rows of skipped points before this row get missing values. */
+/* Stores the values of the point whose row number in the file is `row`. The rows of skipped points before this row get
+ * missing values. */
 static bool add_values(cloud_file *file, size_t row, const double *numbers)
 {
     point_values *values = &file->out->values;
@@ -78,7 +79,7 @@ bool cloud_add_point(cloud_file *file, const double *position)
     if (cloud_skip_nonfinite(file, position))
         return true;
     if (!array_grow(&points->positions, points->count + 1, &file->room, sizeof *points->positions) ||
-        (points->skipped > 0 && !add_row(file)) ||
+        (points->skipped > 0 && !add_row_number(file)) ||
         (file->channels && !add_values(file, points->count + points->skipped, position)))
         return cloud_fail(file, "out of memory after %zu points", points->count);
     memcpy(points->positions[points->count++], position, sizeof *points->positions);
@@ -114,9 +115,8 @@ bool cloud_turn_error_into_note(const cloud_file *file)
 
 /* ---- Lines and words ---------------------------------------------------------------------------------------- */
 
-/* Returns the character that ends the lines of a file. It is \r only if the first line ends with \r and no \n
- * follows. All other files have lines that end with \n or \r\n. The first line decides, because \n may also be the
- * first byte of binary data after a header. */
+/* Returns the last character of the line ends of a file: \r if the first line ends with a single \r, otherwise \n. Only
+ * the first line is examined, because \n may also be the first byte of binary data after a header. */
 static char find_terminator(const char *at, const char *limit)
 {
     while (at < limit && *at != '\n' && *at != '\r')
@@ -252,7 +252,7 @@ void cloud_note_trailing_lines(cloud_file *file)
 
 /* ---- Binary data -------------------------------------------------------------------------------------------- */
 
-/* The numbers of some records, indexed by record and cloud_channel. */
+/* The numbers of one record, indexed by cloud_channel. */
 typedef double record_numbers[CLOUD_CHANNELS];
 
 static inline void read_column_as(cloud_scalar type, const cloud_field *field, uint64_t from, size_t count,
@@ -280,7 +280,7 @@ static void read_column(const cloud_field *field, uint64_t from, size_t count, r
 
 bool cloud_add_records(cloud_file *file, const cloud_field *fields, size_t field_count, uint64_t count)
 {
-    enum { BLOCK = 256 }; /* the numbers of so many records fit the L1 cache */
+    enum { BLOCK = 256 }; /* the numbers of this many records fit the L1 cache */
     record_numbers numbers[BLOCK];
     if (!cloud_reserve(file, count))
         return false;

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* cloud_format.h - the interface of a cloud format, and functions that all readers share. The functions are about the
- * file in memory, its lines and words, its binary numbers, the growing result, and errors. Private to cloud*.c.
+/* cloud_format.h - the interface of a cloud format, and functions that all readers share. These functions parse lines,
+ * words and binary numbers of a file in memory, append points to the result, and set errors. Private to cloud*.c.
  *
- * cloud.h says how to add a format.
- */
+ * cloud.h says how to add a format. */
 #ifndef CLOUDS_CLOUD_FORMAT_H
 #define CLOUDS_CLOUD_FORMAT_H
 
@@ -65,41 +64,44 @@ CLOUD_FORMAT_MAP(CLOUD_FORMAT_EXTERN)
 #undef CLOUD_FORMAT_EXTERN
 extern const cloud_format cloud_text; /* reads any text file; this format has no recognise() */
 
-/* Returns whether a text begins with a point. Comments and a line of column names may come before the point. */
+/* Returns whether the text of a file begins with a point. Comments and a line of column names, or of the number of
+ * points, may come before the point. */
 bool cloud_text_is_recognised(cloud_file *file);
 
 /* ---- Result and errors -------------------------------------------------------------------------------------- */
 
-/* Adds a channel to file->channels. `name` is its name in the file. If `channel` is -1 or was added before, returns
- * false and adds a note that the value `name` is ignored. */
+/* Adds a channel to file->channels. `name` is the channel's name in the file. If `channel` is -1 or was added before,
+ * returns false and adds a note that the value `name` is ignored. */
 bool cloud_add_channel(cloud_file *file, int channel, cloud_span name);
 
-/* Completes file->channels. Call this function before the first point is added. `full` (1 or 255) is the assumed
- * full scale of colour channels. If a point has a larger channel, the full scale is raised, and the colours that
- * were read before are rescaled. */
-void cloud_complete_channels(cloud_file *file, unsigned full);
+/* Removes from file->channels the coordinates, and the colour channels that cannot be used: an incomplete set of red,
+ * green and blue, or a packed colour beside a complete set. Adds a note about the removed colours. Call this function
+ * after the last channel and before the first point is added. `full` (1 or 255) is the assumed full scale of colour
+ * channels. If a point has a larger channel, the full scale is raised, and the colours that were read before are
+ * rescaled. */
+void cloud_select_channels(cloud_file *file, unsigned full);
 
 /* Converts the numbers of one point, indexed by cloud_channel, to the values of the point. `value` is a row of
- * file->out->values, without values. */
+ * file->out->values in which all values are missing. */
 void cloud_convert_values(cloud_file *file, const double *numbers, point_value *value);
 
-/* If the colours are zero in all points, discards the colours and adds a note. Does the same for intensities. Call
- * this function after the last point was added. */
-void cloud_discard_zeros(cloud_file *file);
+/* If the colours of all points are zero, discards the colours and adds a note. Intensities are treated in the same way.
+ * Call this function after the last point was added. */
+void cloud_discard_zero_values(cloud_file *file);
 
 /* Discards the values that were read so far. Points that are added later have no values. */
 void cloud_discard_values(cloud_file *file);
 
-/* Completes the values of all points. Call this function after the last point was added. */
-void cloud_finish_values(cloud_file *file);
+/* If no point has a value, frees file->out->values. If no point has a colour, sets file->out->color_full to 0. Call
+ * this function after the last point was added. */
+void cloud_discard_absent_values(cloud_file *file);
 
-/* Reserves memory for `count` points. The caller has checked that the file contains so many points. Returns false if
+/* Reserves memory for `count` points. The caller has checked that the file contains this many points. Returns false if
  * memory runs out. */
 bool cloud_reserve(cloud_file *file, uint64_t count);
 
 /* Reserves memory for the number of points that the file announces. Each point has `columns` numbers, which take at
- * least one byte each. This limits the reserved memory: a wrong announcement reserves no more than a file of this
- * size can need. */
+ * least one byte each. So a wrong number reserves no more memory than a file of this size can need. */
 bool cloud_reserve_announced(cloud_file *file, uint64_t count, uint64_t columns);
 
 /* Appends a point. `numbers` is indexed by cloud_channel and must hold x, y, z and the channels of the file. If the
@@ -124,13 +126,13 @@ void cloud_report_progress(const cloud_file *file, uint64_t calls, uint64_t done
 #define cloud_fail_byte(file, offset, ...) cloud_fail_at(file, "byte ", offset, __VA_ARGS__)
 bool cloud_fail_at(const cloud_file *file, const char *unit, size_t number, const char *format, ...);
 
-/* The file has an error after its last point. Turns this error into a note of the cloud, unless the cloud already
- * has a note. Returns true. */
+/* Turns an error after the last point of the file into a note of the cloud. If the cloud already has a note, only
+ * clears the error. Returns true. */
 bool cloud_turn_error_into_note(const cloud_file *file);
 
 /* ---- Lines and words ---------------------------------------------------------------------------------------- */
 
-/* Moves the cursor to the start of the first line. */
+/* Moves the cursor to the start of the first line, and finds out how lines end. */
 void cloud_rewind_lines(cloud_file *file);
 
 /* Reads the next line. The line end is not part of *line. Returns false at the end of the file. */
@@ -167,7 +169,7 @@ bool cloud_parse_coordinate(const cloud_file *file, cloud_span word, double *coo
  * bits. */
 bool cloud_parse_channel(const cloud_file *file, cloud_span word, int channel, double *number);
 
-/* The size of a word that cloud_quote_word() quotes, in bytes with the final zero. */
+/* The size of the text that cloud_quote_word() writes, in bytes with the final zero. */
 #define CLOUD_QUOTE 48
 
 /* Quotes a word for an error. Unprintable bytes are escaped and long words are shortened. Returns `text`. */
@@ -216,7 +218,7 @@ static inline double cloud_read_scalar(cloud_scalar type, bool big_endian, const
         memcpy(&narrow, &low, sizeof narrow);
         memcpy(&wide, &bits, sizeof wide);
         return type.size == 8 ? wide : (double)narrow;
-    case CLOUD_SIGNED: /* in two's complement, the sign bit stands for minus its value in an unsigned integer */
+    case CLOUD_SIGNED: /* in two's complement, the sign bit stands for the negative of its unsigned value */
         return bits & sign ? -(double)(sign - (bits & (sign - 1))) : (double)bits;
     case CLOUD_UNSIGNED:
         break;
@@ -224,7 +226,7 @@ static inline double cloud_read_scalar(cloud_scalar type, bool big_endian, const
     return (double)bits;
 }
 
-/* A number that each of many records contains. */
+/* A field that every record of a series contains: the type, the meaning and the place of its number. */
 typedef struct cloud_field {
     cloud_scalar type;
     bool big_endian;
@@ -233,8 +235,8 @@ typedef struct cloud_field {
     size_t step;                /* distance from the number in one record to that in the next, in bytes */
 } cloud_field;
 
-/* Adds the points of `count` records. The caller has checked that the file contains so many. Returns false if memory
- * runs out. */
+/* Adds the points of `count` records. The caller has checked that the file contains this many records. Returns false if
+ * memory runs out. */
 bool cloud_add_records(cloud_file *file, const cloud_field *fields, size_t field_count, uint64_t count);
 
 /* Adds a note if any byte from `offset` to the end of the file is not zero. Zeros are accepted, because some writers

@@ -2,12 +2,11 @@
 /* cloud_las.c - reads the points of a LAS file, version 1.0 to 1.5. LAS is the format of laser surveys by the ASPRS.
  *
  * A binary header gives the position, number, format and length of the point records, and a scale and an offset for
- * each axis. A record begins with three integers. A coordinate is integer * scale + offset in doubles. Its product and
- * its sum are rounded once each, as the specification says and other readers compute. Intensity, class and colour have
+ * each axis. A record begins with three integers. A coordinate is integer * scale + offset in doubles. The product and
+ * the sum are each rounded once, as the specification says and as other readers do. Intensity, class and colour have
  * positions in the record that depend on the point format.
  *
- * A LAZ file is a LAS file with compressed records. This file reads its header; cloud_laz.c reads its records.
- */
+ * A LAZ file is a LAS file with compressed records. This file reads its header; cloud_laz.c reads its records. */
 #include "cloud_format.h"
 #include "cloud_laz.h"
 
@@ -50,9 +49,9 @@ typedef struct las_reader {
     cloud_file *file;
     unsigned minor, format, header_size;
     bool compressed;
-    unsigned withheld; /* the bit in a record's flags that marks the record as withheld */
-    uint64_t first, length, count;
-    double factors[6]; /* the scales of x, y and z, then the offsets of x, y and z */
+    unsigned withheld;             /* the bit in a record's flags that marks the record as withheld */
+    uint64_t first, length, count; /* the file offset of the first point record; the size of a record; their number */
+    double factors[6];             /* the scales of x, y and z, then the offsets of x, y and z */
 } las_reader;
 
 static bool is_las(cloud_file *file)
@@ -173,7 +172,8 @@ static bool find_points(las_reader *reader)
 }
 
 /* A part of the file may follow the points. The header holds the start of this part at offset `at`; 0 means that the
- * part is missing. If the start is lower than *next, set *next to it. */
+ * part is missing. If the start is lower than *next, *next becomes the start. Returns false with an error if the start
+ * is outside the bytes after the points. */
 static bool update_next_part_start(const las_reader *reader, size_t at, const char *what, uint64_t *next)
 {
     const uint64_t end = reader->first + reader->count * reader->length, start = read_unsigned(reader, at, 8);
@@ -189,8 +189,9 @@ static bool update_next_part_start(const las_reader *reader, size_t at, const ch
     return true;
 }
 
-/* Add a note if unknown data follow the points. Waveforms and extended variable length records may follow. */
-static bool check_bytes_after_points(const las_reader *reader)
+/* Add a note if data other than waveforms and extended variable length records follow the points. Returns false with an
+ * error if the header gives an impossible start of the waveforms or of the extended records. */
+static bool check_data_after_points(const las_reader *reader)
 {
     static const bool has_waveforms[FORMATS] = {[4] = true, [5] = true, [9] = true, [10] = true};
     cloud_file before = *reader->file;
@@ -244,9 +245,9 @@ static bool add_decompressed_record(void *context, const unsigned char *record)
     return add_record(reader, record, (size_t)reader->first);
 }
 
-/* Read compressed points. The decompressor itself finds them in the file. Refuse a number of points that no file of
- * this size can hold. The limit leaves room for extreme files: ten million equal points take 68 kB, which is 147
- * points for each byte. */
+/* Read compressed points. The decompressor finds the place of the points by itself. A number of points that no file of
+ * this size can hold is an error. The limit leaves room for extreme files: ten million equal points take 68 kB, which
+ * is 147 points for each byte. */
 static bool read_compressed(las_reader *reader)
 {
     enum { MOST_A_BYTE = 256 };
@@ -262,7 +263,7 @@ static bool read_compressed(las_reader *reader)
 
 static bool read_uncompressed(las_reader *reader)
 {
-    if (!find_points(reader) || !check_bytes_after_points(reader) || !cloud_reserve(reader->file, reader->count))
+    if (!find_points(reader) || !check_data_after_points(reader) || !cloud_reserve(reader->file, reader->count))
         return false;
     for (uint64_t i = 0; i < reader->count; i++) {
         const size_t at = (size_t)(reader->first + i * reader->length);
@@ -281,10 +282,10 @@ static bool parse_las(cloud_file *file)
     if (!read_version(&reader) || !read_format(&reader) || !read_count(&reader) || !read_scales_and_offsets(&reader))
         return false;
     file->channels = 1U << CLOUD_INTENSITY | 1U << CLOUD_CLASS | (las_colors_at[reader.format] ? CLOUD_COLOR : 0);
-    cloud_complete_channels(file, 255);
+    cloud_select_channels(file, 255);
     if (!(reader.compressed ? read_compressed : read_uncompressed)(&reader))
         return false;
-    cloud_discard_zeros(file);
+    cloud_discard_zero_values(file);
     return true;
 }
 

@@ -25,7 +25,7 @@ static void write_little_endian(unsigned char *at, uint32_t number, unsigned siz
         at[i] = (unsigned char)(number >> 8 * i);
 }
 
-/* Writes the first LAS_RECORD_READ bytes of an uncompressed LAS record. */
+/* Writes the first LAS_RECORD_READ bytes of the uncompressed LAS record of a point. */
 static void write_record(const laszip_point_struct *p, unsigned format, unsigned char record[LAS_RECORD_READ])
 {
     const unsigned color = las_colors_at[format];
@@ -49,8 +49,8 @@ typedef struct decompression {
     uint64_t count;
 } decompression;
 
-/* Writes to `why` the reason why point i cannot be decompressed. The reason contains the first line of the message
- * of liblaszip. */
+/* Writes to `why` the reason why point i cannot be decompressed. The reason contains the first line of the message of
+ * liblaszip. Returns false. */
 static bool write_failure_reason(const decompression *u, FILE *why, laszip_POINTER laszip, uint64_t i)
 {
     laszip_CHAR *message = NULL;

@@ -88,8 +88,8 @@ static bool set_type(pcd_field *field, cloud_span word)
     return found >= 0;
 }
 
-/* Set the count of a field. The upper limit keeps the size of a point, MAX_FIELDS fields of 8-byte values, from
- * overflowing. */
+/* Set the count of a field. Because of the upper limit, the size of a point cannot overflow: a point has at most
+ * MAX_FIELDS fields of 8-byte values. */
 static bool set_count(pcd_field *field, cloud_span word)
 {
     return cloud_parse_count(word, &field->count) && field->count > 0 && field->count <= UINT32_MAX;
@@ -260,7 +260,7 @@ static bool set_field_offsets(pcd_reader *reader)
         reader->fields[kept++] = field;
     }
     reader->field_count = kept;
-    cloud_complete_channels(reader->file, full);
+    cloud_select_channels(reader->file, full);
     return true;
 }
 

@@ -172,7 +172,7 @@ static bool check_header(const ply_reader *reader)
     for (int axis = 0; axis < 3; axis++)
         if (!(reader->file->channels >> axis & 1))
             return cloud_fail_line(reader->file, "element \"vertex\" has no property \"%c\"", "xyz"[axis]);
-    cloud_complete_channels(reader->file, reader->full_color);
+    cloud_select_channels(reader->file, reader->full_color);
     return true;
 }
 
@@ -273,9 +273,10 @@ static bool read_binary_row(ply_reader *reader, const ply_element *element, uint
     return true;
 }
 
-/* Read the points of an element whose rows have all the same size. Returns false, without an error, if the element has
- * lists or if the file ends before its last row; the caller then reads row by row. */
-static bool read_equal_rows(ply_reader *reader, const ply_element *element, bool *read)
+/* Read the points of an element whose rows all have the same size. *read becomes true if all points were added, and
+ * false with an error if memory runs out. If the element has lists, or if the file ends before the last row, returns
+ * false without an error and reads nothing; the caller then reads row by row. */
+static bool read_rows_of_equal_size(ply_reader *reader, const ply_element *element, bool *read)
 {
     cloud_field fields[CLOUD_CHANNELS];
     size_t field_count = 0, size = 0;
@@ -299,9 +300,9 @@ static bool read_equal_rows(ply_reader *reader, const ply_element *element, bool
 
 /* ---- Elements ----------------------------------------------------------------------------------------------- */
 
-/* The reader found an error. If all points were read, turn the error into a note. But a truncated file remains an
- * error, even if no point is missing. */
-static bool turn_damage_into_note(const ply_reader *reader)
+/* Turn the reader's error into a note if all points were read before the error. A truncated file remains an error, even
+ * if no point is missing. Returns whether the error became a note. */
+static bool turn_late_error_into_note(const ply_reader *reader)
 {
     return reader->has_all_points && !reader->is_truncated && cloud_turn_error_into_note(reader->file);
 }
@@ -314,14 +315,15 @@ static bool read_rows(ply_reader *reader, const ply_element *element)
     double numbers[CLOUD_CHANNELS];
     if (element->property_count == 0)
         return true;
-    if (has_points && reader->encoding != PLY_ASCII && read_equal_rows(reader, element, &reader->has_all_points))
+    if (has_points && reader->encoding != PLY_ASCII &&
+        read_rows_of_equal_size(reader, element, &reader->has_all_points))
         return reader->has_all_points;
     if (has_points && !cloud_reserve_announced(reader->file, element->count, element->property_count))
         return false;
     for (uint64_t row = 0; row < element->count; row++) {
         cloud_report_progress(reader->file, row, row, element->count);
         if (!read_row(reader, element, row, numbers) &&
-            !(reader->encoding == PLY_ASCII && turn_damage_into_note(reader)))
+            !(reader->encoding == PLY_ASCII && turn_late_error_into_note(reader)))
             return false;
         if (has_points && !cloud_add_point(reader->file, numbers))
             return false;
@@ -346,7 +348,7 @@ static bool parse_ply(cloud_file *file)
     for (size_t i = 0; i < reader.element_count; i++)
         if (!read_rows(&reader, &reader.elements[i]))
             /* after an error, the next element of a binary file cannot be found */
-            return turn_damage_into_note(&reader);
+            return turn_late_error_into_note(&reader);
     if (ascii)
         cloud_note_trailing_lines(file);
     else

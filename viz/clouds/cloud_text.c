@@ -6,10 +6,10 @@
  * follow.
  *
  * The names of the columns after the third say what these columns mean. Without names, the ending of the file's name
- * may declare the meaning (find_columns()). Otherwise the meaning is guessed: three further columns are a colour, four
- * are an intensity and a colour. Every line must confirm the guess (accept_or_discard_guessed_columns() gives the
- * rules); else the columns are ignored. The note cloud.column_note tells the user about a guess or ignored columns.
- */
+ * may declare the meaning (choose_column_meaning()). Otherwise the meaning is guessed: three further columns are a
+ * colour, four are an intensity and a colour. Every line must confirm the guess (accept_or_discard_guessed_columns()
+ * gives the rules); otherwise the columns are ignored. cloud.column_note reports guessed and ignored columns to the
+ * user. */
 #include "cloud_format.h"
 #include "file.h"
 #include "number.h"
@@ -34,7 +34,8 @@ typedef struct text_columns {
     /* true: the channels are guessed; then the members below are about the lines that were read so far */
     bool guessed;
     int ranges;  /* the ranges that contain all colour channels of all lines */
-    int shifted; /* the ranges that contain, in all lines, the column before the colour */
+    int shifted; /* the ranges that contain the column before the colour in all lines; if the colour has such a range
+                  * too, the colour might begin one column earlier */
     /* true: at least one colour, taken as a vector, does not have length 1, so the columns are not normals */
     bool no_normals;
     double brightest; /* the largest value of all colour channels */
@@ -59,9 +60,9 @@ static bool is_separator(char c)
     return c == ',' || c == ';';
 }
 
-/* Removes the first column from a line and stores it in *column. The line consists of column names, or an error
- * quotes it. A column ends at a blank, a comma or a semicolon. */
-static bool read_next_column(cloud_span *line, cloud_span *column)
+/* Removes the first column from a line of column names and stores it in *column. A column ends at a blank, a comma or a
+ * semicolon. Returns false if the line has no column left. */
+static bool read_next_column_name(cloud_span *line, cloud_span *column)
 {
     while (line->begin < line->limit && (cloud_is_blank(*line->begin) || is_separator(*line->begin)))
         line->begin++;
@@ -81,7 +82,7 @@ static cloud_span strip_quotes(cloud_span column)
     return column;
 }
 
-/* Returns whether a column is a name. A column is a name if it does not begin like a number. */
+/* Returns whether a column is a name, that is, does not begin like a number. */
 static bool is_column_name(cloud_span column)
 {
     const char *end;
@@ -94,7 +95,7 @@ static bool is_column_header(cloud_span line)
 {
     cloud_span column;
     size_t count = 0;
-    for (; read_next_column(&line, &column); count++)
+    for (; read_next_column_name(&line, &column); count++)
         if (!is_column_name(strip_quotes(column)))
             return false;
     return count >= 3;
@@ -114,14 +115,14 @@ static void add_column(text_columns *columns, size_t column, cloud_channel chann
 
 /* Reads the line of column names. The first three columns must be x, y and z, so names such as "id,x,y,z" are
  * refused. A unit, as in "x [m], y [m]", is part of the name before it. `full` is the assumed full scale of colours
- * for cloud_complete_channels(). */
+ * for cloud_select_channels(). */
 static bool read_column_names(cloud_file *file, cloud_span line, unsigned full, text_columns *columns)
 {
     cloud_span column;
     *columns = (text_columns){0};
     file->channels = 0;
     *file->out->column_note = 0;
-    for (int index = 0; read_next_column(&line, &column);) {
+    for (int index = 0; read_next_column_name(&line, &column);) {
         if (*column.begin == '[' || *column.begin == '(')
             continue;
         int channel = find_channel(strip_quotes(column));
@@ -132,7 +133,7 @@ static bool read_column_names(cloud_file *file, cloud_span line, unsigned full, 
             add_column(columns, (size_t)index - 3, (cloud_channel)channel);
         index++;
     }
-    cloud_complete_channels(file, full);
+    cloud_select_channels(file, full);
     return true;
 }
 
@@ -146,7 +147,7 @@ static cloud_span strip_comment(cloud_span line)
 
 /* Removes the first column from a line and stores it in *field. The line has no comment. A column ends at
  * `separator`; the separator ' ' stands for any blank. Returns false if the line has no column left. */
-static bool read_next_field(cloud_span *line, char separator, cloud_span *field)
+static bool read_next_column(cloud_span *line, char separator, cloud_span *field)
 {
     field->begin = line->begin = skip_blanks(*line);
     while (line->begin < line->limit && (separator == ' ' ? !cloud_is_blank(*line->begin) : *line->begin != separator))
@@ -159,7 +160,7 @@ static bool read_next_field(cloud_span *line, char separator, cloud_span *field)
     return found;
 }
 
-/* Returns the separator of a line. It is the comma or semicolon that follows the first column, or ' ' if blanks do. */
+/* Returns the separator of a line: the comma or semicolon after the first column, or ' ' if there is none. */
 static char find_separator(cloud_span line)
 {
     while (line.begin < line.limit && !cloud_is_blank(*line.begin) && !is_separator(*line.begin))
@@ -178,7 +179,7 @@ static bool parse_position(const cloud_file *file, cloud_span *line, char *separ
     *line = strip_comment(*line);
     *separator = find_separator(*line);
     for (int axis = 0; axis < 3; axis++) {
-        if (!read_next_field(line, *separator, &field))
+        if (!read_next_column(line, *separator, &field))
             return cloud_fail_line(file, "has %d of the three coordinates x y z", axis);
         if (field.begin == field.limit)
             return cloud_fail_line(file, "column %d is empty", axis + 1);
@@ -211,17 +212,18 @@ static size_t parse_values(cloud_span line, char separator, const text_columns *
     size_t i = 0, next = 0;
     for (int channel = CLOUD_Z + 1; channel < CLOUD_CHANNELS; channel++)
         numbers[channel] = NAN;
-    for (; next < columns->place_count && read_next_field(&line, separator, &field); i++)
+    for (; next < columns->place_count && read_next_column(&line, separator, &field); i++)
         if (columns->places[next].column == i)
             numbers[columns->places[next++].channel] = parse_field(field);
-    return i + read_next_field(&line, separator, &field);
+    return i + read_next_column(&line, separator, &field);
 }
 
 /* ---- Columns without names ---------------------------------------------------------------------------------- */
 
-/* Finds the meaning of the columns after the coordinates. The input is the first line of numbers. Also finds whether
- * this meaning is declared by the file or guessed. */
-static void find_columns(cloud_file *file, cloud_span rest, char separator, text_columns *columns)
+/* Chooses the meaning of the unnamed columns after the coordinates, by the ending of the file's name and the number of
+ * columns. `rest` is the first line of numbers, without the coordinates. columns->guessed becomes true if the ending
+ * does not declare the meaning. */
+static void choose_column_meaning(cloud_file *file, cloud_span rest, char separator, text_columns *columns)
 {
     static const struct {
         /* the ending of the file's name for which this row holds; null: any ending, and the meaning is guessed */
@@ -239,7 +241,7 @@ static void find_columns(cloud_file *file, cloud_span rest, char separator, text
     const bool counted = columns->counted;
     cloud_span field;
     size_t count = 0;
-    while (read_next_field(&rest, separator, &field))
+    while (read_next_column(&rest, separator, &field))
         count++;
     columns->unnamed = count > 0;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
@@ -328,7 +330,7 @@ static bool is_point_count(cloud_span line, uint64_t *count)
     cloud_span field;
     uint64_t number;
     line = strip_comment(line);
-    if (!read_next_field(&line, ' ', &field) || !cloud_parse_count(field, &number) || skip_blanks(line) < line.limit)
+    if (!read_next_column(&line, ' ', &field) || !cloud_parse_count(field, &number) || skip_blanks(line) < line.limit)
         return false;
     *count = number;
     return true;
@@ -363,7 +365,7 @@ static bool parse_point(cloud_file *file, cloud_span line, bool named, text_colu
     if (cloud_skip_nonfinite(file, numbers))
         return true;
     if (file->out->count == 0 && !named)
-        find_columns(file, line, separator, columns);
+        choose_column_meaning(file, line, separator, columns);
     if (columns->place_count > 0) {
         const size_t count = parse_values(line, separator, columns, numbers);
         if (columns->guessed)
@@ -381,7 +383,7 @@ static bool is_comment_with_column_names(cloud_span *line)
         rest.begin++;
     const cloud_span names = rest;
     for (int i = 0; i < 3; i++)
-        if (!read_next_column(&rest, &column) || find_channel(strip_quotes(column)) != i)
+        if (!read_next_column_name(&rest, &column) || find_channel(strip_quotes(column)) != i)
             return false;
     *line = names;
     return is_column_header(names);

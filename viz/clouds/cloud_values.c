@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* cloud_values.c - finds the colours, intensities and classes of a cloud by the names of its columns or fields, and
- * converts their numbers. */
+ * converts the numbers in the file to these values. */
 #include "cloud_format.h"
 #include "number.h"
 
@@ -90,9 +90,7 @@ bool cloud_add_channel(cloud_file *file, int channel, cloud_span name)
     return added;
 }
 
-/* If a file lacks one of the three colour channels, the other two are ignored. If a file has all three, a packed
- * colour is ignored. */
-void cloud_complete_channels(cloud_file *file, unsigned full)
+void cloud_select_channels(cloud_file *file, unsigned full)
 {
     const unsigned three = file->channels & CLOUD_COLOR;
     const unsigned ignored = three == CLOUD_COLOR ? file->channels & 1U << CLOUD_PACKED : three;
@@ -109,9 +107,10 @@ void cloud_discard_values(cloud_file *file)
     point_values_release(&file->out->values);
 }
 
-/* Raises the full scale of colours after a channel exceeded it. All channels before were within the old scale, so
- * their 8-bit values can be rescaled. From 1 to 255: the old maximum, 1, becomes 1 of 255. From 255 to 65535: every
- * old value, at most 255, is less than one 8-bit step and becomes 0. */
+/* Raises the full scale of colours after a channel exceeded the old scale. All earlier channels were within the old
+ * scale, so their 8-bit values can be rescaled. From 1 to 255: an earlier channel was at most 1, and becomes 0 or 1 of
+ * 255. From 255 to 65535: an earlier channel was at most 255, which is less than one 8-bit step of the new scale, and
+ * becomes 0. */
 static void raise_full_scale(cloud *points)
 {
     const bool unit = points->color_full == UNIT;
@@ -215,7 +214,7 @@ void cloud_convert_values(cloud_file *file, const double *numbers, point_value *
         value->class = (uint16_t) * class;
 }
 
-void cloud_discard_zeros(cloud_file *file)
+void cloud_discard_zero_values(cloud_file *file)
 {
     static const char *const words[] = {"", "colours", "intensities", "colours and intensities"};
     point_values *v = &file->out->values;
@@ -236,7 +235,7 @@ void cloud_discard_zeros(cloud_file *file)
                  "%s are zero in every point and are treated as missing", words[zero]);
 }
 
-void cloud_finish_values(cloud_file *file)
+void cloud_discard_absent_values(cloud_file *file)
 {
     point_values *v = &file->out->values;
     if (v->kinds == 0)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* laz_child.c - starts a child process and reads its output. The child writes records to a pipe. If it fails, it
+/* laz_child.c - starts a child process and reads its output. The child writes records to a pipe. A child that fails
  * writes the reason to a temporary file. */
 #include "laz_child.h"
 
@@ -50,8 +50,8 @@ static bool read_records_from_pipe(const cloud_file *file, FILE *records, uint64
     return true;
 }
 
-/* The child wrote too few records. Sets the error from the child's exit status and from the reason that the child
- * wrote. */
+/* Sets the error after the child wrote too few records, from the child's exit status and the reason that the child
+ * wrote. Returns false. */
 static bool fail_with_too_few_records(const laz_child *child, const cloud_file *file, FILE *why, int status)
 {
     char text[256];
@@ -75,7 +75,7 @@ bool laz_child_read_records(const laz_child *child, const cloud_file *file, uint
     bool too_few = false;
     FILE *why = tmpfile();
     if (!why)
-        why = fopen("/dev/null", "r+b"); /* if no temporary file can be made, the error of a failure has no reason */
+        why = fopen("/dev/null", "r+b"); /* if no temporary file can be created, errors contain no reason */
     if (!why || pipe(pipe_ends) != 0) {
         cloud_fail(file, "cannot create a temporary file and a pipe for decompression: %s", strerror(errno));
         if (why)

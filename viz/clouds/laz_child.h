@@ -8,8 +8,8 @@
 
 #include <stdio.h>
 
-/* Byte offsets in a LAS record. They are the same in all point formats. The coordinates come first. Since point
- * format 6 the class has a byte of its own; before, the class is the lowest five bits of the flags. Only the first
+/* Byte offsets in a LAS record, the same in all point formats. The coordinates come first. Since point format 6 the
+ * class has a byte of its own; in lower formats, the class is the lowest five bits of the flags. Only the first
  * LAS_RECORD_READ bytes of a record are read. */
 enum { LAS_AT_INTENSITY = 12, LAS_AT_FLAGS = 15, LAS_AT_CLASS = 16, LAS_RECORD_READ = 36 };
 
@@ -17,8 +17,8 @@ enum { LAS_AT_INTENSITY = 12, LAS_AT_FLAGS = 15, LAS_AT_CLASS = 16, LAS_RECORD_R
  * reading. */
 typedef bool laz_record_reader(void *context, const unsigned char *record);
 
-/* A callback that runs in the child process. It writes LAS_RECORD_READ bytes for each record to `records`. On
- * failure it writes one line to `why` and returns false. */
+/* A callback that runs in the child process. The callback writes LAS_RECORD_READ bytes for each record to `records`. On
+ * failure the callback writes one line to `why` and returns false. */
 typedef bool laz_produce(void *context, FILE *records, FILE *why);
 
 typedef struct laz_child {
