@@ -86,7 +86,7 @@ static bool prepare_copies(const accepting *a, file_set *set, octreel_error *err
         const diff_pair *pair = &a->result.pairs[i];
         if (a->actions[i] == CHANGED || a->actions[i] == ADDED)
             ok = (a->reference.kind == DIFF_PICTURE ||
-                  folder_create_inside(a->reference.path, diff_pair_name(pair), error)) &&
+                  folder_create_parents(a->reference.path, diff_pair_name(pair), error)) &&
                  prepare_copy(set, pair->b->path, make_final_path(a, pair), error);
         else if (whole && pair->finding == FOUND_SAME_PIXELS)
             ok = prepare_recording_file(a, diff_pair_name(pair), set, error);
@@ -107,7 +107,7 @@ static bool remove_references(const accepting *a, octreel_error *error)
             continue;
         if (remove(pair->a->path) != 0)
             return error_set(error, "%s: cannot be removed: %s", pair->a->path, strerror(errno));
-        folder_remove_empty_inside(a->reference.path, pair->a->name);
+        folder_remove_empty_parents(a->reference.path, pair->a->name);
     }
     return true;
 }
@@ -117,7 +117,7 @@ static void remove_new_folders(const accepting *a)
 {
     for (size_t i = 0; i < a->result.count; i++)
         if (a->actions[i] == ADDED && a->reference.kind != DIFF_PICTURE)
-            folder_remove_empty_inside(a->reference.path, diff_pair_name(&a->result.pairs[i]));
+            folder_remove_empty_parents(a->reference.path, diff_pair_name(&a->result.pairs[i]));
 }
 
 static bool replace_files(const accepting *a, octreel_error *error)

@@ -81,8 +81,8 @@ file_kind file_kind_of_input(const char *path)
     return find_content_kind(first, size);
 }
 
-/* A folder that contains at least one file of a recording counts as a recording. If other files of the recording are
- * missing, the command that reads it reports them. */
+/* A folder that contains at least one file of a recording counts as a recording. The command that later reads the
+ * recording reports missing files. */
 static file_kind find_folder_kind(const char *path)
 {
     for (size_t i = 0; recording_files[i]; i++)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* file_kind.h - detects the kind of a file or folder from its content, never from its name. For output files, it
- * also finds the format that the file's name requests. */
+/* file_kind.h - detects the kind of a file or folder from its content, never from its name. Also finds the format that
+ * the name of an output file requests. */
 #ifndef FORMATS_FILE_KIND_H
 #define FORMATS_FILE_KIND_H
 
@@ -33,12 +33,12 @@ typedef enum file_kind {
 typedef unsigned file_kinds;
 #define FILE_KIND(kind) (1u << KIND_##kind)
 
-/* Returns the kind of a path. Returns UNKNOWN if the path cannot be opened or is not a regular file or a folder.
- * Pipes and standard input ("-") are not read. */
+/* Returns the kind of the file or folder at a path. Returns UNKNOWN if the path cannot be opened or is not a regular
+ * file or a folder. Pipes and standard input ("-") are not read. */
 file_kind file_kind_of(const char *path);
 
-/* Returns the kind of a file that will be read afterwards. Unlike file_kind_of(), this also reads pipes and standard
- * input ("-"). It keeps the bytes for the next reader. */
+/* Returns the kind of a file that will be read afterwards. Unlike file_kind_of(), this function also reads pipes and
+ * standard input ("-"), and keeps the bytes for the next reader. */
 file_kind file_kind_of_input(const char *path);
 
 typedef struct file_kind_row {

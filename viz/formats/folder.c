@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* folder.c - the names of the files of a recording, and functions that create, check and clean its folder. */
+/* folder.c - the names of the files of a recording, and functions that create, check and clean the recording's
+ * folder. */
 #include "folder.h"
 
 #include <errno.h>
@@ -67,7 +68,7 @@ bool folder_create(const char *folder, octreel_error *error)
     return ok;
 }
 
-bool folder_create_inside(const char *folder, const char *name, octreel_error *error)
+bool folder_create_parents(const char *folder, const char *name, octreel_error *error)
 {
     char *path = path_join(folder, name);
     if (!path)
@@ -77,7 +78,7 @@ bool folder_create_inside(const char *folder, const char *name, octreel_error *e
     return ok;
 }
 
-void folder_remove_empty_inside(const char *folder, const char *name)
+void folder_remove_empty_parents(const char *folder, const char *name)
 {
     char *path = path_join(folder, name);
     char *const start = path ? path + strlen(path) - strlen(name) : NULL;
@@ -119,7 +120,8 @@ bool folder_is_recording_file(const char *name)
     return strncmp(name, "frame_", 6) == 0 || strcmp(name, FOLDER_ASIDE) == 0 || chunk_parse_name(name, &first, &last);
 }
 
-static bool report_existing_files(const char *folder, const char *first, octreel_error *error)
+/* Sets the error that a folder already contains `name`, a file of a recording. Returns false. */
+static bool fail_with_existing_file(const char *folder, const char *name, octreel_error *error)
 {
     if (folder_contains(folder, "recording.json") || folder_contains(folder, FOLDER_ASIDE))
         return error_set(error,
@@ -127,22 +129,22 @@ static bool report_existing_files(const char *folder, const char *first, octreel
                          "or choose another folder (-o)",
                          folder);
     return error_set(error, "%s: already holds %s, which a recording could overwrite: choose another folder (-o)",
-                     folder, first);
+                     folder, name);
 }
 
-static bool check_empty(const char *folder, octreel_error *error)
+static bool check_no_recording_files(const char *folder, octreel_error *error)
 {
     char **names = folder_names(folder, error);
     bool ok = names;
     for (size_t i = 0; ok && names[i]; i++)
-        ok = !folder_is_recording_file(names[i]) || report_existing_files(folder, names[i], error);
+        ok = !folder_is_recording_file(names[i]) || fail_with_existing_file(folder, names[i], error);
     free(names);
     return ok;
 }
 
 bool folder_create_for_recording(const char *folder, octreel_error *error)
 {
-    return folder_create(folder, error) && check_empty(folder, error);
+    return folder_create(folder, error) && check_no_recording_files(folder, error);
 }
 
 bool folder_write_file(const char *folder, const char *name, const char *bytes, size_t size, octreel_error *error)

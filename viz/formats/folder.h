@@ -13,9 +13,9 @@ bool folder_create(const char *folder, octreel_error *error);
 
 /* Creates, in a folder, the parent folders of a relative path: for "menu/1.png" the subfolder "menu". Returns false
  * with an error, also if a parent folder is a symbolic link, which could lead out of the folder.
- * folder_remove_empty_inside() removes those parent folders that are empty. */
-bool folder_create_inside(const char *folder, const char *name, octreel_error *error);
-void folder_remove_empty_inside(const char *folder, const char *name);
+ * folder_remove_empty_parents() removes those parent folders that are empty. */
+bool folder_create_parents(const char *folder, const char *name, octreel_error *error);
+void folder_remove_empty_parents(const char *folder, const char *name);
 
 /* Creates the folder for a recording. Returns false with an error if the folder already contains a recording or
  * frames. */
@@ -29,7 +29,7 @@ void folder_remove_recording_files(const char *folder);
 #define CHUNK_NAME 56
 char *chunk_print_name(uint64_t first, uint64_t last, char name[CHUNK_NAME]);
 
-/* Parses the file name of a chunk of ticks.jsonl. Returns false if the name is not that of a chunk. */
+/* Parses the file name of a chunk of ticks.jsonl. Returns false if the name is not the name of a chunk. */
 bool chunk_parse_name(const char *name, uint64_t *first, uint64_t *last);
 
 /* The names of all files of a recording except its frames. A null pointer ends the list. */
@@ -38,11 +38,11 @@ extern const char *const recording_files[];
 /* The name of the folder to which an old recording is moved while a new recording replaces it. */
 #define FOLDER_ASIDE "octreel-replaced"
 
-/* Returns whether a file with this name shows that its folder is a recording. The name is one of recording_files,
- * the name of a chunk of ticks.jsonl, or a name that begins like the name of a frame. */
+/* Returns whether a file with this name shows that its folder is a recording. Such a name is one of recording_files,
+ * FOLDER_ASIDE, the name of a chunk of ticks.jsonl, or any name that begins with "frame_". */
 bool folder_is_recording_file(const char *name);
 
-/* Returns whether a name is the name of an incomplete file, whose writer was killed: "session.json.part" and similar
+/* Returns whether a name marks a file that is incomplete because its writer was killed: "session.json.part" and similar
  * names, and "session.json.live" of a program that ended early. */
 bool folder_is_unfinished_file(const char *name);
 

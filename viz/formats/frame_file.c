@@ -101,7 +101,7 @@ static const char pixels_changed[] =
 
 /* Reads the digest of the pixels from a frame's PNG text. The digest is stored in *stated, its kind in *kind. If the
  * text is not a digest, *kind is unchanged. */
-static bool read_pixels(const char *path, image_digest_kind *kind, uint64_t *stated, octreel_error *error)
+static bool read_pixel_digest(const char *path, image_digest_kind *kind, uint64_t *stated, octreel_error *error)
 {
     char text[NUMBER_SIZE];
     return read_text_chunk(path, pixels_keyword, text, error) &&
@@ -114,7 +114,7 @@ static bool check_pixels(const char *path, frame_origin *origin, octreel_error *
     image about;
     uint64_t stated = 0;
     origin->kind = IMAGE_DIGEST_NEWEST;
-    const bool has_digest = read_pixels(path, &origin->kind, &stated, error);
+    const bool has_digest = read_pixel_digest(path, &origin->kind, &stated, error);
     if (!image_digest_png(origin->kind, path, IMAGE_WHITE, &about, &origin->pixels, &reason))
         return error_set(error, "%s", reason.text);
     return has_digest && (stated == origin->pixels || error_set(error, "%s: %s", path, pixels_changed));
@@ -165,7 +165,7 @@ static bool read_digest(const char *path, const char *keyword, uint64_t *digest)
     return found;
 }
 
-static bool read_tick_digest(const char *folder, uint64_t tick, const char *keyword, uint64_t *digest)
+static bool read_digest_of_frame(const char *folder, uint64_t tick, const char *keyword, uint64_t *digest)
 {
     octreel_error ignored;
     char path[PATH_MAX];
@@ -174,12 +174,12 @@ static bool read_tick_digest(const char *folder, uint64_t tick, const char *keyw
 
 bool frame_read_session_digest(const char *folder, uint64_t tick, uint64_t *session)
 {
-    return read_tick_digest(folder, tick, session_keyword, session);
+    return read_digest_of_frame(folder, tick, session_keyword, session);
 }
 
 bool frame_read_scene_digest(const char *folder, uint64_t tick, uint64_t *scene)
 {
-    return read_tick_digest(folder, tick, scene_keyword, scene);
+    return read_digest_of_frame(folder, tick, scene_keyword, scene);
 }
 
 bool frame_read_origin(const char *path, frame_origin *origin)
@@ -191,7 +191,7 @@ bool frame_read_origin(const char *path, frame_origin *origin)
         return false;
     origin->tick = strtoull(tick, NULL, 10);
     return read_digest(path, session_keyword, &origin->session) && read_digest(path, scene_keyword, &origin->scene) &&
-           read_pixels(path, &origin->kind, &origin->pixels, &ignored);
+           read_pixel_digest(path, &origin->kind, &origin->pixels, &ignored);
 }
 
 bool frame_replace_session_digest(const char *folder, uint64_t tick, uint64_t session, octreel_error *error)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* frame_file.h - the PNG file of a frame: its name, its PNG texts, and checks that a file is the expected frame. A
- * PNG text is a keyword and a value in a text chunk. The PNG texts of a frame state its tick, session and scene. */
+/* frame_file.h - the PNG file of a frame: its name, its PNG texts, and checks that a file is the expected frame. A PNG
+ * text is a keyword and a value in a text chunk. The PNG texts of a frame state the frame's tick, session and scene. */
 #ifndef FORMATS_FRAME_FILE_H
 #define FORMATS_FRAME_FILE_H
 
@@ -17,7 +17,7 @@
 #define FRAME_NAME 40
 char *frame_print_name(uint64_t tick, char name[FRAME_NAME]);
 
-/* Parses the file name of a frame. Returns false if the name is not that of a frame. */
+/* Parses the file name of a frame. Returns false if the name is not the name of a frame. */
 bool frame_parse_name(const char *name, uint64_t *tick);
 
 /* A recording has a frame for every `every`-th tick. Returns whether this tick has a frame. If `every` is 0, no tick
@@ -35,7 +35,7 @@ typedef struct frame_origin {
     /* the number of elements of the scene that were not drawn; the number 0 is not written as a PNG text */
     uint64_t left_out;
     image_digest_kind kind; /* how the digest `pixels` is computed */
-    uint64_t pixels;        /* the digest of the pixels; the functions that check a frame set it */
+    uint64_t pixels;        /* the digest of the pixels, set by the functions that check a frame */
 } frame_origin;
 
 /* Writes a picture as the frame of origin->tick. Returns false with an error. */

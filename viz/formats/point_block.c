@@ -5,15 +5,16 @@
  * coordinates and a colour take 27 bytes, and deflate finds almost no repeats in the bytes of doubles.
  *
  * The idea: each number becomes an integer, its code, in an order-preserving way. Few files use all bits of a double:
- * most have decimals of a few digits, or single precision. The narrowest form that returns every number of a column
- * bit for bit is chosen. Neighbours in a file lie close together, so a code is stored as its difference from the code
- * before it, unless codes without differences are shorter. The lowest bytes of all codes of a column follow each other,
- * then their next bytes, and so on: the high bytes are nearly constant and take almost no space after compression.
+ * most have decimals of a few digits, or single precision. For each column, the narrowest form is chosen that restores
+ * every number bit for bit. Neighbours in a file lie close together, so a code is stored as its difference from the
+ * code before it, unless codes without differences are shorter. The lowest bytes of all codes of a column follow each
+ * other, then their next bytes, and so on: the high bytes are nearly constant and take almost no space after
+ * compression.
  *
  * Layout, in little-endian order: "octreel points 1\n", the count of points, the address of the marked node, the kinds
- * of values with the bit MOVING, the size of the title, each in 8 bytes; the title; then the columns of column_names. A
- * column has the bytes form, digits, is-difference and width; the smallest code in 8 bytes; then `width` planes of one
- * byte for each point. Cost: O(points). */
+ * of values with the bit MOVING, the size of the title, each in 8 bytes; the title; then the columns in the order of
+ * column_name. A column begins with one byte each for form, digits, is-difference and width, and with the smallest code
+ * in 8 bytes; then `width` planes of one byte for each point. Cost: O(points). */
 #include "point_block.h"
 #include "text.h"
 
@@ -29,11 +30,11 @@ typedef enum column_name {
     COLUMN_X,
     COLUMN_Y,
     COLUMN_Z,
-    COLUMN_VX, /* the velocity; this and the next two columns only if points move */
+    COLUMN_VX, /* the velocity; this and the next two columns are present only if points move */
     COLUMN_VY,
     COLUMN_VZ,
-    COLUMN_HAS, /* the kinds of values that the point has, as bits; this and the next columns only if there are values
-                 */
+    COLUMN_HAS, /* the kinds of values that the point has, as bits; this and the next columns are present only if there
+                 * are values */
     COLUMN_RED, /* red - green: the channels of most colours are alike, so differences need fewer bits */
     COLUMN_GREEN,
     COLUMN_BLUE, /* blue - green */
@@ -42,7 +43,7 @@ typedef enum column_name {
     COLUMNS
 } column_name;
 
-/* In the head of a block: the points have velocities. */
+/* A bit in the head of a block: the points have velocities. */
 #define MOVING (1u << POINT_VALUE_KINDS)
 
 static bool has_column(const point_block *b, column_name column)
@@ -53,7 +54,7 @@ static bool has_column(const point_block *b, column_name column)
 /* ---- The code of a number -------------------------------------------------------------------------------------- */
 
 typedef enum form_kind {
-    FORM_QUOTIENT, /* the code is an integer k, the number is k / 10^digits: a text with `digits` decimals */
+    FORM_QUOTIENT, /* the code is an integer k, the number is k / 10^digits, as in a text with `digits` decimals */
     FORM_PRODUCT,  /* the number is k * 10^-digits, as in LAS files without an offset */
     FORM_SHORT,    /* the number is k / 10^digits, rounded to single precision */
     FORM_SINGLE,   /* the code is the bits of the number in single precision */
@@ -73,15 +74,15 @@ static const double fractions[] = {1, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 
 
 #define SIGN (UINT64_C(1) << 63)
 
-/* Returns the bits of a number, so that a larger number has larger bits. */
-static uint64_t order_double(double value)
+/* Returns the code of a double: its bits, changed so that a larger number has a larger code. */
+static uint64_t encode_double(double value)
 {
     uint64_t bits;
     memcpy(&bits, &value, sizeof bits);
     return bits & SIGN ? ~bits : bits | SIGN;
 }
 
-static double restore_double(uint64_t code)
+static double decode_double(uint64_t code)
 {
     const uint64_t bits = code & SIGN ? code ^ SIGN : ~code;
     double value;
@@ -89,7 +90,7 @@ static double restore_double(uint64_t code)
     return value;
 }
 
-static uint64_t order_single(double number)
+static uint64_t encode_single(double number)
 {
     const float value = (float)number;
     uint32_t bits;
@@ -97,7 +98,7 @@ static uint64_t order_single(double number)
     return bits >> 31 ? ~bits : bits | UINT32_C(1) << 31;
 }
 
-static double restore_single(uint64_t code)
+static double decode_single(uint64_t code)
 {
     const uint32_t bits = code >> 31 & 1 ? (uint32_t)code ^ UINT32_C(1) << 31 : ~(uint32_t)code;
     float value;
@@ -106,7 +107,7 @@ static double restore_single(uint64_t code)
 }
 
 /* Returns the code of an integer, which must have less than 54 bits. Other numbers get the code of 0. */
-static uint64_t order_integer(double value)
+static uint64_t encode_integer(double value)
 {
     const double rounded = floor(value + 0.5);
     return SIGN ^ (uint64_t)(fabs(rounded) < 0x1p53 ? (int64_t)rounded : 0);
@@ -116,11 +117,11 @@ static uint64_t encode_number(number_form form, double value)
 {
     switch ((form_kind)form.kind) {
     case FORM_SINGLE:
-        return order_single(value);
+        return encode_single(value);
     case FORM_DOUBLE:
-        return order_double(value);
+        return encode_double(value);
     default:
-        return order_integer(value * powers[form.digits]);
+        return encode_integer(value * powers[form.digits]);
     }
 }
 
@@ -135,9 +136,9 @@ static double decode_number(number_form form, uint64_t code)
     case FORM_SHORT:
         return (double)(float)(integer / powers[form.digits]);
     case FORM_SINGLE:
-        return restore_single(code);
+        return decode_single(code);
     default:
-        return restore_double(code);
+        return decode_double(code);
     }
 }
 
@@ -149,37 +150,38 @@ static double number_at(const point_block *b, column_name column, size_t i)
                                       : body->position[column - COLUMN_X];
 }
 
-/* Returns true if the form returns every number of a column with all its bits, among them the sign of -0. */
-static bool fits_form(const point_block *b, column_name column, number_form form)
+/* Returns whether every number of a column keeps all its bits, also the sign of -0, if it is encoded in this form and
+ * decoded again. */
+static bool is_form_exact(const point_block *b, column_name column, number_form form)
 {
     for (size_t i = 0; i < b->count; i++) {
         const double value = number_at(b, column, i);
-        if (order_double(decode_number(form, encode_number(form, value))) != order_double(value))
+        if (encode_double(decode_number(form, encode_number(form, value))) != encode_double(value))
             return false;
     }
     return true;
 }
 
-static bool has_numbers(column_name column)
+static bool is_number_column(column_name column)
 {
     return (column >= COLUMN_X && column <= COLUMN_VZ) || column == COLUMN_INTENSITY;
 }
 
-static number_form find_form(const point_block *b, column_name column)
+static number_form find_narrowest_form(const point_block *b, column_name column)
 {
-    if (!has_numbers(column))
+    if (!is_number_column(column))
         return (number_form){FORM_WHOLE, 0};
     for (unsigned char digits = 0; digits <= MOST_DIGITS; digits++)
         for (unsigned char kind = FORM_QUOTIENT; kind <= FORM_SHORT; kind++)
-            if (fits_form(b, column, (number_form){kind, digits}))
+            if (is_form_exact(b, column, (number_form){kind, digits}))
                 return (number_form){kind, digits};
     const number_form single = {FORM_SINGLE, 0};
-    return fits_form(b, column, single) ? single : (number_form){FORM_DOUBLE, 0};
+    return is_form_exact(b, column, single) ? single : (number_form){FORM_DOUBLE, 0};
 }
 
 static uint64_t code_at(const point_block *b, column_name column, number_form form, size_t i)
 {
-    if (has_numbers(column))
+    if (is_number_column(column))
         return encode_number(form, number_at(b, column, i));
     if (column == COLUMN_ID)
         return b->bodies[i].id;
@@ -195,7 +197,7 @@ static uint64_t code_at(const point_block *b, column_name column, number_form fo
 
 /* ---- Writing --------------------------------------------------------------------------------------------------- */
 
-static void write_whole(FILE *out, uint64_t value)
+static void write_uint64(FILE *out, uint64_t value)
 {
     for (int i = 0; i < 8; i++)
         putc((int)(value >> 8 * i & 255), out);
@@ -230,8 +232,8 @@ static uint64_t find_smallest(const uint64_t *codes, size_t count)
     return smallest;
 }
 
-/* Returns true if the differences of successive codes have fewer bits than the codes. */
-static bool prefers_differences(const uint64_t *codes, size_t count, uint64_t base)
+/* Returns whether the differences between successive codes take fewer bits than the differences from `base`. */
+static bool are_differences_shorter(const uint64_t *codes, size_t count, uint64_t base)
 {
     uint64_t bits = 0, bits_of_differences = 0, last = base;
     for (size_t i = 0; i < count; last = codes[i++]) {
@@ -241,8 +243,9 @@ static bool prefers_differences(const uint64_t *codes, size_t count, uint64_t ba
     return bits_of_differences < bits;
 }
 
-/* Replace codes by the stored integers. Returns the number of bytes of the largest. */
-static unsigned reduce_codes(uint64_t *codes, size_t count, uint64_t base, bool by_differences)
+/* Replace each code by the integer that is stored: the folded difference from the previous code, or the difference from
+ * `base`. Returns the number of bytes of the largest integer. */
+static unsigned convert_to_stored_integers(uint64_t *codes, size_t count, uint64_t base, bool by_differences)
 {
     uint64_t last = base, all = 0;
     for (size_t i = 0; i < count; i++) {
@@ -256,15 +259,15 @@ static unsigned reduce_codes(uint64_t *codes, size_t count, uint64_t base, bool 
 
 static void write_column(const point_block *b, column_name column, uint64_t *codes, char *plane, FILE *out)
 {
-    const number_form form = find_form(b, column);
+    const number_form form = find_narrowest_form(b, column);
     for (size_t i = 0; i < b->count; i++)
         codes[i] = code_at(b, column, form, i);
     const uint64_t base = find_smallest(codes, b->count);
-    const bool by_differences = prefers_differences(codes, b->count, base);
-    const unsigned width = reduce_codes(codes, b->count, base, by_differences);
+    const bool by_differences = are_differences_shorter(codes, b->count, base);
+    const unsigned width = convert_to_stored_integers(codes, b->count, base, by_differences);
     const unsigned char head[] = {form.kind, form.digits, by_differences, (unsigned char)width};
     fwrite(head, 1, sizeof head, out);
-    write_whole(out, base);
+    write_uint64(out, base);
     for (unsigned byte = 0; byte < width; byte++) {
         for (size_t i = 0; i < b->count; i++)
             plane[i] = (char)(codes[i] >> 8 * byte);
@@ -281,7 +284,7 @@ bool point_block_write(const point_block *b, FILE *out)
     const bool ok = codes && plane;
     fwrite(beginning, 1, BEGINNING, out);
     for (size_t i = 0; i < sizeof head / sizeof head[0]; i++)
-        write_whole(out, head[i]);
+        write_uint64(out, head[i]);
     fwrite(b->title, 1, length, out);
     for (unsigned column = 0; ok && column < COLUMNS; column++)
         if (has_column(b, (column_name)column))
@@ -310,7 +313,7 @@ static const unsigned char *read_bytes(block_reader *r, size_t size)
     return (const unsigned char *)at;
 }
 
-static bool read_whole_number(block_reader *r, uint64_t *value)
+static bool read_uint64(block_reader *r, uint64_t *value)
 {
     const unsigned char *bytes = read_bytes(r, 8);
     *value = 0;
@@ -323,9 +326,9 @@ static bool read_head(block_reader *r, point_block *b)
 {
     uint64_t count, kinds, length;
     const unsigned char *begins = read_bytes(r, BEGINNING), *title;
-    if (!begins || memcmp(begins, beginning, BEGINNING) != 0 || !read_whole_number(r, &count) ||
-        !read_whole_number(r, &b->node) || !read_whole_number(r, &kinds) || !read_whole_number(r, &length) ||
-        count > POINT_BLOCK_MOST || kinds >= 2 * MOVING || length >= sizeof b->title)
+    if (!begins || memcmp(begins, beginning, BEGINNING) != 0 || !read_uint64(r, &count) || !read_uint64(r, &b->node) ||
+        !read_uint64(r, &kinds) || !read_uint64(r, &length) || count > POINT_BLOCK_MOST || kinds >= 2 * MOVING ||
+        length >= sizeof b->title)
         return false;
     title = read_bytes(r, (size_t)length);
     if (title)
@@ -360,8 +363,8 @@ static bool read_column(block_reader *r, point_block *b, column_name column, uin
 {
     uint64_t base, last;
     const unsigned char *head = read_bytes(r, 4);
-    if (!head || head[0] >= FORMS || (head[0] == FORM_WHOLE) == has_numbers(column) || head[1] > MOST_DIGITS ||
-        head[3] > 8 || !read_whole_number(r, &base))
+    if (!head || head[0] >= FORMS || (head[0] == FORM_WHOLE) == is_number_column(column) || head[1] > MOST_DIGITS ||
+        head[3] > 8 || !read_uint64(r, &base))
         return false;
     memset(codes, 0, b->count * sizeof *codes);
     for (unsigned byte = 0; byte < head[3]; byte++) {
@@ -379,8 +382,9 @@ static bool read_column(block_reader *r, point_block *b, column_name column, uin
     return true;
 }
 
-/* Add green to the other channels, and complete the table of values: it needs the ids unless they are consecutive. */
-static bool finish_values(point_block *b)
+/* Add green to red and blue, and store the ids in the table of values. If the ids are consecutive, the table needs only
+ * the first. Returns false if memory runs out. */
+static bool restore_colors_and_ids(point_block *b)
 {
     point_values *v = &b->values;
     bool consecutive = true;
@@ -419,7 +423,7 @@ static bool read_columns(block_reader *r, point_block *b, octreel_error *error)
     for (unsigned column = 0; ok && column < COLUMNS; column++)
         ok = !has_column(b, (column_name)column) || read_column(r, b, (column_name)column, codes);
     free(codes);
-    if (!has_memory || (ok && b->values.kinds && !finish_values(b)))
+    if (!has_memory || (ok && b->values.kinds && !restore_colors_and_ids(b)))
         return error_set(error, "out of memory for %zu points", b->count);
     return (ok && r->left == 0 && are_ids_ascending(b)) ||
            error_set(error, "the points in this page are cut off or damaged; make the page again");

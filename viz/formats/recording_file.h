@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* recording_file.h - recording.json, and the session.json in the same folder. recording.json holds the format version
- * of the recording, every view option, and the values that are derived from them.
+ * of the recording, every view option, and the values that are derived from the options.
  *
- * `octreel help recording` (recording.txt) lists the members. The rows of view_options.c read and write the options.
- */
+ * `octreel help recording` (recording.txt) lists the members. The rows of view_options.c read and write the options. */
 #ifndef FORMATS_RECORDING_FILE_H
 #define FORMATS_RECORDING_FILE_H
 

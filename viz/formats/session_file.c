@@ -64,7 +64,7 @@ octree_input session_collect_input(const octree_session *session)
 
 /* ---- Copying and freeing ------------------------------------------------------------------------------------ */
 
-static bool report_no_memory(octreel_error *error)
+static bool fail_out_of_memory(octreel_error *error)
 {
     return error_set(error, "out of memory for the session");
 }
@@ -137,7 +137,7 @@ bool session_copy(const octree_session *from, session_file *out, octreel_error *
         set_session_list(&out->session, i, list.items, list.items ? list.count : 0);
     }
     whole = duplicate_owned_memory(&out->session) && whole;
-    const bool done = whole ? !from->keys || session_set_keys(out, from->keys, error) : report_no_memory(error);
+    const bool done = whole ? !from->keys || session_set_keys(out, from->keys, error) : fail_out_of_memory(error);
     if (!done)
         session_release(out);
     return done;
@@ -149,7 +149,7 @@ bool session_set_keys(session_file *file, const char *keys, octreel_error *error
         return false;
     char *copy = strdup(keys);
     if (!copy)
-        return report_no_memory(error);
+        return fail_out_of_memory(error);
     free((char *)file->session.keys);
     file->session.keys = copy;
     return true;
@@ -181,7 +181,8 @@ bool session_read_header(json_reader *r, json_t *object)
     session_loader *s = r->context;
     if (!json_object_get(object, "octreel"))
         return json_fail(r, NULL, "is not a session: the first object has no \"octreel\": \"session\"");
-    return session_find_file_world(r, object) && json_read_members(r, object, NULL, session_header_members, &s->header);
+    return session_compute_world_from_file(r, object) &&
+           json_read_members(r, object, NULL, session_header_members, &s->header);
 }
 
 bool session_read_tick(json_reader *r, json_t *object)
@@ -224,9 +225,9 @@ static bool read_objects(json_reader *r)
     return true;
 }
 
-/* A list in the header has items that apply to all ticks. Moves these items to the list of single ticks: with
- * `before` in front of its items, else behind them. */
-static bool append_header_list(json_reader *r, int list, bool before)
+/* Moves the items of a list of the header, which apply to all ticks, into the list of single ticks: before the items of
+ * this list if `before` is true, otherwise after them. */
+static bool move_header_list(json_reader *r, int list, bool before)
 {
     session_loader *s = r->context;
     const size_t item_size = rows[list].size;
@@ -246,10 +247,10 @@ static bool append_header_list(json_reader *r, int list, bool before)
 
 /* The foreign nodes of the header are inserted before the foreign nodes of single ticks, because those of the header
  * apply from tick 0 on. */
-bool session_append_header_lists(json_reader *r)
+bool session_move_header_lists(json_reader *r)
 {
-    return append_header_list(r, SESSION_QUERIES, false) && append_header_list(r, SESSION_SHAPES, false) &&
-           append_header_list(r, SESSION_FOREIGN, true);
+    return move_header_list(r, SESSION_QUERIES, false) && move_header_list(r, SESSION_SHAPES, false) &&
+           move_header_list(r, SESSION_FOREIGN, true);
 }
 
 octree_session session_assemble(const session_loader *s, const session_list lists[SESSION_LISTS])
@@ -282,7 +283,7 @@ bool session_parse(const char *name, const char *folder, const char *text, size_
     session_loader loader = {.folder = folder, .header = {.session = session_make_default_header()}};
     loader.tick = OCTREE_EVERY_TICK;
     json_reader r = {.name = name, .at = text, .limit = text + size, .line = 1, .context = &loader, .error = error};
-    const bool done = read_objects(&r) && session_merge_listed_values(&r) && session_append_header_lists(&r);
+    const bool done = read_objects(&r) && session_merge_listed_values(&r) && session_move_header_lists(&r);
     *out = (session_file){.session = session_assemble(&loader, loader.lists), .values = loader.values.made};
     memcpy(out->note, loader.note, sizeof out->note);
     session_release_lists(loader.header_lists);
@@ -303,7 +304,7 @@ bool session_read(const char *path, session_file *out, octreel_error *error)
     const char *slash = strrchr(path, '/');
     char *folder = strndup(path, slash ? (size_t)(slash - path) + 1 : 0);
     const bool done =
-        folder ? session_parse(file_display_name(path), folder, text, size, out, error) : report_no_memory(error);
+        folder ? session_parse(file_display_name(path), folder, text, size, out, error) : fail_out_of_memory(error);
     free(folder);
     free(text);
     return done;

@@ -69,8 +69,8 @@ void session_release(session_file *file);
  * O(size). */
 bool session_write(const octree_session *session, const point_values *values, FILE *out);
 
-/* The duplicate functions replace the lists of ids of a query, or the nodes of a foreign tree, by copies. They
- * return false if memory runs out. The caller releases the copies in any case. */
+/* query_copy_ids() replaces the lists of ids of a query by copies. foreign_tree_duplicate() writes a copy of *from to
+ * *to, which may be the same tree. Both return false if memory runs out. The caller releases the copies in any case. */
 bool query_copy_ids(octree_query *query);
 void query_release_ids(octree_query *query);
 bool foreign_tree_duplicate(const octree_foreign_tree *from, octree_foreign_tree *to);
@@ -80,8 +80,8 @@ void foreign_tree_release(octree_foreign_tree *tree);
  * without the member "ticks". */
 #define SESSION_ENDLESS UINT64_MAX
 
-/* Write a session while it is being made: first the header, then one object for each tick. A tick without input has
- * no object, so nothing is written for it. The caller checks the stream for errors. */
+/* Write a session while the session is being made: first the header, then one object for each tick. A tick without
+ * input has no object, so nothing is written for it. The caller checks the stream for errors. */
 void session_write_header(const octree_session *session, const point_values *values, FILE *out);
 void session_write_tick(uint64_t tick, const octree_input *input, const point_values *values, FILE *out);
 

@@ -177,8 +177,8 @@ static const json_member general_members[] = {
     {"mode", &json_choice, QUERY(precision), .names = precision_name, .is_set = has_mode, .check = check_mode},
 };
 
-/* Fill the table with the members of a kind of query, in the order of its traits. If the kind has a box but no
- * target, its box can be relative to the player. */
+/* Fill the table with the members of a kind of query, in the order of octree_query_member_at(). If the kind has a box
+ * but no target, its box can be relative to the player. */
 static void list_query_members(int kind, json_member table[MOST_MEMBERS])
 {
     const octree_query_traits *about = octree_query_about((octree_query_kind)kind);

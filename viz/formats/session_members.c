@@ -78,8 +78,8 @@ static bool check_position(json_reader *r, const json_place *at, void *structure
     return true;
 }
 
-/* Sets the box of the player to its default size, which follows from the player's step. If the session has the
- * member "box_size", it is read later and replaces the default. */
+/* Sets the box of the player to its default size, which follows from the player's step. The member "box_size" is read
+ * later and replaces the default. */
 static bool set_default_box_size(json_reader *r, const json_place *at, void *structure)
 {
     octree_player *player = structure;
@@ -232,7 +232,7 @@ octree_session session_make_default_header(void)
 {
     octree_session session = {.tree = octree_def_default()};
     session.tree.leaf_capacity = 8;
-    /* a session without "full" was written with this meaning in this version of the format */
+    /* in this version of the format, a session without "full" has this rule */
     session.tree.full_leaf = OCTREE_REFUSE;
     set_default_player(&session.player, &session.tree.world);
     return session;

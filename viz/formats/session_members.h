@@ -73,13 +73,13 @@ bool session_check_is_text(json_reader *r);
 
 /* Moves the queries, shapes and foreign nodes of the header into the lists of single ticks. Queries and shapes of
  * the header become the last items of their lists, where a session has the items that apply to every tick. */
-bool session_append_header_lists(json_reader *r);
+bool session_move_header_lists(json_reader *r);
 
 /* Returns a session made of the header and the lists. Its arrays are not copied: the session_loader still owns them. */
 octree_session session_assemble(const session_loader *s, const session_list lists[SESSION_LISTS]);
 
-/* Returns the input of one tick. It contains all edits, queries and shapes of the session, the first gap, and the
- * first foreign nodes. */
+/* Returns an input that contains all edits, queries and shapes of a session, its first gap, and its first foreign
+ * nodes. The caller passes a session that holds only the items of one tick. */
 octree_input session_collect_input(const octree_session *session);
 
 /* session_clear_lists() removes all items and frees the memory that the items own. session_release_lists() frees the
@@ -104,9 +104,9 @@ void session_set_world(session_loader *s, const octree_box *world);
 
 /* If the header has a point file and no "world", reads the file and computes the world from its points. Returns
  * false with an error. */
-bool session_find_file_world(json_reader *r, json_t *header);
+bool session_compute_world_from_file(json_reader *r, json_t *header);
 
-/* The codec of foreign nodes. Foreign nodes apply from their tick on. The codec reads and writes them in an
+/* The codec of foreign nodes. Foreign nodes apply from their tick on. The codec reads and writes these nodes in an
  * octree_input. */
 extern const json_codec session_nodes_codec;
 

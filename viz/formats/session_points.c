@@ -218,9 +218,9 @@ static bool read_point_file(json_reader *r, json_t *value, const json_place *at,
 }
 
 /* If the world is to be computed from a point file, the file is read before the other members: the player needs the
- * world, and "points" is read after the player. Errors in the member "points" are not reported here, but when this
- * member itself is read. */
-bool session_find_file_world(json_reader *r, json_t *header)
+ * world, and "points" is read after the player. Errors in the member "points" are reported later, when this member is
+ * read. */
+bool session_compute_world_from_file(json_reader *r, json_t *header)
 {
     session_loader *s = r->context;
     const json_t *wanted = json_object_get(header, "points"), *file = json_object_get(wanted, "file");

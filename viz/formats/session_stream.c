@@ -97,7 +97,7 @@ static bool assemble_first_session(session_stream *s)
 {
     session_loader *l = &s->loader;
     const bool has_tick_0 = s->first == SESSION_STREAM_TICK && l->tick == 0;
-    if (has_tick_0 && !session_append_header_lists(&s->reader))
+    if (has_tick_0 && !session_move_header_lists(&s->reader))
         return false;
     s->start = session_assemble(l, has_tick_0 ? l->lists : l->header_lists);
     s->has_pending = !has_tick_0;

@@ -38,8 +38,9 @@ void session_stream_close(session_stream *s); /* `s` may be null */
  * header. */
 session_stream_state session_stream_read_start(session_stream *s, const char *keys, octreel_error *error);
 
-/* Returns the session of tick 0 with all keys, for octree_game_create(). Its `ticks` is SESSION_ENDLESS if the
- * header has no "ticks". After session_stream_read_tick(), only the session's bodies and keys are valid. */
+/* Returns the session of tick 0 with all keys, for octree_game_create(). The member `ticks` of the session is
+ * SESSION_ENDLESS if the header has no "ticks". After session_stream_read_tick(), only the session's bodies and keys
+ * are valid. */
 const octree_session *session_stream_first_session(const session_stream *s);
 
 /* Returns the values of the points (colours, intensities, classes). The pointer is valid until the stream is closed.
@@ -59,7 +60,7 @@ typedef struct session_stream_tick {
 /* Waits for the next object of the stream and returns the tick of this object. */
 session_stream_state session_stream_read_tick(session_stream *s, session_stream_tick *tick, octreel_error *error);
 
-/* Returns the number of ticks of the session. Call this after the end of the stream. */
+/* Returns the number of ticks of the session. The number is final only after the end of the stream. */
 uint64_t session_stream_tick_count(const session_stream *s);
 
 #endif

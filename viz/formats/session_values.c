@@ -216,7 +216,7 @@ static const char *value_kind_name(int n)
     return n < POINT_VALUE_KINDS ? session_body_members[FIRST_VALUE + n].name : NULL;
 }
 
-static bool read_columns(json_reader *r, json_t *list, const json_place *at, void *into)
+static bool read_column_names(json_reader *r, json_t *list, const json_place *at, void *into)
 {
     session_values *values = &((session_loader *)r->context)->values;
     const size_t count = json_array_size(list);
@@ -238,7 +238,7 @@ static bool read_columns(json_reader *r, json_t *list, const json_place *at, voi
     return true;
 }
 
-static void write_point_columns(json_writer *w, const void *from)
+static void write_column_names(json_writer *w, const void *from)
 {
     (void)from;
     json_write_begin_array(w);
@@ -253,7 +253,7 @@ bool session_has_columns(const void *header)
     return point_values_kinds(((const session_header *)header)->values) != 0;
 }
 
-const json_codec session_columns_codec = {read_columns, write_point_columns};
+const json_codec session_columns_codec = {read_column_names, write_column_names};
 
 bool session_read_column_value(json_reader *r, json_t *value, const json_place *at, point_value_kind kind,
                                point_value *into)

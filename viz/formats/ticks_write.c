@@ -60,7 +60,7 @@ static void write_addresses(json_writer *w, const void *from)
 
 /* Writes the nodes that split or merged in a tick. Up to TICK_LISTED nodes are written as a list, more nodes as
  * their count and a digest. */
-static void write_nodes(json_writer *w, const void *from)
+static void write_changed_nodes(json_writer *w, const void *from)
 {
     const json_counted_array addresses = json_get_counted_array(from);
     uint64_t digest = OCTREE_DIGEST_START;
@@ -115,7 +115,8 @@ static bool has_neighbors(const void *structure)
 
 #define JUDGED(member) .offset = offsetof(octree_answer, judgement.member)
 
-/* The members of an answer that are about a foreign index: its answer, and the judgement of its answer. */
+/* The members of an answer that are about a foreign index: the answer of the index, and the judgement of this
+ * answer. */
 static const json_member judgement_members[] = {
     {"answer", &json_ids, JUDGED(given)},
     {"mode", &json_choice, .offset = offsetof(octree_answer, precision), .names = precision_name,
@@ -137,8 +138,9 @@ static const json_member last_answer_members[] = {
     {0},
 };
 
-/* Writes the result of a query. For one neighbour, the result is written as members of the answer; "id" is null if
- * no neighbour was found. Several neighbours are written as a list. */
+/* Writes the result of a query. The result of a query for one neighbour is written as members of the answer; "id" is
+ * null if no neighbour was found. The result of a query for k neighbours, and the result of any other query, is a
+ * list. */
 static void write_result(json_writer *w, const octree_answer *answer, const octree_query_traits *about)
 {
     static const json_member list = {.members = neighbor_members, .size = sizeof(octree_neighbor)};
@@ -312,8 +314,8 @@ static const json_member line_members[] = {
     {"foreign_nodes", &json_structure, TICK(foreign), .given = offsetof(octree_tick, foreign.given),
      .members = foreign_members},
     {"refusals", &json_structures, TICK(refusals), .size = sizeof(octree_refusal), .members = refusal_members},
-    {"splits", WRITE(write_nodes), TICK(splits)},
-    {"merges", WRITE(write_nodes), TICK(merges)},
+    {"splits", WRITE(write_changed_nodes), TICK(splits)},
+    {"merges", WRITE(write_changed_nodes), TICK(merges)},
     {"tree", &json_structure, .offset = 0, .members = tree_members},
     {0},
 };

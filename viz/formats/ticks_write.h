@@ -17,8 +17,8 @@ typedef struct tick_extras {
     bool whole;            /* true: list all nodes that split or merged, even more than TICK_LISTED */
 } tick_extras;
 
-/* If more than this number of nodes split (or merge) in a tick, the line does not list them. It has their count and
- * a digest of their addresses; replaying the session gives the list. Earlier versions of Octreel always listed the
+/* If more than this number of nodes split (or merge) in a tick, the line has no list of these nodes, but their count
+ * and a digest of their addresses. Replaying the session gives the list. Earlier versions of Octreel always listed the
  * nodes. */
 #define TICK_LISTED 256
 
@@ -27,8 +27,8 @@ typedef struct tick_extras {
  * errors. */
 void tick_write(FILE *out, const octree_tick *tick, const tick_extras *extras);
 
-/* Reads the digest of the scene from a line of ticks.jsonl, where it is at the end. The line ends with a newline.
- * Returns false if the line does not name the frame of `tick`. */
+/* Reads the digest of the scene from the end of a line of ticks.jsonl. The line ends with a newline. Returns false if
+ * the line does not name the frame of `tick`. */
 bool tick_read_scene_digest(const char *line, size_t size, uint64_t tick, uint64_t *scene);
 
 /* Writes the parameters of an answer's query: only the parameters that queries of this kind have. */

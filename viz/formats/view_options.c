@@ -40,8 +40,9 @@ static const char *fit_description(int n)
     return (size_t)n < sizeof fits / sizeof fits[0] ? fits[n][1] : NULL;
 }
 
-/* Reports an unknown name, for example: there is no camera "iss", did you mean iso? there are iso, top, ... */
-static bool report_unknown_name(const view_option *option, const char *text, size_t length, octreel_error *error)
+/* Sets the error for an unknown name, for example: there is no camera "iss", did you mean iso? there are iso, top, ...
+ * Returns false. */
+static bool fail_with_unknown_name(const view_option *option, const char *text, size_t length, octreel_error *error)
 {
     char known[320], meant[HINT_TEXT];
     json_name *names = option->member.names;
@@ -54,7 +55,7 @@ static bool report_unknown_name(const view_option *option, const char *text, siz
 
 /* ---- Values of each type ------------------------------------------------------------------------------------ */
 
-static bool report_wrong_value(const view_option *option, const char *text, octreel_error *error)
+static bool fail_with_wrong_value(const view_option *option, const char *text, octreel_error *error)
 {
     return error_set(error, "--%s takes %s, not \"%.200s\"", option->name, option->takes, text);
 }
@@ -68,13 +69,13 @@ static bool parse_choice(const view_option *option, const char *text, view *v, o
 {
     const int found = json_find_name(option->member.names, text);
     if (found < 0)
-        return report_unknown_name(option, text, strlen(text), error);
+        return fail_with_unknown_name(option, text, strlen(text), error);
     *(int *)option_address(option, v) = found;
     return true;
 }
 
-/* Sets a switch: an option without a value. If the option is given on the command line, the switch gets the opposite
- * of its default. */
+/* Sets a switch: an option without a value. On the command line `text` is empty, and the switch gets the opposite of
+ * its default. Otherwise `text` is "on" or "off". */
 static bool parse_switch(const view_option *option, const char *text, view *v, octreel_error *error)
 {
     (void)error;
@@ -86,7 +87,7 @@ static bool parse_whole(const view_option *option, const char *text, view *v, oc
 {
     const char *at = text;
     if (!whole_number_parse(&at, (uint64_t)option->member.max, option_address(option, v)) || *at != 0)
-        return report_wrong_value(option, text, error);
+        return fail_with_wrong_value(option, text, error);
     return true;
 }
 
@@ -98,7 +99,7 @@ static bool parse_numbers(const view_option *option, const char *text, view *v, 
     const size_t count = m->size ? m->size : 1;
     double numbers[3];
     if (!numbers_parse(text, numbers, count) || (m->min < m->max && !(*numbers >= m->min && *numbers <= m->max)))
-        return report_wrong_value(option, text, error);
+        return fail_with_wrong_value(option, text, error);
     memcpy(option_address(option, v), numbers, count * sizeof *numbers);
     if (m->given)
         *(bool *)((char *)v + m->given) = true;
@@ -113,7 +114,7 @@ static bool parse_size(const view_option *option, const char *text, view *v, oct
     uint64_t width, height;
     if (!whole_number_parse(&at, INT32_MAX, &width) || *at++ != 'x' || !whole_number_parse(&at, INT32_MAX, &height) ||
         *at != 0)
-        return report_wrong_value(option, text, error);
+        return fail_with_wrong_value(option, text, error);
     v->width = (int)width;
     v->height = (int)height;
     return true;
@@ -148,7 +149,7 @@ static bool is_valid_look(double azimuth, double elevation)
 static bool parse_look(const view_option *option, const char *text, view *v, octreel_error *error)
 {
     return parse_numbers(option, text, v, error) &&
-           (is_valid_look(v->look.azimuth, v->look.elevation) || report_wrong_value(option, text, error));
+           (is_valid_look(v->look.azimuth, v->look.elevation) || fail_with_wrong_value(option, text, error));
 }
 
 static bool check_look(json_reader *r, const json_place *at, void *structure)
@@ -172,7 +173,7 @@ static bool parse_point_color(const view_option *option, const char *text, view 
 static bool parse_layers(const view_option *option, const char *text, view *v, octreel_error *error)
 {
     const char *bad;
-    return view_layers_parse(text, &v->layers, &bad) || report_unknown_name(option, bad, strcspn(bad, ","), error);
+    return view_layers_parse(text, &v->layers, &bad) || fail_with_unknown_name(option, bad, strcspn(bad, ","), error);
 }
 
 /* ---- Parts of the tree -------------------------------------------------------------------------------------- */
@@ -180,7 +181,7 @@ static bool parse_layers(const view_option *option, const char *text, view *v, o
 static bool parse_slice(const view_option *option, const char *text, view *v, octreel_error *error)
 {
     if (text[0] < 'x' || text[0] > 'z' || text[1] != '=' || !numbers_parse(text + 2, &v->filter.slice_at, 1))
-        return report_wrong_value(option, text, error);
+        return fail_with_wrong_value(option, text, error);
     v->filter.slice = text[0];
     return true;
 }
@@ -213,7 +214,7 @@ static bool parse_depths(const view_option *option, const char *text, view *v, o
     const bool ends = open && whole_number_parse(&at, OCTREE_MAX_DEPTH, &to);
     to = open ? to : from;
     if (*at != 0 || from > to || !(begins || ends))
-        return report_wrong_value(option, text, error);
+        return fail_with_wrong_value(option, text, error);
     v->filter.by_depth = true;
     v->filter.min_depth = (unsigned)from;
     v->filter.max_depth = (unsigned)to;
@@ -230,7 +231,7 @@ static bool parse_region(const view_option *option, const char *text, view *v, o
 {
     double corners[6];
     if (!numbers_parse(text, corners, 6))
-        return report_wrong_value(option, text, error);
+        return fail_with_wrong_value(option, text, error);
     for (int i = 0; i < 3; i++)
         if (corners[i] > corners[i + 3])
             return error_set(error, "--region: min must not be above max on any axis, but %c is in \"%.200s\"",
@@ -245,7 +246,7 @@ static bool parse_region(const view_option *option, const char *text, view *v, o
 static bool parse_antialiasing(const view_option *option, const char *text, view *v, octreel_error *error)
 {
     if (text[0] == 0 || text[1] != 0 || !strchr("124", text[0]))
-        return report_wrong_value(option, text, error);
+        return fail_with_wrong_value(option, text, error);
     v->aa = text[0] - '0';
     return true;
 }

@@ -23,7 +23,7 @@ struct view_option {
     /* Sets the option in a view from a text. Returns false with an error if the text is not a valid value. */
     bool (*parse)(const view_option *option, const char *text, view *v, octreel_error *error);
     json_member member;   /* the option's member in recording.json; its name is null if the option is not recorded */
-    const char *standard; /* the default as a text for parse(); null: the option is unset by default */
+    const char *standard; /* the default, as a text that parse() accepts; null: the option is unset by default */
     /* the option's noun in sentences about a difference: "level of detail"; null: the name of the member is used */
     const char *noun;
     json_name *words; /* descriptions of the choices in member.names, for the help */

@@ -203,7 +203,7 @@ static bool copy_frame(const diff_frame *frame, const diff_pair *pair, evidence_
         return true;
     char *path = picture_path(folder, pair, picture);
     const bool ok =
-        path ? folder_create_inside(folder, diff_pair_name(pair), error) && file_copy_to(frame->path, path, error)
+        path ? folder_create_parents(folder, diff_pair_name(pair), error) && file_copy_to(frame->path, path, error)
              : error_no_memory(error);
     free(path);
     *written |= ok ? 1u << picture : 0;

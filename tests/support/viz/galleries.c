@@ -40,7 +40,7 @@ place gallery_make(const temp_folder *in, const char *folder, const char *names)
     strcpy(list, names);
     for (char *name = strtok(list, " "); name; name = strtok(NULL, " ")) {
         octreel_error error = {""};
-        if (!folder_create_inside(made.path, name, &error))
+        if (!folder_create_parents(made.path, name, &error))
             fail_msg("%s", error.text);
         gallery_write(place_below(made.path, name).path, seed++, 0);
     }
