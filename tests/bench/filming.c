@@ -126,7 +126,7 @@ static bool film_in_parts(work *w, playback *p)
         }
     }
     const double start = worked();
-    ok = ok && (playback_check_last(p, &error) || fail(w, error.text));
+    ok = ok && (playback_check_last_frame(p, &error) || fail(w, error.text));
     spent[0] += worked() - start;
     const double frames = (double)(w->order->frames - 1);
     w->result->draw_ms = spent[0] / frames;
@@ -261,7 +261,7 @@ static bool film_cloud_page(work *w)
 static bool film_page(work *w)
 {
     page_times t;
-    if (!page_plays())
+    if (!page_can_play())
         return fail(w, "octreel was built without WebAssembly");
     if (!(w->order->scene->cloud ? film_cloud_page : film_session_page)(w))
         return false;

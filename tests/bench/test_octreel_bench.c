@@ -29,7 +29,7 @@ static command_result film_without_browser(const char *arguments)
     command_result run =
         run_script("%s --browser no-such-browser " FILM_A_FEW "%s", shell_quote(OCTREEL_BENCH).text, arguments);
     assert_int_equal(run.status, 0);
-    assert_string_equal(run.err, page_plays()
+    assert_string_equal(run.err, page_can_play()
                                      ? "octreel-bench: pages are left out: there is no no-such-browser\n"
                                      : "octreel-bench: pages are left out: octreel was built without WebAssembly\n");
     return run;
@@ -102,7 +102,7 @@ static void page_is_measured_beside_the_recorder(void **state)
     temp_folder *folder = *state;
     const place odd = place_in(folder, "a #100% of it");
     skip_without_browser();
-    if (!page_plays()) {
+    if (!page_can_play()) {
         print_message("octreel was built without WebAssembly: its pages do not play\n");
         skip();
     }
@@ -133,7 +133,7 @@ static void failing_browser_is_reported_with_its_last_words(void **state)
     fputs("#!/bin/sh\necho no memory >&2\nexit 7\n", file);
     assert_int_equal(fclose(file), 0);
     assert_int_equal(chmod(browser.path, 0700), 0);
-    if (!page_plays())
+    if (!page_can_play())
         skip();
     command_result run = run_script("%s --page " FILM_A_FEW "--folder %s --browser ./%s",
                                     shell_quote(OCTREEL_BENCH).text, folder->name, browser.path);

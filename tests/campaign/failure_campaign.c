@@ -438,7 +438,7 @@ static bool is_asked(size_t command, const struct family *family)
     return (!asked.quick || family == &families[command % FAMILIES]) &&
            (!asked.only || strcmp(asked.only, commands[command].name) == 0) &&
            (!asked.of || strcmp(asked.of, family->name) == 0) &&
-           (page_plays() || strncmp(commands[command].line, "play", 4) != 0);
+           (page_can_play() || strncmp(commands[command].line, "play", 4) != 0);
 }
 
 static void failed_call_is_an_error_and_leaves_whole_files(void **state)

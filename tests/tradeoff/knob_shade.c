@@ -91,7 +91,7 @@ static showing show(workload *cloud, octree *tree, const struct way *way, int he
 {
     showing s = {.cloud = cloud, .tree = tree, .view = view_by(way, height)};
     octreel_error why;
-    if (!picture_fit(&s.view, tree, NULL, &why) || !picture_open(&s.picture, &s.view, &(renderer_choice){0}, &why))
+    if (!picture_fit_view(&s.view, tree, NULL, &why) || !picture_open(&s.picture, &s.view, &(renderer_choice){0}, &why))
         stop_with_error("%s", why.text);
     draw(&s);
     return s;

@@ -109,7 +109,7 @@ static int write_page_and_report(arguments *a, const octree_session *session)
     const bool ok = write_file(a, session, &summary, &error);
     progress_end(&p);
     if (ok && !is_quiet())
-        film_report_start(stderr, &summary.start, session);
+        film_report_refused_points(stderr, &summary.start, session);
     if (!ok)
         print_error("%s", error.text);
     else if (!file_is_standard_stream(a->page) && !is_quiet())

@@ -51,7 +51,7 @@ static bool film_in_this_process(recording *r, playback *p, octreel_error *error
     return recording_end(r, filmed, error);
 }
 
-film_start film_count_start(const octree_session *session, const octree_tick *tick)
+film_start film_count_start_points(const octree_session *session, const octree_tick *tick)
 {
     film_start start = {.points = session->body_count};
     for (size_t i = 0; i < tick->refusal_count; i++) {
@@ -61,8 +61,8 @@ film_start film_count_start(const octree_session *session, const octree_tick *ti
     return start;
 }
 
-/* The two preparations of a recording. They run in parallel, because both take about the same time for a large
- * session. */
+/* The two preparations of a recording: playing tick 0, and making the bytes of session.json. Both run in parallel,
+ * because for a large session they take about the same time. */
 enum { OPEN_PLAYBACK, MAKE_BYTES, PREPARATIONS };
 
 typedef struct preparation {
@@ -72,7 +72,7 @@ typedef struct preparation {
     octreel_error errors[PREPARATIONS];
 } preparation;
 
-static void prepare_picture_or_tick(size_t part, void *context)
+static void run_preparation(size_t part, void *context)
 {
     preparation *to = context;
     recording *r = to->recording;
@@ -82,10 +82,10 @@ static void prepare_picture_or_tick(size_t part, void *context)
                          : make_session_bytes(r->session, o->values, &r->bytes, &to->errors[part]);
 }
 
-static bool open_picture_and_play_first_tick(recording *r, playback *p, octreel_error *error)
+static bool play_first_tick_and_make_session(recording *r, playback *p, octreel_error *error)
 {
     preparation to = {.recording = r, .playback = p};
-    parallel_for(PREPARATIONS, prepare_picture_or_tick, &to);
+    parallel_for(PREPARATIONS, run_preparation, &to);
     for (int part = 0; part < PREPARATIONS; part++)
         if (!to.done[part]) {
             *error = to.errors[part];
@@ -106,9 +106,9 @@ bool film_session(const octree_session *session, const film_options *options, fi
     summary->total = r.share.last - r.share.first;
     const uint64_t frames = share_count_frames(&r.share, options->every);
     const unsigned jobs = options->jobs < frames ? options->jobs : (unsigned)frames;
-    bool ok = open_picture_and_play_first_tick(&r, &p, error);
+    bool ok = play_first_tick_and_make_session(&r, &p, error);
     if (ok)
-        summary->start = film_count_start(session, octree_game_tick(p.game));
+        summary->start = film_count_start_points(session, octree_game_tick(p.game));
     ok = ok && (jobs > 1 ? film_by_jobs(&r, &p, jobs, error) : film_in_this_process(&r, &p, error));
     playback_close(&p);
     free(r.bytes.bytes);
@@ -151,7 +151,7 @@ bool film_tree(const octree *tree, const tree_subject *about, const film_options
     scene s = {0};
     view v = options->view;
     *summary = (film_summary){0};
-    if (!picture_fit(&v, tree, options->values, error) || !picture_open(&p, &v, &options->renderer, error))
+    if (!picture_fit_view(&v, tree, options->values, error) || !picture_open(&p, &v, &options->renderer, error))
         return false;
     tree_subject shown = *about;
     shown.values = options->values;

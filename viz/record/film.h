@@ -21,17 +21,17 @@ typedef enum film_stream_end {
     FILM_STREAM_BROKEN,  /* the stream was invalid or unreadable, or the recording could not be written; see *error */
 } film_stream_end;
 
-/* Record a session from a stream to which another process may still write. Each tick is recorded as soon as its JSON
- * object arrives; earlier ticks without an object are recorded before it. The files are the same as those of
- * film_session() for the same text. If the stream breaks or is stopped, the recording ends with the last tick that
- * arrived. summary->ticks is then the number of recorded ticks, 0 if there is no recording. The options first, last,
- * jobs and resume are ignored. `keys`: the player's key presses, one character per tick, which replace the key presses
- * in the stream; null: the key presses in the stream are used. */
+/* Record a session from a stream to which another process may still write. A tick is recorded as soon as its JSON
+ * object arrives, after all earlier ticks that have no object. The files are the same as those of film_session() for
+ * the same text. If the stream breaks or is stopped, the recording ends with the last tick that arrived. summary->ticks
+ * is then the number of recorded ticks, 0 if there is no recording. The options first, last, jobs and resume are
+ * ignored. `keys`: the player's key presses, one character per tick, which replace the key presses in the stream; null:
+ * the key presses in the stream are used. */
 film_stream_end film_stream(session_stream *from, const char *keys, const film_options *options, film_summary *summary,
                             octreel_error *error);
 
 /* Count the session's points, and the points that tick 0 refused. */
-film_start film_count_start(const octree_session *session, const octree_tick *tick);
+film_start film_count_start_points(const octree_session *session, const octree_tick *tick);
 
 /* Returns the default number of jobs: at most one per core, and so few that each job films at least 16 frames. */
 unsigned film_default_jobs(const octree_session *session, const film_options *options);

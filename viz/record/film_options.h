@@ -23,10 +23,10 @@ typedef struct film_options {
     uint64_t first, last;
     /* Maximum number of ticks: a longer session is refused; 0: SESSION_MOST_PLAYED; ignored by live recordings. */
     uint64_t max_ticks;
-    /* The number of processes that record; 0 and 1: only the calling process. The written files are the same for any
-     * number of processes. Jobs are started by fork(), so the caller must not have opened a renderer or started
-     * threads. */
-    unsigned jobs; /* number of processes: at most FILM_MOST_JOBS, and at most the number of frames */
+    /* The number of processes that record, at most FILM_MOST_JOBS; a recording uses at most one process per frame. 0
+     * and 1: only the calling process records. The written files are the same for any number of processes. Jobs are
+     * started by fork(), so the caller must not have opened a renderer or started threads. */
+    unsigned jobs;
     /* Remove the old recording in the folder once tick 0 of the new recording is filmed; not allowed for a chunk. */
     bool replace;
     bool resume;   /* complete the partial recording in the folder; correct frames that exist are kept */
@@ -42,13 +42,13 @@ typedef struct film_start {
 typedef struct film_summary {
     uint64_t ticks; /* number of recorded ticks, including tick 0; for a chunk, only the ticks of the chunk */
     uint64_t frames;
-    uint64_t kept; /* with `resume`: frames that existed and were correct, so that they were not drawn again */
-    uint64_t gaps; /* ticks that are gaps: they were refused, so they have no data */
+    uint64_t kept; /* with `resume`: frames that were not drawn again, because they existed and were correct */
+    uint64_t gaps; /* ticks that are gaps: their content is unknown, so they have no frame and no data */
     /* Number of elements, over all frames, that could not be drawn because a coordinate is not finite or overflows a
      * double. */
     uint64_t left_out;
     uint64_t over_budget; /* frames that lack elements because of the view's budget */
-    uint64_t below_lod;   /* frames that lack elements because the elements are smaller than the view's lod */
+    uint64_t below_lod;   /* frames that lack elements that are smaller than the view's lod */
     /* The kinds of elements that were left out, as bits LEFT_OUT_* of scene.h: `beyond` because of the view's budget,
      * `small` because of its lod. */
     unsigned beyond, small;

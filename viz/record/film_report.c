@@ -15,10 +15,10 @@
 /* ---- Commands ----------------------------------------------------------------------------------------------- */
 
 /* Print the ways to show the recording. */
-static void print_uses(FILE *out, const film_summary *summary, const char *folder)
+static void print_ways_to_show(FILE *out, const film_summary *summary, const char *folder)
 {
     if (summary->frames == 0) {
-        fputs(page_plays() ? "its index.html draws it in a browser, and you can play on there\n" : "", out);
+        fputs(page_can_play() ? "its index.html draws it in a browser, and you can play on there\n" : "", out);
         return;
     }
     fprintf(out, "its index.html shows it in a browser; as a film: %s film ", hint_program_name());
@@ -28,13 +28,13 @@ static void print_uses(FILE *out, const film_summary *summary, const char *folde
 
 /* ---- The summary of film_session() ---------------------------------------------------------------------------- */
 
-static double find_rate(const film_summary *summary, double seconds)
+static double find_frame_rate(const film_summary *summary, double seconds)
 {
     return seconds > 0 ? (double)(summary->frames - summary->kept) / seconds : 0;
 }
 
 /* Write the members that the JSON summaries of film_session() and join_chunks() share. */
-static void begin_json(json_writer *w, const film_summary *summary, const char *folder)
+static void begin_json_summary(json_writer *w, const film_summary *summary, const char *folder)
 {
     json_write_begin_object(w);
     json_write_text_member(w, "folder", folder);
@@ -47,14 +47,14 @@ static void begin_json(json_writer *w, const film_summary *summary, const char *
 static void report_json(FILE *out, const film_summary *summary, const char *folder, double seconds)
 {
     json_writer writer = {.out = out}, *w = &writer;
-    begin_json(w, summary, folder);
+    begin_json_summary(w, summary, folder);
     json_write_integer_member(w, "checked", summary->checks.count);
     json_write_text_member(w, "checked_by", summary->checks.count ? draw_context_name(summary->checks.by) : NULL);
     json_write_integer_member(w, "over_budget", summary->over_budget);
     json_write_integer_member(w, "below_lod", summary->below_lod);
     json_write_integer_member(w, "refusals", summary->refusals);
     json_write_number_member(w, "seconds", seconds);
-    json_write_number_member(w, "frames_per_second", find_rate(summary, seconds));
+    json_write_number_member(w, "frames_per_second", find_frame_rate(summary, seconds));
     json_begin_object_member(w, "events");
     for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++)
         json_write_integer_member(w, octree_event_name(1u << i), summary->events[i]);
@@ -125,7 +125,7 @@ void film_report(FILE *out, const film_summary *summary, const film_options *opt
     report_counts(out, summary, options->folder);
     fprintf(out, ", %.1f s", seconds);
     if (summary->frames > summary->kept)
-        fprintf(out, ", %.0f frames a second", find_rate(summary, seconds));
+        fprintf(out, ", %.0f frames a second", find_frame_rate(summary, seconds));
     putc('\n', out);
     if (summary->checks.count)
         fprintf(out, "%" PRIu64 " of %" PRIu64 " frame%s checked with %s\n", summary->checks.count,
@@ -146,7 +146,7 @@ void film_report(FILE *out, const film_summary *summary, const film_options *opt
     if (options->last != 0)
         report_chunk(out, summary, options);
     else
-        print_uses(out, summary, options->folder);
+        print_ways_to_show(out, summary, options->folder);
 }
 
 /* Print a world that contains all points, in the form of the member "world" of session.json. */
@@ -157,7 +157,7 @@ static void print_world(FILE *out, const octree_session *session)
     json_write_box_member(&(json_writer){.out = out}, "world", &world);
 }
 
-void film_report_start(FILE *out, const film_start *start, const octree_session *session)
+void film_report_refused_points(FILE *out, const film_start *start, const octree_session *session)
 {
     if (start->outside > start->points / 2) {
         fprintf(out,
@@ -174,7 +174,7 @@ void film_report_start(FILE *out, const film_start *start, const octree_session 
     }
 }
 
-void film_report_empty(FILE *out, const film_summary *summary, const film_options *options)
+void film_report_useless_options(FILE *out, const film_summary *summary, const film_options *options)
 {
     const view *v = &options->view;
     const char *lacking = point_scale_missing_value(v, options->values);
@@ -194,8 +194,8 @@ void film_report_empty(FILE *out, const film_summary *summary, const film_option
 void film_report_notes(FILE *out, const film_summary *summary, const film_options *options,
                        const octree_session *session)
 {
-    film_report_start(out, &summary->start, session);
-    film_report_empty(out, summary, options);
+    film_report_refused_points(out, &summary->start, session);
+    film_report_useless_options(out, summary, options);
     if (*summary->checks.reason.text)
         fprintf(out, "octreel: %s frame was checked: %s\n", summary->checks.count ? "not every due" : "no",
                 summary->checks.reason.text);
@@ -205,7 +205,7 @@ void film_report_joined(FILE *out, const film_summary *summary, const film_optio
 {
     if (json) {
         json_writer w = {.out = out};
-        begin_json(&w, summary, options->folder);
+        begin_json_summary(&w, summary, options->folder);
         json_write_end_object(&w);
         json_write_end_line(&w);
         return;
@@ -213,7 +213,7 @@ void film_report_joined(FILE *out, const film_summary *summary, const film_optio
     report_counts(out, summary, options->folder);
     putc('\n', out);
     report_left_out(out, summary);
-    print_uses(out, summary, options->folder);
+    print_ways_to_show(out, summary, options->folder);
 }
 
 void film_report_stopped(FILE *out, const film_summary *summary, const film_options *options)

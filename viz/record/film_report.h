@@ -16,15 +16,16 @@ const char *film_left_out_text(unsigned left_out, char text[FILM_LEFT_OUT]);
  * line. */
 void film_report(FILE *out, const film_summary *summary, const film_options *options, double seconds, bool json);
 
-/* If tick 0 refused more than half of the session's points, print a note that suggests the member of session.json that
- * would keep them. */
-void film_report_start(FILE *out, const film_start *start, const octree_session *session);
+/* If tick 0 refused more than half of the session's points, print a note that suggests a member of session.json with
+ * which the tree would keep these points. */
+void film_report_refused_points(FILE *out, const film_start *start, const octree_session *session);
 
-/* Print a note for each view option that shows nothing: the option needs a value that no point has, or foreign nodes
- * that no tick has. */
-void film_report_empty(FILE *out, const film_summary *summary, const film_options *options);
+/* Print a note for each view option that has no effect, because no point has the value that the option shows, or no
+ * tick has foreign nodes. */
+void film_report_useless_options(FILE *out, const film_summary *summary, const film_options *options);
 
-/* Print the notes of film_report_start() and film_report_empty(), and a note if frames could not be checked. */
+/* Print the notes of film_report_refused_points() and film_report_useless_options(), and a note if frames could not be
+ * checked. */
 void film_report_notes(FILE *out, const film_summary *summary, const film_options *options,
                        const octree_session *session);
 

@@ -39,7 +39,7 @@ static bool check_length(const streaming *s, uint64_t ticks)
     return session_check_length(&(octree_session){.ticks = ticks}, s->options->max_ticks, s->error);
 }
 
-static film_stream_end film_stream_tick(streaming *s, const session_stream_tick *tick)
+static film_stream_end film_tick_and_ticks_before(streaming *s, const session_stream_tick *tick)
 {
     if (tick->number <= s->end && !check_length(s, tick->number))
         return FILM_STREAM_BROKEN;
@@ -64,13 +64,13 @@ static film_stream_end film_remaining_ticks(streaming *s)
     return film_ticks_up_to(s, s->end);
 }
 
-static film_stream_end film_ticks(streaming *s)
+static film_stream_end film_all_ticks(streaming *s)
 {
     for (session_stream_tick tick;;) {
         film_stream_end how = FILM_STREAM_WHOLE;
         switch (session_stream_read_tick(s->from, &tick, s->error)) {
         case SESSION_STREAM_TICK:
-            how = film_stream_tick(s, &tick);
+            how = film_tick_and_ticks_before(s, &tick);
             break;
         case SESSION_STREAM_END:
             return film_remaining_ticks(s);
@@ -103,7 +103,7 @@ film_stream_end film_stream(session_stream *from, const char *keys, const film_o
     if (!s.live)
         return FILM_STREAM_BROKEN;
     const bool begun = live_begin(s.live, error) && live_film_first_tick(s.live, error);
-    film_stream_end how = begun ? film_ticks(&s) : FILM_STREAM_BROKEN;
+    film_stream_end how = begun ? film_all_ticks(&s) : FILM_STREAM_BROKEN;
     if (!live_close(s.live, session_stream_tick_count(from), summary, how == FILM_STREAM_BROKEN ? &late : error))
         how = FILM_STREAM_BROKEN;
     return how;

@@ -47,7 +47,8 @@ static bool rename_unless_exists(const char *own, const char *path, octreel_erro
     return false;
 }
 
-/* Write a file under a temporary name that only this process uses, then publish it. */
+/* Write a file under a temporary name that only this process uses. Then rename it to `path`, unless another process has
+ * created `path`. */
 static bool write_unless_exists(const folder_place *place, const char *name, const char *path, const char *bytes,
                                 size_t size, octreel_error *error)
 {
@@ -62,8 +63,8 @@ static bool write_unless_exists(const folder_place *place, const char *name, con
 
 /* Write a file unless it exists. If it exists with other bytes, fail with the error text `unlike`; if `unlike` is null,
  * accept any bytes in the existing file. */
-static bool write_shared(const folder_place *place, const char *name, const char *bytes, size_t size,
-                         const char *unlike, octreel_error *error)
+static bool write_or_compare_file(const folder_place *place, const char *name, const char *bytes, size_t size,
+                                  const char *unlike, octreel_error *error)
 {
     bool same = true;
     char *path = path_join(place->folder, name);
@@ -80,7 +81,7 @@ static bool write_shared(const folder_place *place, const char *name, const char
 static bool write_file(const folder_place *place, const char *name, const char *bytes, size_t size, const char *unlike,
                        octreel_error *error)
 {
-    return place->writer || place->dry_run ? write_shared(place, name, bytes, size, unlike, error)
+    return place->writer || place->dry_run ? write_or_compare_file(place, name, bytes, size, unlike, error)
                                            : folder_write_file(place->folder, name, bytes, size, error);
 }
 
@@ -127,7 +128,7 @@ bool write_recording_file(const folder_place *place, const view *v, uint64_t eve
         "has another view (size, camera, layers, every ...), or was written by another version of octreel", error);
 }
 
-static void write_text(json_writer *w, const char *key, const char *text)
+static void write_text_line(json_writer *w, const char *key, const char *text)
 {
     json_start_new_line(w);
     json_write_text_member(w, key, text);
@@ -141,12 +142,12 @@ bool write_renderer_file(const folder_place *place, const renderer_info *info, o
         return error_no_memory(error);
     json_writer writer = {.out = s.stream}, *w = &writer;
     json_write_begin_object(w);
-    write_text(w, "context", info->context);
-    write_text(w, "vendor", info->vendor);
-    write_text(w, "renderer", info->renderer);
-    write_text(w, "version", info->version);
-    write_text(w, "fill", info->fill);
-    write_text(w, "png", image_print_library_versions(library));
+    write_text_line(w, "context", info->context);
+    write_text_line(w, "vendor", info->vendor);
+    write_text_line(w, "renderer", info->renderer);
+    write_text_line(w, "version", info->version);
+    write_text_line(w, "fill", info->fill);
+    write_text_line(w, "png", image_print_library_versions(library));
     json_start_new_line(w);
     json_write_end_object(w);
     json_write_end_line(w);
@@ -194,7 +195,7 @@ char *describe_recorded_renderer(const char *folder, char *text, size_t size)
 
 /* ---- Resuming ----------------------------------------------------------------------------------------------- */
 
-static bool is_empty(const char *folder, const char *name)
+static bool is_empty_file(const char *folder, const char *name)
 {
     struct stat status;
     char *path = path_join(folder, name);
@@ -203,12 +204,12 @@ static bool is_empty(const char *folder, const char *name)
     return empty;
 }
 
-/* True if this file proves that a recording reached its first tick. A recording that was killed earlier leaves at most
- * recording.json, session.json and an empty ticks.jsonl. */
+/* Returns whether a file with this name proves that a recording reached its first tick. A recording that was killed
+ * earlier leaves at most recording.json, session.json and an empty ticks.jsonl. */
 static bool is_written_after_start(const char *folder, const char *name)
 {
     return folder_is_recording_file(name) && !folder_is_unfinished_file(name) && strcmp(name, "recording.json") != 0 &&
-           strcmp(name, "session.json") != 0 && !(strcmp(name, "ticks.jsonl") == 0 && is_empty(folder, name));
+           strcmp(name, "session.json") != 0 && !(strcmp(name, "ticks.jsonl") == 0 && is_empty_file(folder, name));
 }
 
 /* Check that session.json.live, which a killed process left in the folder, contains the session with this digest. */
@@ -225,8 +226,9 @@ static bool check_live_session(const char *folder, uint64_t session_digest, octr
     return ok;
 }
 
-/* Check that the folder contains recording.json and session.json. The caller must list the folder before this check: a
- * recording that another process has just begun writes these two files before all other files, and so passes. */
+/* Check that the folder contains recording.json and session.json. The caller must list the folder before this check:
+ * another process that has just begun a recording writes these two files first, so a listed file of this process passes
+ * the check. `past` is a listed file that a recording writes only after its start. */
 static bool check_recorded_start(const char *folder, const char *past, uint64_t session_digest, octreel_error *error)
 {
     const bool view = folder_contains(folder, "recording.json"), session = folder_contains(folder, "session.json");
@@ -239,8 +241,9 @@ static bool check_recorded_start(const char *folder, const char *past, uint64_t 
 
 /* Check the session digest in the folder's first frame; the other frames are not read. A frame without a digest is
  * accepted, because the frame may be torn, or saved by an image editor. Digest 0 is accepted too: a program that
- * records itself writes 0 until its session is complete, and it may have been killed earlier. */
-static bool check_session(const char *folder, const char *frame, uint64_t session_digest, octreel_error *error)
+ * records itself writes 0 until its session is complete, and the program may have been killed before. */
+static bool check_session_of_first_frame(const char *folder, const char *frame, uint64_t session_digest,
+                                         octreel_error *error)
 {
     uint64_t tick, session;
     return !frame_parse_name(frame, &tick) || !frame_read_session_digest(folder, tick, &session) || session == 0 ||
@@ -269,7 +272,7 @@ bool check_resumable(const char *folder, uint64_t session_digest, uint64_t ticks
                            names[i]);
     }
     ok = ok && (!past || (check_recorded_start(folder, past, session_digest, error) &&
-                          check_session(folder, frame, session_digest, error)));
+                          check_session_of_first_frame(folder, frame, session_digest, error)));
     free(names);
     return ok;
 }

@@ -17,7 +17,7 @@ static size_t count_samples(const image *drawn)
     return (size_t)drawn->width * (size_t)drawn->height;
 }
 
-static uint64_t count_different(const image *drawn, const uint8_t *by_gl)
+static uint64_t count_different_samples(const image *drawn, const uint8_t *by_gl)
 {
     uint64_t count = 0;
     for (size_t i = 0; i < count_samples(drawn); i++)
@@ -52,7 +52,7 @@ static bool compare_with_gl(frame_checks *checks, picture *p, const scene *s, co
                             const char *prefix, octreel_error *error)
 {
     octreel_error unkept;
-    const uint64_t different = count_different(picture_samples(p), by_gl);
+    const uint64_t different = count_different_samples(picture_samples(p), by_gl);
     const char *gl = frame_checks_title(checks->by);
     const char *differ = different == 1 ? " differs" : "s differ";
     checks->count += different == 0;

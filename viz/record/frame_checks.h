@@ -13,7 +13,7 @@
 
 #define CHECK_EVERY 100 /* every 100th frame is checked */
 
-/* The result of all checks. It contains no pointers, because jobs send its bytes through a pipe. */
+/* The result of all checks. The struct contains no pointers, because jobs send its bytes through a socket. */
 typedef struct frame_checks {
     uint64_t count;       /* number of frames that were checked and have the same pixels */
     draw_context by;      /* the GL context that draws the checked frames; DRAW_AUTO until the first check */

@@ -12,7 +12,7 @@
  * complete, and a few later frames exist.
  *
  * Jobs begin to draw while the starter still writes session.json. Each frame contains the digest of session.json, so
- * the starter sends the digest to the jobs as soon as it is known. A job ends when its socket closes, so no job
+ * the starter sends the digest to the jobs as soon as the digest is known. A job ends when its socket closes, so no job
  * outlives the starter. */
 #define _DEFAULT_SOURCE /* MAP_ANONYMOUS, which POSIX has since 2024 */
 #include "jobs.h"
@@ -63,7 +63,7 @@ static bool pipe_read(int pipe, void *bytes, size_t size)
 }
 
 /* Wait up to `milliseconds`. Returns true if there are bytes to read or the other end is closed. */
-static bool pipe_poll(int pipe, int milliseconds)
+static bool pipe_wait_for_bytes(int pipe, int milliseconds)
 {
     struct pollfd asked = {.fd = pipe, .events = POLLIN};
     return poll(&asked, 1, milliseconds) > 0;
@@ -99,14 +99,14 @@ typedef struct job {
     bool has_session;
     /* used by the starter: */
     bool has_message;    /* true: `message` is the job's next message */
-    message message;     /* a message of kind MESSAGE_NONE is the job's last one */
+    message message;     /* a message of kind MESSAGE_NONE is the job's last message */
     char *bytes;         /* the bytes of the message */
     octreel_error error; /* with MESSAGE_NONE: the reason why the job failed, or "" */
 } job;
 
 /* Wait until the starter sends the digest of session.json. If the starter stops the job first, the job's process
  * exits. */
-static void wait_for_session(job *self)
+static void wait_for_session_digest(job *self)
 {
     if (!self->has_session && !pipe_read(self->pipe, &self->session, sizeof self->session))
         _exit(errno == 0 ? EXIT_SUCCESS : EXIT_FAILURE);
@@ -116,7 +116,7 @@ static void wait_for_session(job *self)
 static void receive_session_digest(uint64_t *digest, void *context)
 {
     job *self = context;
-    wait_for_session(self);
+    wait_for_session_digest(self);
     *digest = self->session;
 }
 
@@ -124,7 +124,7 @@ static void receive_session_digest(uint64_t *digest, void *context)
 static bool job_keeps_going(void *context)
 {
     const job *self = context;
-    return watcher_continues(&self->options->watch) && !(self->has_session && pipe_poll(self->pipe, 0));
+    return watcher_continues(&self->options->watch) && !(self->has_session && pipe_wait_for_bytes(self->pipe, 0));
 }
 
 /* The thread of a job that waits until the starter dies and then ends the job, because nobody needs its current frame.
@@ -140,7 +140,7 @@ static void *watch_starter(void *context)
 
 /* Start the thread watch_starter() with all signals blocked. If the thread cannot be started, the job notices the
  * starter's death only after its current frame. */
-static void begin_watch(job *self)
+static void start_watching_starter(job *self)
 {
     sigset_t all, before;
     pthread_t thread;
@@ -154,8 +154,8 @@ static void begin_watch(job *self)
 static bool write_step(void *context, const film_step *step, octreel_error *error)
 {
     job *self = context;
-    /* Wait for the session's digest: the process that started this one sends it, and reads no messages before. */
-    wait_for_session(self);
+    /* Wait for the digest of session.json: the starter reads no messages before it has sent the digest. */
+    wait_for_session_digest(self);
     return write_message(self->pipe, (message){.step = *step}, step->line, step->size) ||
            error_set(error, "the process that collects the ticks has ended");
 }
@@ -169,7 +169,7 @@ static _Noreturn void run_job(job *self, const recording *r, playback *p, const 
     /* The software GL (llvmpipe) must not start threads: other jobs use the other cores. */
     setenv("LP_NUM_THREADS", "0", 0);
     draw_context_set_report(NULL); /* the starter reports the GL context, so the job must not */
-    begin_watch(self);
+    start_watching_starter(self);
     /* receive_session_digest() waits for the digest of session.json. The playback calls this function only after its
      * first frame is drawn. */
     p->learn_session = receive_session_digest;
@@ -228,9 +228,9 @@ static void stop_jobs(job_pool *pool)
     pool->stopped = true;
 }
 
-/* Wait for the end of a job. The job's socket is closed first; this ends a job that waits for the starter. Returns
+/* Wait for the end of a job. The job's socket is closed first, which ends a job that waits for the starter. Returns
  * false if the exit status of the job is unknown. */
-static bool wait_for_end(job *j, int *status)
+static bool close_and_wait_for_job(job *j, int *status)
 {
     pid_t ended;
     close(j->pipe);
@@ -242,11 +242,11 @@ static bool wait_for_end(job *j, int *status)
 }
 
 /* Set the error of a job that has ended. The error stays empty if the job was stopped or has filmed its last tick. */
-static void find_reason_of_end(const job_pool *pool, job *j)
+static void set_error_of_ended_job(const job_pool *pool, job *j)
 {
     const unsigned number = (unsigned)(j - pool->jobs) + 1;
     int status = 0;
-    const bool known = wait_for_end(j, &status);
+    const bool known = close_and_wait_for_job(j, &status);
     if (known && WIFEXITED(status) && WEXITSTATUS(status) == EXIT_SUCCESS)
         return;
     if (known && WIFSIGNALED(status))
@@ -280,11 +280,11 @@ static void read_message(const job_pool *pool, job *j)
     if (errno != 0 && !*j->error.text)
         error_set(&j->error, "cannot read the ticks of a job: %s", strerror(errno));
     if (!*j->error.text)
-        find_reason_of_end(pool, j);
+        set_error_of_ended_job(pool, j);
 }
 
-/* Wait until one of the jobs without a message sends one or ends, and read it. If the caller's watcher stops the
- * recording during the wait, stop all jobs. Returns false if all jobs have a message. */
+/* Wait until one of the jobs without a message sends a message or ends, and read the message. If the caller's watcher
+ * stops the recording during the wait, stop all jobs. Returns false if all jobs have a message. */
 static bool wait_for_message(job_pool *pool)
 {
     enum { PATIENCE = 50 }; /* milliseconds between two calls of the watcher */
@@ -319,7 +319,7 @@ static job *wait_for_tick(job_pool *pool, uint64_t tick)
 }
 
 /* Returns false with an error if a job has failed. */
-static bool check_jobs(const job_pool *pool, octreel_error *error)
+static bool check_no_job_failed(const job_pool *pool, octreel_error *error)
 {
     for (const job *j = pool->jobs; j < pool->jobs + pool->count; j++)
         if (*j->error.text) {
@@ -329,7 +329,8 @@ static bool check_jobs(const job_pool *pool, octreel_error *error)
     return true;
 }
 
-/* Read each tick from the job that has filmed it, until all ticks are read or the recording is stopped. */
+/* Read the ticks in order, each from the job that has filmed the tick, until all ticks are read or the recording is
+ * stopped. */
 static bool collect_ticks(job_pool *pool, octreel_error *error)
 {
     recording *r = pool->recording;
@@ -337,7 +338,7 @@ static bool collect_ticks(job_pool *pool, octreel_error *error)
     for (uint64_t tick = r->share.first; tick < r->share.last; tick++) {
         job *j = wait_for_tick(pool, tick);
         if (!j)
-            return check_jobs(pool, error);
+            return check_no_job_failed(pool, error);
         if (!recording_add_tick(r, &j->message.step, error))
             return false;
         j->has_message = false;
@@ -364,7 +365,7 @@ static void end_jobs(job_pool *pool)
             continue;
         while (pipe_read(j->pipe, ignored, sizeof ignored))
             continue;
-        wait_for_end(j, &status);
+        close_and_wait_for_job(j, &status);
     }
     munmap((void *)pool->claims, pool->claim_count);
     free(pool->jobs);
@@ -386,7 +387,7 @@ static bool start_all_jobs(job_pool *pool, playback *p, octreel_error *error)
 
 /* Send the digest of session.json to all jobs. A job that has died is not noticed here, but later, when its messages
  * are read. */
-static bool send_session(const job_pool *pool, uint64_t session, octreel_error *error)
+static bool send_session_digest(const job_pool *pool, uint64_t session, octreel_error *error)
 {
     for (unsigned i = 0; i < pool->count; i++)
         if (!pipe_write(pool->jobs[i].pipe, &session, sizeof session) && errno != EPIPE && errno != ECONNRESET)
@@ -395,7 +396,7 @@ static bool send_session(const job_pool *pool, uint64_t session, octreel_error *
     return true;
 }
 
-/* Make the claims: zeros in memory that all jobs share. Returns false if memory runs out. */
+/* Allocate the claims, all zero, in memory that all jobs share. Returns false if memory runs out. */
 static bool make_claims(job_pool *pool)
 {
     const recording *r = pool->recording;
@@ -413,7 +414,7 @@ bool film_by_jobs(recording *r, playback *p, unsigned jobs, octreel_error *error
         return error_no_memory(error);
     }
     const bool begun = start_all_jobs(&pool, p, error);
-    const bool ok = begun && send_session(&pool, p->session_digest, error) && collect_ticks(&pool, error);
+    const bool ok = begun && send_session_digest(&pool, p->session_digest, error) && collect_ticks(&pool, error);
     end_jobs(&pool);
     return begun ? recording_end(r, ok, error) : false;
 }

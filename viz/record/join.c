@@ -3,8 +3,8 @@
  *
  * Each chunk left frames and one file of lines, ticks_A_B.jsonl. The chunks are sorted by their first tick and their
  * lines are copied into ticks.jsonl. A tick that two chunks contain is copied once. Each line must belong to the next
- * tick. Its frame must be whole and must contain the digests of this tick's scene and of the folder's session. These
- * checks find chunks of another session, view or version, and gaps between chunks.
+ * tick. The frame of this tick must be whole and must contain the digests of the tick's scene and of the folder's
+ * session. These checks find chunks of another session, view or version, and gaps between chunks.
  *
  * ticks.jsonl is written under a temporary name and renamed after the last check, so a failure changes no file. Then
  * index.html is written and the chunk files are removed. The folder now has the same bytes as a recording by one
@@ -22,8 +22,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The file of a chunk, ticks_A_B.jsonl. The file has a line for each tick from `first` to `last` - 1. Lines at its end
- * may be missing. */
+/* The file of a chunk, ticks_A_B.jsonl. The file has a line for each tick from `first` to `last` - 1. Lines at the end
+ * of the file may be missing. */
 typedef struct chunk {
     uint64_t first, last;
     char name[CHUNK_NAME];
@@ -58,8 +58,8 @@ static bool add_chunk(joining *j, chunk c, octreel_error *error)
 }
 
 /* If a file of the folder is the file of a chunk, add it to the list of chunks. An existing ticks.jsonl counts as a
- * chunk of all ticks. */
-static bool add_entry(joining *j, const char *name, octreel_error *error)
+ * chunk of all ticks. A frame that this recording does not have is an error. */
+static bool add_chunk_file(joining *j, const char *name, octreel_error *error)
 {
     uint64_t tick;
     chunk c = {.last = j->summary->total};
@@ -82,7 +82,7 @@ static bool find_chunks(joining *j, octreel_error *error)
     char **names = folder_names(j->options->folder, error);
     bool ok = names;
     for (size_t i = 0; ok && names[i]; i++)
-        ok = add_entry(j, names[i], error);
+        ok = add_chunk_file(j, names[i], error);
     free(names);
     if (ok && j->count > 1)
         qsort(j->chunks, j->count, sizeof *j->chunks, compare_chunks);
@@ -158,7 +158,7 @@ static bool join_chunk(joining *j, const chunk *c, bool *stopped, octreel_error 
 }
 
 /* Join the chunks in order, up to the first gap between two chunks. */
-static bool join_all(joining *j, bool *stopped, octreel_error *error)
+static bool join_chunks_in_order(joining *j, bool *stopped, octreel_error *error)
 {
     for (size_t i = 0; i < j->count && !*stopped && j->chunks[i].first <= j->summary->ticks; i++)
         if (!join_chunk(j, &j->chunks[i], stopped, error))
@@ -170,12 +170,12 @@ static bool join_all(joining *j, bool *stopped, octreel_error *error)
 
 /* ---- The recording ------------------------------------------------------------------------------------------ */
 
-static bool write_ticks(joining *j, octreel_error *error)
+static bool write_joined_ticks(joining *j, octreel_error *error)
 {
     char *path = path_join(j->options->folder, "ticks.jsonl");
     bool stopped = false, ok = path ? file_writer_open_replacing(&j->ticks, path, error) : error_no_memory(error);
     if (ok) {
-        ok = join_all(j, &stopped, error);
+        ok = join_chunks_in_order(j, &stopped, error);
         if (ok && !stopped)
             ok = file_writer_close(&j->ticks, error);
         else
@@ -202,7 +202,7 @@ bool join_chunks(film_options *options, film_summary *summary, octreel_error *er
     j.session = &file.session;
     summary->total = octree_session_length(j.session) + 1;
     bool ok = (options->every == 0 || check_renderer_file(options->folder, error)) && find_chunks(&j, error) &&
-              write_ticks(&j, error);
+              write_joined_ticks(&j, error);
     if (ok && summary->ticks == summary->total)
         ok = page_write(options->folder, &file.session, &file.values, error) &&
              folder_remove_leftovers(options->folder, error);

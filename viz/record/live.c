@@ -37,7 +37,7 @@ struct live_recording {
     FILE *stream;      /* the open session.json.live; null if it does not exist */
     char *path;        /* path of session.json.live */
     off_t head, whole; /* offsets in session.json.live: the start of its ticks, and the end of its last complete tick */
-    /* Numbers of the ticks that have no frame because they are gaps, though `every` would give them one. */
+    /* Numbers of the ticks that would have a frame by `every`, but have none because they are gaps. */
     uint64_t *gaps;
     size_t gap_count, gap_room;
     bool begun;  /* true: tick 0 is filmed */
@@ -46,22 +46,22 @@ struct live_recording {
 
 /* ---- session.json.live -------------------------------------------------------------------------------------- */
 
-static bool report_write_failure(const live_recording *live, octreel_error *error)
+static bool fail_with_write_error(const live_recording *live, octreel_error *error)
 {
     return error_set(error, "%s: cannot be written: %s", live->path, strerror(errno));
 }
 
 /* Flush session.json.live. Flushed bytes are kept even if the process is killed. */
-static bool flush_session(live_recording *live, octreel_error *error)
+static bool flush_live_file(live_recording *live, octreel_error *error)
 {
     if (fflush(live->stream) != 0 || ferror(live->stream))
-        return report_write_failure(live, error);
+        return fail_with_write_error(live, error);
     live->whole = ftello(live->stream);
     return true;
 }
 
-/* Returns the input of tick 0, without the queries and shapes that belong to every tick: these are in the session's
- * header. */
+/* Returns the input of tick 0, without the queries and shapes that belong to every tick: the session's header has
+ * those. */
 static octree_input make_first_input(const octree_session *session)
 {
     octree_input input = {
@@ -75,34 +75,34 @@ static octree_input make_first_input(const octree_session *session)
     return input;
 }
 
-static bool open_session(live_recording *live, octreel_error *error)
+static bool create_live_file(live_recording *live, octreel_error *error)
 {
     live->path = path_join(live->folder, "session.json.live");
     if (!live->path)
         return error_no_memory(error);
     unlink(live->path); /* first remove an old file at this path, which may be a pipe or a link */
     live->stream = fopen(live->path, "w+bx");
-    return live->stream || report_write_failure(live, error);
+    return live->stream || fail_with_write_error(live, error);
 }
 
-static bool begin_session(live_recording *live, octreel_error *error)
+static bool write_header_and_first_tick(live_recording *live, octreel_error *error)
 {
     const octree_session header = live->start.session;
     session_write_header(&header, live->options.values, live->stream);
-    if (!flush_session(live, error))
+    if (!flush_live_file(live, error))
         return false;
     live->head = live->whole;
     const octree_input input = make_first_input(&header);
     session_write_tick(0, &input, live->options.values, live->stream);
-    return flush_session(live, error);
+    return flush_live_file(live, error);
 }
 
-static bool add_to_session(live_recording *live, uint64_t tick, const octree_input *input, octreel_error *error)
+static bool add_tick_to_live_file(live_recording *live, uint64_t tick, const octree_input *input, octreel_error *error)
 {
     if (tick > SESSION_LAST_TICK)
         return error_set(error, "a recording has at most %d ticks", SESSION_LAST_TICK);
     session_write_tick(tick, input, live->options.values, live->stream);
-    return flush_session(live, error);
+    return flush_live_file(live, error);
 }
 
 static void remove_live_file(live_recording *live)
@@ -123,7 +123,7 @@ static bool copy_ticks(live_recording *live, FILE *out, octreel_error *error)
     off_t left = live->whole - live->head;
     clearerr(live->stream);
     if (fseeko(live->stream, live->head, SEEK_SET) != 0)
-        return report_write_failure(live, error);
+        return fail_with_write_error(live, error);
     while (left > 0) {
         const size_t wanted = left < (off_t)sizeof buffer ? (size_t)left : sizeof buffer;
         if (fread(buffer, 1, wanted, live->stream) != wanted)
@@ -148,7 +148,7 @@ static octree_session make_final_header(live_recording *live, uint64_t ticks)
     return header;
 }
 
-static bool write_session(live_recording *live, uint64_t ticks, const char *path, octreel_error *error)
+static bool write_finished_session(live_recording *live, uint64_t ticks, const char *path, octreel_error *error)
 {
     file_writer file;
     const octree_session header = make_final_header(live, ticks);
@@ -159,7 +159,7 @@ static bool write_session(live_recording *live, uint64_t ticks, const char *path
 }
 
 /* Compute octree_digest_bytes() of a file. The file is read in pieces because a session may be large. */
-static bool digest_file(const char *path, uint64_t *digest, octreel_error *error)
+static bool compute_file_digest(const char *path, uint64_t *digest, octreel_error *error)
 {
     unsigned char bytes[1 << 13];
     uint64_t size = 0;
@@ -188,12 +188,12 @@ static bool write_digest_into_frames(const live_recording *live, uint64_t digest
     return true;
 }
 
-static bool end_session(live_recording *live, uint64_t ticks, octreel_error *error)
+static bool finish_session(live_recording *live, uint64_t ticks, octreel_error *error)
 {
     uint64_t digest;
     char *path = path_join(live->folder, "session.json");
-    bool ok = path ? write_session(live, ticks, path, error) : error_no_memory(error);
-    ok = ok && digest_file(path, &digest, error);
+    bool ok = path ? write_finished_session(live, ticks, path, error) : error_no_memory(error);
+    ok = ok && compute_file_digest(path, &digest, error);
     if (ok)
         remove_live_file(live);
     ok = ok && write_digest_into_frames(live, digest, error);
@@ -233,7 +233,7 @@ live_recording *live_open(const octree_session *start, const film_options *optio
     live->recording = (recording){.options = &live->options, .summary = &live->summary};
     bool ok = playback_open(&live->playback, &live->start.session, live->options.values, &live->options.view, error);
     if (ok)
-        live->summary.start = film_count_start(&live->start.session, octree_game_tick(live->playback.game));
+        live->summary.start = film_count_start_points(&live->start.session, octree_game_tick(live->playback.game));
     if (ok && recording_open_picture(&live->recording, &live->playback, error))
         return live;
     release_live(live);
@@ -268,7 +268,7 @@ bool live_begin(live_recording *live, octreel_error *error)
 {
     if (!recording_begin(&live->recording, &live->playback, error))
         return false;
-    if (open_session(live, error))
+    if (create_live_file(live, error))
         return true;
     abandon_recording(live);
     return false;
@@ -276,7 +276,7 @@ bool live_begin(live_recording *live, octreel_error *error)
 
 bool live_film_first_tick(live_recording *live, octreel_error *error)
 {
-    live->begun = begin_session(live, error) && film_tick(live, error);
+    live->begun = write_header_and_first_tick(live, error) && film_tick(live, error);
     if (!live->begun)
         abandon_recording(live);
     return live->begun;
@@ -293,7 +293,7 @@ bool live_film_tick(live_recording *live, const octree_input *input, octreel_err
     octree_input played = *input;
     if (!played.key)
         played.key = find_next_key_press(live);
-    live->broken = live->broken || !add_to_session(live, live->ticks + 1, input, error);
+    live->broken = live->broken || !add_tick_to_live_file(live, live->ticks + 1, input, error);
     live->ticks += !live->broken;
     live->broken = live->broken || !playback_play_input(&live->playback, &played, error) || !film_tick(live, error);
     return !live->broken;
@@ -301,7 +301,7 @@ bool live_film_tick(live_recording *live, const octree_input *input, octreel_err
 
 bool live_add_unplayed(live_recording *live, uint64_t tick, const octree_input *input, octreel_error *error)
 {
-    live->broken = live->broken || !add_to_session(live, tick, input, error);
+    live->broken = live->broken || !add_tick_to_live_file(live, tick, input, error);
     return !live->broken;
 }
 
@@ -310,8 +310,8 @@ bool live_close(live_recording *live, uint64_t ticks, film_summary *summary, oct
     octreel_error late;
     bool ok = true;
     if (live->begun) {
-        const bool same = live->broken || playback_check_last(&live->playback, error);
-        const bool whole = end_session(live, ticks, same ? error : &late) && same;
+        const bool same = live->broken || playback_check_last_frame(&live->playback, error);
+        const bool whole = finish_session(live, ticks, same ? error : &late) && same;
         live->summary.total = live->summary.ticks;
         live->summary.checks = live->playback.checks;
         ok = (recording_end(&live->recording, whole && !live->broken, whole ? error : &late) || live->broken) && whole;

@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 /* packed_points.c - see packed_points.h.
  *
- * A page with 100,000 points as JSON takes 7 MB and 0.15 s to parse; as a block it takes 3 MB and 0.02 s. */
+ * A page with 100,000 points takes 7 MB, and 0.15 s to parse, if the points are JSON. If the points are a block, the
+ * page takes 3 MB and 0.02 s. */
 #include "packed_points.h"
 #include "text.h"
 
 #include <stdlib.h>
 #include <zlib.h>
 
-/* Compress bytes as gzip does. image/deflate.h compresses the rows of pictures only, so this is zlib, which libpng
- * needs anyway. The caller frees the result. Returns null if memory runs out. */
+/* Compress bytes as gzip does. image/deflate.h compresses only rows of pictures, so this function uses zlib, which
+ * libpng needs anyway. The caller frees the result. Returns null if memory runs out. */
 static unsigned char *compress_bytes(char *bytes, size_t size, size_t *packed)
 {
     enum { GZIP = 16 };
@@ -53,7 +54,7 @@ bool are_points_packed(const octree_session *session, const point_values *values
 
 unsigned char *pack_points_of_session(const octree_session *session, const point_values *values, size_t *packed)
 {
-    /* the block is only read here */
+    /* pack_points() only reads the block, so the cast is safe */
     point_block b = {.bodies = (octree_game_body *)session->bodies, .count = session->body_count};
     if (values)
         b.values = *values;

@@ -31,8 +31,9 @@ typedef struct cutter {
     bool quoted, escaped;
 } cutter;
 
-/* Returns true if the character is inside a string or is one of the string's quotes. */
-static bool advance_in_string(cutter *c, char at)
+/* Update c->quoted and c->escaped by the next character of the text. Returns whether the character belongs to a string,
+ * quotes included. */
+static bool update_string_state(cutter *c, char at)
 {
     const bool was = c->quoted;
     if (!c->escaped && at == '"')
@@ -41,7 +42,10 @@ static bool advance_in_string(cutter *c, char at)
     return was || c->quoted;
 }
 
-static bool advance_outside_string(cutter *c, char at)
+/* Update the depth and the commas by the next character of the text, which is outside strings. Sets c->cut when the
+ * open list is full, and clears c->cut at the end of this list. Returns false if brackets do not match or are nested
+ * too deeply. */
+static bool update_list_state(cutter *c, char at)
 {
     if (at == '[' || at == '{') {
         if (++c->depth == DEPTH)
@@ -63,8 +67,8 @@ static bool advance_outside_string(cutter *c, char at)
 }
 
 /* Copy JSON text, but keep only the first PAGE_LIST entries of each list. A tick may list a million refused points, so
- * lists are shortened before the text is parsed. The caller frees the copy. Returns null if memory runs out or brackets
- * do not match. */
+ * lists are shortened before the text is parsed. The caller frees the copy. Returns null if memory runs out, or if
+ * brackets do not match or are nested too deeply. */
 static char *shorten_lists(const char *text, size_t size, size_t *left)
 {
     char *copy;
@@ -74,7 +78,7 @@ static char *shorten_lists(const char *text, size_t size, size_t *left)
     size_t from = 0; /* offset of the first character that is neither copied nor dropped yet */
     for (size_t i = 0; ok && i < size; i++) {
         const bool cut = c.cut;
-        ok = advance_in_string(&c, text[i]) || advance_outside_string(&c, text[i]);
+        ok = update_string_state(&c, text[i]) || update_list_state(&c, text[i]);
         if (!cut && c.cut)
             fwrite(text + from, 1, i - from, c.out);
         from = cut && !c.cut ? i : from;
@@ -134,7 +138,7 @@ static bool write_json_text(const char *text, size_t size, FILE *page, const cha
  * frame, its scene digest is written, otherwise the tick is only counted. The page restores the members that differ:
  * the tick number, the frame and the scene digest. */
 
-/* A tick's line of ticks.jsonl without "tick", "frame" and "scene". */
+/* The part of a tick's line that a repetition shares: the line without "tick", "frame" and "scene". */
 typedef struct tick_rest {
     const char *text;
     size_t size;
@@ -145,7 +149,7 @@ typedef struct tick_rest {
 /* Find the part of a line of ticks.jsonl that is the same in a tick and its repetitions: all members except "tick",
  * "frame" and "scene". Returns false if tick_write() did not write the line; such a line is never treated as a
  * repetition. */
-static bool find_rest(const char *line, size_t size, uint64_t tick, tick_rest *rest)
+static bool find_repeatable_part(const char *line, size_t size, uint64_t tick, tick_rest *rest)
 {
     char begin[40], name[FRAME_NAME];
     const size_t begins = (size_t)snprintf(begin, sizeof begin, "{\"tick\": %" PRIu64 ", ", tick);
@@ -160,7 +164,7 @@ static bool find_rest(const char *line, size_t size, uint64_t tick, tick_rest *r
     return true;
 }
 
-static void write_repeated(page_writer *w)
+static void write_repetition_count(page_writer *w)
 {
     if (w->repeated > 0)
         fprintf(w->out, "%" PRIu64 "\n", w->repeated);
@@ -168,7 +172,7 @@ static void write_repeated(page_writer *w)
 }
 
 /* If a tick repeats the last tick, write it as a repetition and return true. */
-static bool write_repetition(page_writer *w, const tick_rest *rest)
+static bool write_tick_as_repetition(page_writer *w, const tick_rest *rest)
 {
     char digest[DIGEST_TEXT];
     if (!w->rest || rest->size != w->rest_size || memcmp(rest->text, w->rest, rest->size) != 0)
@@ -176,13 +180,14 @@ static bool write_repetition(page_writer *w, const tick_rest *rest)
     w->repeated += !rest->has_frame;
     if (!rest->has_frame)
         return true;
-    write_repeated(w);
+    write_repetition_count(w);
     fprintf(w->out, "\"%s\"\n", digest_print(rest->scene, digest));
     return true;
 }
 
-/* Keep what later ticks may repeat. `rest` is null if no tick can repeat this one. */
-static bool store_rest(page_writer *w, const tick_rest *rest)
+/* Store the part of a tick's line that later ticks may repeat. `rest` is null if no tick can repeat this tick. Returns
+ * false if memory runs out. */
+static bool store_repeatable_part(page_writer *w, const tick_rest *rest)
 {
     free(w->rest);
     w->rest_size = rest ? rest->size : 0;
@@ -195,14 +200,14 @@ static bool store_rest(page_writer *w, const tick_rest *rest)
 static bool write_tick(page_writer *w, const char *path, const char *line, size_t size, const tick_rest *rest,
                        octreel_error *error)
 {
-    write_repeated(w);
+    write_repetition_count(w);
     return write_json_text(line, size, w->out, path, w->ticks + 1, error) &&
-           (store_rest(w, rest) || error_no_memory(error));
+           (store_repeatable_part(w, rest) || error_no_memory(error));
 }
 
 /* ---- A page ------------------------------------------------------------------------------------------------- */
 
-bool page_plays(void)
+bool page_can_play(void)
 {
     return page_html_plays;
 }
@@ -217,36 +222,36 @@ bool page_begin(page_writer *w, FILE *page, const char *path, const char *record
 bool page_add_tick(page_writer *w, const char *path, const char *line, size_t size, octreel_error *error)
 {
     tick_rest rest;
-    const bool repeatable = find_rest(line, size, w->ticks, &rest);
-    const bool ok =
-        (repeatable && write_repetition(w, &rest)) || write_tick(w, path, line, size, repeatable ? &rest : NULL, error);
+    const bool repeatable = find_repeatable_part(line, size, w->ticks, &rest);
+    const bool ok = (repeatable && write_tick_as_repetition(w, &rest)) ||
+                    write_tick(w, path, line, size, repeatable ? &rest : NULL, error);
     w->ticks++;
     return ok;
 }
 
-static void begin_session(page_writer *w)
+static void begin_session_element(page_writer *w)
 {
-    write_repeated(w);
+    write_repetition_count(w);
     fputs("</script>\n<script type=\"application/json\" id=\"session\">", w->out);
 }
 
-static void end_session(page_writer *w)
+static void write_page_tail(page_writer *w)
 {
     fwrite(page_html_tail, 1, page_html_tail_size, w->out);
 }
 
 void page_end(page_writer *w, const char *session, size_t size)
 {
-    begin_session(w);
+    begin_session_element(w);
     if (size <= PAGE_MOST_SESSION)
         write_escaped_json(w->out, session, size);
-    end_session(w);
+    write_page_tail(w);
 }
 
-/* Write bytes as text: Z85, which has five characters for four bytes, with , _ ~ in place of & < @, which HTML would
- * interpret. The first character is the count of zero bytes that fill up the last four. unpackLetters() in unpack.js
- * decodes the text. */
-static void write_letters(FILE *page, const unsigned char *bytes, size_t size)
+/* Write bytes as text in a variant of Z85, which encodes four bytes as five characters. To suit HTML, this variant has
+ * , _ ~ in place of & < @. The first character is the number of zero bytes that pad the last group of four.
+ * unpackLetters() in unpack.js decodes the text. */
+static void write_z85(FILE *page, const unsigned char *bytes, size_t size)
 {
     static const char digits[] =
         "0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ.-:+=^!/*?,_>()[]{}~%$#";
@@ -265,11 +270,11 @@ static void write_letters(FILE *page, const unsigned char *bytes, size_t size)
 void page_end_with_points(page_writer *w, const char *session, size_t size, const unsigned char *points,
                           size_t points_size, bool cloud)
 {
-    begin_session(w);
+    begin_session_element(w);
     write_escaped_json(w->out, session, size);
     fprintf(w->out, "</script>\n<script type=\"application/gzip;z85\" id=\"points\"%s>", cloud ? " data-cloud" : "");
-    write_letters(w->out, points, points_size);
-    end_session(w);
+    write_z85(w->out, points, points_size);
+    write_page_tail(w);
 }
 
 bool page_end_with_packed_session(page_writer *w, const octree_session *session, const point_values *values,
@@ -347,10 +352,10 @@ static bool copy_session(FILE *page, const char *path, octreel_error *error)
 static bool end_folder_page(page_writer *w, const char *path, octreel_error *error)
 {
     struct stat status;
-    begin_session(w);
+    begin_session_element(w);
     const bool has = stat(path, &status) == 0 && (uintmax_t)status.st_size <= PAGE_MOST_SESSION;
     const bool ok = !has || copy_session(w->out, path, error);
-    end_session(w);
+    write_page_tail(w);
     return ok;
 }
 

@@ -21,13 +21,15 @@
  * reader to choose the file. */
 #define PAGE_MOST_SESSION ((size_t)128 << 20)
 
-/* Returns true if pages contain the program as WebAssembly and so can play. Otherwise pages only show frames. */
-bool page_plays(void);
+/* Returns whether pages can play a session, because they contain the program as WebAssembly. Otherwise pages only show
+ * frames. */
+bool page_can_play(void);
 
 typedef struct page_writer {
     FILE *out;
     uint64_t ticks; /* number of ticks added so far */
-    char *rest;     /* the part of the last whole line that a repetition shares; null if no tick can repeat it; owned */
+    char *rest;     /* the part of the last completely written line that a repetition shares; null: no tick can repeat
+                     * this line; owned */
     size_t rest_size;
     uint64_t repeated; /* number of ticks without a frame that repeat this line and are not yet written */
 } page_writer;
@@ -52,9 +54,9 @@ bool page_end_with_packed_session(page_writer *w, const octree_session *session,
 void page_release(page_writer *w);
 
 /* Write the file index.html of a recording, from the other files in its folder. `session` is the session of
- * session.json, or null if it is not in memory. If it is null, the page holds the text of session.json, even if its
- * points could be stored as a compressed block. An incomplete last line of ticks.jsonl is ignored. An existing
- * index.html is replaced; if writing fails, it stays unchanged. */
+ * session.json, or null if it is not in memory. If `session` is null, the page holds the text of session.json, even if
+ * the points could be stored as a compressed block. An incomplete last line of ticks.jsonl is ignored. An existing
+ * index.html is replaced, or stays unchanged if writing fails. */
 bool page_write(const char *folder, const octree_session *session, const point_values *values, octreel_error *error);
 
 #endif

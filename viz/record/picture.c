@@ -19,7 +19,7 @@ static image_palette theme_palette(void)
     return palette;
 }
 
-bool picture_fit(view *v, const octree *tree, const point_values *values, octreel_error *error)
+bool picture_fit_view(view *v, const octree *tree, const point_values *values, octreel_error *error)
 {
     char reason[FILTER_TEXT];
     const octree_def def = octree_definition(tree);

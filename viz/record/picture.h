@@ -17,12 +17,12 @@ typedef struct picture {
     image samples; /* the palette indices from which an RGB frame is made; empty if the frame is not RGB */
 } picture;
 
-/* Fit a view's camera and scales to the first tree that it shows. Returns false with an error if the view's filter
- * excludes the whole tree. */
-bool picture_fit(view *v, const octree *tree, const point_values *values, octreel_error *error);
+/* Fit the camera and the scales of a view to `tree`, the first tree that the view shows. Returns false with an error if
+ * the view's filter excludes the whole tree. */
+bool picture_fit_view(view *v, const octree *tree, const point_values *values, octreel_error *error);
 
-/* Open a picture for scenes with this view's size and anti-aliasing. Too large a size is an error before memory is
- * allocated. */
+/* Open a picture for scenes with this view's size and anti-aliasing. A size that is too large is an error, which is
+ * found before memory is allocated. */
 bool picture_open(picture *p, const view *v, const renderer_choice *choice, octreel_error *error);
 void picture_close(picture *p);
 

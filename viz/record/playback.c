@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* playback.c - plays a session and makes a scene, a frame and a line of ticks.jsonl from each tick.
  *
- * A tick goes through five steps. The game plays it. tick_scene_build() makes a draw list from the game and the history
- * of earlier ticks. picture_draw() turns the draw list into pixels. frame_write() writes the pixels as a PNG file, with
- * the digests of the session and the scene. Last, the line of ticks.jsonl is made in memory; it contains the name of
- * the frame and the digest of the scene.
+ * A tick goes through five steps. The game plays the tick. tick_scene_build() makes a draw list from the game and the
+ * history of earlier ticks. picture_draw() turns the draw list into pixels. frame_write() writes the pixels as a PNG
+ * file, with the digests of the session and the scene. Last, the line of ticks.jsonl is made in memory; it contains the
+ * name of the frame and the digest of the scene.
  *
  * All ticks are played and enter the history, even ticks without a frame, because trails, heat and events depend on
  * earlier ticks. So a chunk, a job or a resumed recording, which films only some ticks, makes the same frames as a
@@ -32,7 +32,7 @@ bool playback_open(playback *p, const octree_session *session, const point_value
     const octree_status status = octree_game_create(session, &p->game);
     if (status != OCTREE_OK)
         return error_set(error, "the session cannot be played: %s", octree_status_text(status));
-    return picture_fit(&p->view, octree_game_tree(p->game), values, error) && add_tick_to_history(p, error);
+    return picture_fit_view(&p->view, octree_game_tree(p->game), values, error) && add_tick_to_history(p, error);
 }
 
 void playback_close(playback *p)
@@ -102,8 +102,8 @@ static uint64_t find_session_digest(playback *p)
     return p->session_digest;
 }
 
-/* Returns true if a frame is to be checked: the first and the last frame of a share, and every CHECK_EVERY-th frame.
- * `frame` is a number of a frame: its tick divided by `every`. */
+/* Returns whether a frame is to be checked: the first and the last frame of a share, and every CHECK_EVERY-th frame.
+ * `frame` is the number of the frame, which is its tick divided by `every`. */
 static bool must_check_frame(const film_share *share, uint64_t frame, uint64_t every)
 {
     return frame % CHECK_EVERY == 0 || frame == (share->first + every - 1) / every ||
@@ -115,9 +115,9 @@ uint64_t share_count_frames(const film_share *share, uint64_t every)
     return every == 0 ? 0 : (share->last - 1) / every - share->first / every + 1;
 }
 
-/* Returns whether this job films a frame. Job 0 films all frames that are checked, so that only one process loads GL.
- * Every other frame is filmed by the first job that reaches it: a job that is faster, or has less to check, films more
- * frames. */
+/* Claim a frame for this job. Returns whether this job films the frame. Job 0 films all frames that are checked, so
+ * that only one process loads GL. Every other frame is filmed by the first job that reaches it: a job that is faster,
+ * or has less to check, films more frames. */
 static bool claim_frame(playback *p, uint64_t frame)
 {
     const film_share *share = &p->share;
@@ -131,7 +131,7 @@ static bool claim_frame(playback *p, uint64_t frame)
     return p->owns_claimed;
 }
 
-bool playback_check_last(playback *p, octreel_error *error)
+bool playback_check_last_frame(playback *p, octreel_error *error)
 {
     char prefix[sizeof "different_" + FRAME_NAME];
     if (!*p->unchecked)
@@ -156,7 +156,7 @@ static bool check_frame(playback *p, uint64_t tick, octreel_error *error)
         return true;
     frame_print_name(tick, p->unchecked);
     return (p->checks.count > 0 && !must_check_frame(share, tick / p->target.every, p->target.every)) ||
-           playback_check_last(p, error);
+           playback_check_last_frame(p, error);
 }
 
 static bool draw_frame(playback *p, frame_origin *origin, bool *kept, octreel_error *error)
@@ -229,7 +229,7 @@ bool playback_run(playback *p, const film_share *share, film_sink *sink, void *c
             !(playback_film_tick(p, &step, error) && sink(context, &step, error)))
             return false;
         if (tick + 1 >= share->last || !watcher_continues(watch))
-            return playback_check_last(p, error);
+            return playback_check_last_frame(p, error);
         if (!playback_advance(p, error))
             return false;
     }

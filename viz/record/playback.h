@@ -28,8 +28,8 @@ typedef enum playback_frames {
     FRAMES_KEEP,  /* keep existing frame files that are complete and correct; draw and write all other frames */
 } playback_frames;
 
-/* The ticks first to last - 1 of a session. If `claims` is not null, several jobs film these ticks, and this is job
- * `index`: it films each frame that it is the first to claim, and the ticks up to the next frame. */
+/* The ticks first to last - 1 of a session. If `claims` is not null, several jobs film these ticks, and this job has
+ * the number `index`. A job films each frame that no other job has claimed, and the ticks up to the next frame. */
 typedef struct film_share {
     uint64_t first, last;
     unsigned index;
@@ -41,7 +41,7 @@ typedef struct film_share {
 /* Returns the number of frames of a share, which is the number of its claims. */
 uint64_t share_count_frames(const film_share *share, uint64_t every);
 
-/* Which ticks have frames, and where frames go. */
+/* The choice of the ticks that have frames, and of the folder into which frames are written. */
 typedef struct playback_target {
     playback_frames frames;
     const char *folder; /* the folder for frames; not used with FRAMES_SHOW */
@@ -53,15 +53,15 @@ typedef struct playback {
     view view; /* the view, with its camera and scales fitted to tick 0 */
     octree_game *game;
     const point_values *values; /* values of the session's points; may be null */
-    /* Null, or: the session is a cloud, and its scenes are those of a tree without a game. The answers and values of
-     * the subject are not read. Not owned. */
+    /* Not null: the session is a cloud, and its scenes show a tree without a game. The answers and values of the
+     * subject are not read. Not owned. */
     const tree_subject *cloud;
     tick_history history; /* history of all ticks played so far */
     scene scene;
     playback_target target;
     film_share share;           /* the share of the ticks that playback_run() films */
     uint64_t claimed;           /* one more than the number of the last frame that the job tried to claim */
-    bool owns_claimed;          /* true: the job has claimed this frame */
+    bool owns_claimed;          /* true: the job films that frame */
     frame_checks checks;        /* the result of the frame checks; used with DRAW_FILL_CHECKED */
     char unchecked[FRAME_NAME]; /* if the frame in playback.picture is not yet checked: its name; otherwise "" */
     /* Digest of session.json, written into frames; set by the caller or by learn_session(). */
@@ -80,7 +80,7 @@ typedef struct film_step {
     unsigned events;      /* events of the tick, as bits of octree_event */
     size_t refusals;      /* number of refused points, edits and steps */
     bool foreign_nodes;   /* the tick shows the nodes of a foreign index */
-    bool gap;             /* the tick is a gap: it was refused and has no data */
+    bool gap;             /* the tick is a gap: its content is unknown, so it has no data */
     bool filmed;          /* the tick has a frame */
     bool kept;            /* the frame existed already and was correct, so it was not drawn */
     unsigned over_budget; /* kinds of elements that the view's budget left out, as bits LEFT_OUT_* of scene.h */
@@ -113,8 +113,8 @@ bool playback_compose_scene(playback *p, octreel_error *error);
 bool playback_film_tick(playback *p, film_step *step, octreel_error *error);
 
 /* Check the last drawn frame, unless it was checked already. A live recording calls this function when it is closed,
- * because only then is it known which frame is the last. By then that frame has been written. */
-bool playback_check_last(playback *p, octreel_error *error);
+ * because only then the last frame is known. That frame has been written before. */
+bool playback_check_last_frame(playback *p, octreel_error *error);
 
 /* A function that is called for each tick of a share, in order. If it returns false, playback_run() ends and returns
  * false. */

@@ -20,7 +20,7 @@ typedef struct playing {
     page_writer page;
 } playing;
 
-static bool add_tick(void *context, const film_step *step, octreel_error *error)
+static bool add_tick_to_page(void *context, const film_step *step, octreel_error *error)
 {
     playing *p = context;
     if (!page_add_tick(&p->page, "the session's ticks", step->line, step->size, error))
@@ -50,14 +50,14 @@ static bool play_and_write_ticks(playing *p, const octree_session *session, octr
     playback played;
     bool ok = playback_open(&played, session, p->options->values, &p->options->view, error);
     if (ok)
-        p->summary->start = film_count_start(session, octree_game_tick(played.game));
-    ok =
-        ok && begin_page(p, &played.view, error) && playback_run(&played, &all, add_tick, p, &p->options->watch, error);
+        p->summary->start = film_count_start_points(session, octree_game_tick(played.game));
+    ok = ok && begin_page(p, &played.view, error) &&
+         playback_run(&played, &all, add_tick_to_page, p, &p->options->watch, error);
     playback_close(&played);
     return ok;
 }
 
-static bool check_size(size_t size, octreel_error *error)
+static bool check_session_size(size_t size, octreel_error *error)
 {
     return size <= PAGE_MOST_SESSION ||
            error_set(
@@ -69,7 +69,7 @@ static bool check_size(size_t size, octreel_error *error)
 
 /* Returns a lower bound of the size of session.json in bytes, so that a session that is far too large is refused before
  * its text is made. */
-static size_t find_least_size(const octree_session *session)
+static size_t find_least_session_size(const octree_session *session)
 {
     return (session->keys ? strlen(session->keys) : 0) + session->body_count * strlen("[0,0,0],");
 }
@@ -79,15 +79,16 @@ bool write_played_page(const octree_session *session, const film_options *option
 {
     session_bytes written;
     *summary = (film_summary){.total = octree_session_length(session) + 1};
-    if (!page_plays())
+    if (!page_can_play())
         return error_set(error,
                          "this octreel was built without WebAssembly, so its pages cannot play; use octreel record, "
                          "or build it with clang, lld and wasi-libc");
-    if (!check_size(find_least_size(session), error) || !session_check_length(session, options->max_ticks, error) ||
+    if (!check_session_size(find_least_session_size(session), error) ||
+        !session_check_length(session, options->max_ticks, error) ||
         !make_session_bytes(session, options->values, &written, error))
         return false;
     playing p = {.options = options, .summary = summary, .out = page};
-    bool ok = check_size(written.size, error) && play_and_write_ticks(&p, session, error);
+    bool ok = check_session_size(written.size, error) && play_and_write_ticks(&p, session, error);
     if (ok && are_points_packed(session, options->values))
         ok = page_end_with_packed_session(&p.page, session, options->values, error);
     else if (ok)

@@ -9,7 +9,7 @@
 #include <stdio.h>
 
 /* Play a session and write its page. Only view, values and watch of the options are used. Only start, ticks and total
- * of the summary are set. If the watcher stops the playing, summary->ticks is less than summary->total and the page is
+ * of the summary are set. If the watcher stops the playback, summary->ticks is less than summary->total and the page is
  * incomplete. If this build has no WebAssembly, or if the session is too large for a page, returns false with an error
  * and writes nothing. Write errors are left to the caller, who checks the stream. */
 bool write_played_page(const octree_session *session, const film_options *options, FILE *page, film_summary *summary,

@@ -30,7 +30,7 @@ typedef struct beginning {
     renderer_info info; /* the renderer; set only if there are frames */
 } beginning;
 
-static bool write_files(const recording *r, const folder_place *place, const beginning *b, octreel_error *error)
+static bool write_first_files(const recording *r, const folder_place *place, const beginning *b, octreel_error *error)
 {
     return write_recording_file(place, b->view, r->options->every, error) &&
            (!r->bytes.bytes || write_session_file(place, &r->bytes, error)) &&
@@ -59,7 +59,7 @@ static bool begin_whole_recording(recording *r, const beginning *b, octreel_erro
         return false;
     }
     const folder_place place = {.folder = folder};
-    if (write_files(r, &place, b, error))
+    if (write_first_files(r, &place, b, error))
         return true;
     tick_log_close(&r->log, false, &late);
     folder_remove_recording_files(folder);
@@ -67,7 +67,8 @@ static bool begin_whole_recording(recording *r, const beginning *b, octreel_erro
     return false;
 }
 
-/* Return false with an error if the file of the chunk exists and the chunk is not being resumed. */
+/* Check that the file of the chunk does not exist, for a chunk that is not resumed. Otherwise returns false with an
+ * error. */
 static bool check_new_chunk(const recording *r, octreel_error *error)
 {
     char name[CHUNK_NAME];
@@ -86,8 +87,9 @@ static bool begin_chunk_of_recording(recording *r, const beginning *b, octreel_e
     const folder_place dry_run = {.folder = o->folder, .dry_run = true},
                        place = {.folder = o->folder, .writer = chunk_print_name(r->share.first, r->share.last, writer)};
     return folder_create(o->folder, error) && (o->resume || check_new_chunk(r, error)) &&
-           write_files(r, &dry_run, b, error) && check_resumable(o->folder, r->bytes.digest, ticks, o->every, error) &&
-           write_files(r, &place, b, error) && open_log(r, error);
+           write_first_files(r, &dry_run, b, error) &&
+           check_resumable(o->folder, r->bytes.digest, ticks, o->every, error) &&
+           write_first_files(r, &place, b, error) && open_log(r, error);
 }
 
 bool recording_begin(recording *r, playback *p, octreel_error *error)

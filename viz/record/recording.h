@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* recording.h - writes all files of a recording except the frames: the files at its start, the lines of ticks.jsonl,
- * and the page at its end. It also counts events, frames and gaps for the summary. Private to viz/record. */
+ * and the page at its end. Also counts events, frames and gaps for the summary. Private to viz/record. */
 #ifndef RECORD_RECORDING_H
 #define RECORD_RECORDING_H
 
@@ -32,7 +32,8 @@ bool recording_begin(recording *r, playback *p, octreel_error *error);
 /* Write the line of the next tick to ticks.jsonl. This function is a film_sink, whose context is the recording. */
 bool recording_add_tick(void *context, const film_step *step, octreel_error *error);
 
-/* Close ticks.jsonl and write the page; also called after a stop or a failure. `ok` is false after a failure, and the
+/* Close ticks.jsonl and write the page; also called after a stop or a failure. The page is not written for a chunk,
+ * after a failure, or if the old recording of a replacement is moved back. `ok` is false after a failure, and the
  * result is then false too. */
 bool recording_end(recording *r, bool ok, octreel_error *error);
 

@@ -30,13 +30,13 @@ static const char mark[] = "recording.json", unfinished_mark[] = "recording.json
 
 /* ---- Names -------------------------------------------------------------------------------------------------- */
 
-static bool is_log(const char *name)
+static bool is_ticks_file_name(const char *name)
 {
     uint64_t first, last;
     return strcmp(name, "ticks.jsonl") == 0 || chunk_parse_name(name, &first, &last);
 }
 
-static bool is_frame(const char *name)
+static bool is_frame_name(const char *name)
 {
     char whole[FRAME_NAME + sizeof ".part"];
     uint64_t tick;
@@ -48,18 +48,17 @@ static bool is_frame(const char *name)
     return frame_parse_name(whole, &tick);
 }
 
-/* Returns true if a recording uses this file name. FOLDER_ASIDE is the name of a folder, so the result is false for
- * it. */
+/* Returns whether a recording uses this file name. Returns false for FOLDER_ASIDE, which is the name of a folder. */
 static bool is_recording_file(const char *name)
 {
     if (strncmp(name, "frame_", 6) == 0)
-        return is_frame(name);
+        return is_frame_name(name);
     return strcmp(name, FOLDER_ASIDE) != 0 && (folder_is_recording_file(name) || folder_is_unfinished_file(name));
 }
 
 /* ---- Checks ------------------------------------------------------------------------------------------------- */
 
-static bool holds_recording(const char *folder)
+static bool has_recording(const char *folder)
 {
     char *path = path_join(folder, mark);
     struct stat status;
@@ -75,7 +74,7 @@ static bool holds_recording(const char *folder)
 static bool has_recording_aside(const char *folder)
 {
     char *aside = path_join(folder, FOLDER_ASIDE);
-    const bool has = aside && holds_recording(aside);
+    const bool has = aside && has_recording(aside);
     free(aside);
     return has;
 }
@@ -97,7 +96,7 @@ static bool check_entry(const char *folder, const char *name, bool *past, octree
     bool ok = lstat(path, &status) == 0 && S_ISREG(status.st_mode);
     if (!ok)
         error_set(error, "%s: not a regular file; cannot replace it; choose another folder (-o)", path);
-    else if (is_log(name) && file_is_locked(path))
+    else if (is_ticks_file_name(name) && file_is_locked(path))
         ok = error_set(error, "%s: another process is recording into this folder", path);
     else
         *past |= strcmp(name, "ticks.jsonl") != 0 || status.st_size > 0;
@@ -114,7 +113,7 @@ bool replacement_check(const char *folder, octreel_error *error)
     for (size_t i = 0; ok && names[i]; i++)
         ok = check_entry(folder, names[i], &past, error);
     free(names);
-    return ok && (!past || holds_recording(folder) || has_recording_aside(folder) ||
+    return ok && (!past || has_recording(folder) || has_recording_aside(folder) ||
                   error_set(error,
                             "%s: cannot replace its files: recording.json is missing or belongs to another "
                             "program; choose another folder (-o)",
@@ -144,7 +143,7 @@ static bool move_or_remove(const char *from, const char *to, const char *name)
 }
 
 /* Move or remove all files of a recording except recording.json. */
-static bool move_or_remove_rest(const char *from, const char *to)
+static bool move_or_remove_all_but_mark(const char *from, const char *to)
 {
     octreel_error ignored;
     char **names = folder_names(from, &ignored);
@@ -158,12 +157,12 @@ static bool move_or_remove_rest(const char *from, const char *to)
 
 static bool restore_old_recording(const replacement *r)
 {
-    return move_or_remove_rest(r->aside, r->folder) && move_file(r->aside, r->folder, mark);
+    return move_or_remove_all_but_mark(r->aside, r->folder) && move_file(r->aside, r->folder, mark);
 }
 
 static bool remove_recording(const char *folder)
 {
-    return move_or_remove(folder, NULL, mark) && move_or_remove_rest(folder, NULL);
+    return move_or_remove(folder, NULL, mark) && move_or_remove_all_but_mark(folder, NULL);
 }
 
 /* Empty the folder FOLDER_ASIDE if a killed process left files in it. If the outer folder has a recording.json, the
@@ -172,7 +171,7 @@ static bool remove_recording(const char *folder)
 static bool recover_from_crash(const replacement *r, octreel_error *error)
 {
     bool ok = true;
-    if (!holds_recording(r->aside))
+    if (!has_recording(r->aside))
         ok = remove_recording(r->aside);
     else
         ok = (folder_contains(r->folder, mark) ? remove_recording(r->folder)
@@ -194,8 +193,8 @@ static void release_replacement(replacement *r)
     *r = (replacement){0};
 }
 
-/* Returns true if the name FOLDER_ASIDE still belongs to the folder that was opened. While this process waited for the
- * lock, the process that held it may have removed the folder. */
+/* Returns true if the name FOLDER_ASIDE still belongs to the folder that was opened. Before this process got the lock,
+ * the process that held the lock may have removed the folder. */
 static bool is_aside_folder_unchanged(const replacement *r)
 {
     struct stat open, named;
@@ -220,7 +219,7 @@ static bool create_aside_folder(replacement *r, octreel_error *error)
 
 static bool move_recording_aside(replacement *r, octreel_error *error)
 {
-    if (move_file(r->folder, r->aside, mark) && move_or_remove_rest(r->folder, r->aside))
+    if (move_file(r->folder, r->aside, mark) && move_or_remove_all_but_mark(r->folder, r->aside))
         return true;
     error_set(error, "%s: cannot move the old recording aside: %s", r->folder, strerror(errno));
     restore_old_recording(r);

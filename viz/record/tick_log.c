@@ -9,7 +9,7 @@
 #include <string.h>
 #include <unistd.h>
 
-static bool report_write_failure(tick_log *log, octreel_error *error, const char *more)
+static bool fail_with_write_error(tick_log *log, octreel_error *error, const char *more)
 {
     return error_set(error, "%s: cannot be written: %s%s", log->path, strerror(errno), more);
 }
@@ -22,7 +22,7 @@ static bool lock_and_open(tick_log *log, int file, bool keep, octreel_error *err
     log->kept = keep ? lseek(file, 0, SEEK_END) : 0;
     if (log->kept >= 0 && lseek(file, 0, SEEK_SET) == 0 && (keep || ftruncate(file, 0) == 0))
         log->stream = fdopen(file, "r+b");
-    return log->stream || report_write_failure(log, error, "");
+    return log->stream || fail_with_write_error(log, error, "");
 }
 
 bool tick_log_open(tick_log *log, const char *folder, const char *name, bool keep, octreel_error *error)
@@ -31,7 +31,7 @@ bool tick_log_open(tick_log *log, const char *folder, const char *name, bool kee
     if (!log->path)
         return error_no_memory(error);
     const int file = open(log->path, O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
-    if (file < 0 ? report_write_failure(log, error, "") : lock_and_open(log, file, keep, error))
+    if (file < 0 ? fail_with_write_error(log, error, "") : lock_and_open(log, file, keep, error))
         return true;
     if (file >= 0)
         close(file);
@@ -40,18 +40,19 @@ bool tick_log_open(tick_log *log, const char *folder, const char *name, bool kee
     return false;
 }
 
-static bool truncate_and_close(tick_log *log, octreel_error *error)
+/* After a write error, remove the incomplete last line, close the file and set the error. Returns false. */
+static bool cut_torn_line_and_fail(tick_log *log, octreel_error *error)
 {
     const int reason = errno;
     fclose(log->stream);
     log->stream = NULL;
     const bool cut = truncate(log->path, log->whole) == 0;
     errno = reason;
-    return report_write_failure(log, error, cut ? "" : "; its last line is torn");
+    return fail_with_write_error(log, error, cut ? "" : "; its last line is torn");
 }
 
-/* Returns true if the line equals the next line of the earlier log. That earlier line can then stay in the file. */
-static bool equals_next_old_line(const tick_log *log, const char *line, size_t size)
+/* Returns whether a line equals the next line of the earlier log, which can then stay in the file. */
+static bool is_next_old_line(const tick_log *log, const char *line, size_t size)
 {
     if (log->kept - log->whole < (off_t)size)
         return false;
@@ -70,14 +71,14 @@ static bool remove_old_lines(tick_log *log)
 
 bool tick_log_add(tick_log *log, const char *line, size_t size, octreel_error *error)
 {
-    if (log->kept > 0 && equals_next_old_line(log, line, size)) {
+    if (log->kept > 0 && is_next_old_line(log, line, size)) {
         log->whole += (off_t)size;
         return true;
     }
     if (log->kept > 0 && !remove_old_lines(log))
-        return truncate_and_close(log, error);
+        return cut_torn_line_and_fail(log, error);
     if (fwrite(line, 1, size, log->stream) != size || fflush(log->stream) != 0)
-        return truncate_and_close(log, error);
+        return cut_torn_line_and_fail(log, error);
     log->whole += (off_t)size;
     return true;
 }
@@ -85,11 +86,11 @@ bool tick_log_add(tick_log *log, const char *line, size_t size, octreel_error *e
 bool tick_log_close(tick_log *log, bool whole, octreel_error *error)
 {
     const bool cut =
-        !log->stream || !whole || log->kept == 0 || remove_old_lines(log) || report_write_failure(log, error, "");
+        !log->stream || !whole || log->kept == 0 || remove_old_lines(log) || fail_with_write_error(log, error, "");
     if (log->stream)
         /* unlock explicitly: a child process may have the file open too, and would keep the lock */
         flock(fileno(log->stream), LOCK_UN);
-    const bool ok = (!log->stream || fclose(log->stream) == 0 || report_write_failure(log, error, "")) && cut;
+    const bool ok = (!log->stream || fclose(log->stream) == 0 || fail_with_write_error(log, error, "")) && cut;
     free(log->path);
     *log = (tick_log){0};
     return ok;

@@ -68,7 +68,7 @@ static bool begin_page(const cloud_page *c, page_writer *w, FILE *page, octreel_
     text_stream s;
     char *text;
     view v = *c->view;
-    if (!picture_fit(&v, c->made->tree, &c->made->values, error))
+    if (!picture_fit_view(&v, c->made->tree, &c->made->values, error))
         return false;
     if (text_stream_begin(&s))
         recording_write(s.stream, &v, 0);
@@ -116,7 +116,7 @@ static bool end_page(const cloud_page *c, page_writer *w, octreel_error *error)
 bool cloud_page_write(const cloud_page *c, FILE *page, octreel_error *error)
 {
     page_writer w = {0};
-    if (!page_plays())
+    if (!page_can_play())
         return error_set(error, "this octreel was built without WebAssembly, so it cannot make pages of clouds; name a "
                                 "PNG file, or build octreel with clang, lld and wasi-libc");
     if (octree_count(c->made->tree) > POINT_BLOCK_MOST)

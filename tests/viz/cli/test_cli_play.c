@@ -20,7 +20,7 @@
 
 static void need_pages_that_play(void)
 {
-    if (page_plays())
+    if (page_can_play())
         return;
     print_message("octreel was built without WebAssembly: its pages do not play\n");
     skip();
@@ -33,7 +33,7 @@ static command_result play_in(const temp_folder *folder, const char *arguments)
 
 static void build_without_webassembly_says_so(void **state)
 {
-    if (page_plays())
+    if (page_can_play())
         return;
     command_result result = play_in(*state, "");
     assert_trouble(&result, "built without WebAssembly");

@@ -140,7 +140,7 @@ static void view_of_a_tree_that_no_tick_has_is_reported(void **state)
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         film_options options = small_film("film");
         options.view.tree = rows[i].tree;
-        char *text = written(film_report_empty, &(film_summary){0}, &options);
+        char *text = written(film_report_useless_options, &(film_summary){0}, &options);
         assert_non_null(strstr(text, rows[i].text));
         free(text);
     }

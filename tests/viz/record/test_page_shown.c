@@ -120,10 +120,11 @@ static void page_tells_each_kind_of_event_in_a_sentence(void **state)
 {
     const char *const rows[][2] = {
         /* only the module knows the positions of points */
-        {"0 told", page_plays() ? "✕Collided with point 5 at (-1, 2, 3); the player at (0, 0, 0) made no step | ■Point "
-                                  "10 at (750, 750, 800) refused: its leaf is full and cannot split further"
-                                : "✕Collided with point 5; the player at (0, 0, 0) made no step | ■Point 10 at (750, "
-                                  "750, 800) refused: its leaf is full and cannot split further"},
+        {"0 told", page_can_play()
+                       ? "✕Collided with point 5 at (-1, 2, 3); the player at (0, 0, 0) made no step | ■Point "
+                         "10 at (750, 750, 800) refused: its leaf is full and cannot split further"
+                       : "✕Collided with point 5; the player at (0, 0, 0) made no step | ■Point 10 at (750, "
+                         "750, 800) refused: its leaf is full and cannot split further"},
         {"6 told", "✕Key s (−y): collided with point 1; step to (-50, -50, 100) taken back"},
         {"7 told", "Key n (nearest neighbour): the player is at (-50, 0, 100)"},
         {"7 sections",
@@ -278,7 +279,7 @@ static void question_mark_lists_the_keys(void **state)
     assert_said(*state, "behind the help", "0");
     assert_said(
         *state, "keys listed",
-        !page_plays()
+        !page_can_play()
             ? "\xe2\x86\x92 \xe2\x86\x90 Page Down Page Up Home End space + - j k 1 2 3 4 5 6 0 i p l b z x t Esc ?"
             : "\xe2\x86\x92 \xe2\x86\x90 Page Down Page Up Home End space + - j k 1 2 3 4 5 6 0 "
               "w s d a e f n . q Shift \xe2\x86\x90 Shift \xe2\x86\x92 Shift \xe2\x86\x91 Shift \xe2\x86\x93 "

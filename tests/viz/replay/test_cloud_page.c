@@ -31,7 +31,7 @@ static void write_cloud(const char *path, const char *columns, int count)
 
 static void skip_without_module(void)
 {
-    if (page_plays())
+    if (page_can_play())
         return;
     print_message("octreel was built without WebAssembly: it makes no pages of clouds\n");
     skip();

@@ -222,7 +222,7 @@ static bool fit_to_start(view *v)
     const octree_status status = octree_game_create(&page.session.session, &start);
     if (status != OCTREE_OK)
         return error_set(&page.error, "%s", octree_status_text(status));
-    const bool fitted = picture_fit(v, octree_game_tree(start), &page.session.values, &page.error);
+    const bool fitted = picture_fit_view(v, octree_game_tree(start), &page.session.values, &page.error);
     octree_game_destroy(start);
     return fitted;
 }
@@ -239,7 +239,7 @@ static bool fit_view(view *v)
     page.has_fitted_scale = scales;
     if (scales && !v->point_scale.given && web_tick() > 0)
         return fit_to_start(v);
-    return picture_fit(v, octree_game_tree(page.playback.game), &page.session.values, &page.error);
+    return picture_fit_view(v, octree_game_tree(page.playback.game), &page.session.values, &page.error);
 }
 
 /* Set the view to that of a recording.json, whose `recording` bytes are in the input buffer. The picture
