@@ -7,8 +7,8 @@
 
 #include <math.h>
 
-/* Returns why a query cannot be recorded, or null if it can. A tree accepts infinite boxes and all 64-bit ids, but the
- * recorder's files are JSON and cannot hold them. */
+/* Returns why a query cannot be recorded, or null if the query can be recorded. A tree accepts infinite boxes and all
+ * 64-bit ids, but JSON, the format of the recorder's files, cannot hold infinities or ids of 2^53 and more. */
 static const char *find_query_error(const octree_query *query, octree_player_kind player)
 {
     const octree_input one = {.queries = query, .query_count = 1};
@@ -29,7 +29,7 @@ static const char *find_query_error(const octree_query *query, octree_player_kin
     return status == OCTREE_OK ? NULL : octree_status_text(status);
 }
 
-/* Check the queries and shapes one by one, so that the error can name the first invalid one. */
+/* Check the queries and shapes one by one, so that the error can name the first invalid query or shape. */
 octreel_status tick_info_check(const octreel_tick_info *about, octree_player_kind player, octreel_error *error)
 {
     if (!about)

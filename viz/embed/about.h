@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* about.h - checks the queries, shapes and foreign nodes that a program passes for a tick. `about` may be null, which
- * means that there are none. Private to viz/embed. */
+/* about.h - checks the queries, shapes and foreign nodes that a program passes for a tick. A null `about` means that
+ * the tick has none of these. Private to viz/embed. */
 #ifndef EMBED_ABOUT_H
 #define EMBED_ABOUT_H
 

@@ -146,8 +146,8 @@ static bool copy_tick_info(batch *b, const octreel_tick_info *about)
             ids->ids = whole ? copy_into_batch(b, ids->ids, ids->count, sizeof *ids->ids) : NULL;
             whole = whole && (ids->ids || ids->count == 0);
         }
-        /* A larger k finds no more points, because no tree holds more than UINT32_MAX. The recorder's files cannot hold
-         * a larger k. */
+        /* A larger k finds no more points, because no tree holds more than UINT32_MAX points. The recorder's files
+         * cannot hold a larger k. */
         if (query->k > UINT32_MAX)
             query->k = UINT32_MAX;
     }

@@ -30,7 +30,7 @@ static bool is_finite_place(const double at[3])
 /* ---- The definition of a tree ------------------------------------------------------------------------------- */
 
 /* Check that a tree has the same world and options as the definition with which the recorder was opened. */
-static octreel_status check_tree(const octree_def *own, const octree *tree, octreel_error *error)
+static octreel_status check_tree_definition(const octree_def *own, const octree *tree, octreel_error *error)
 {
     const octree_def def = octree_definition(tree);
     for (int i = 0; i < 3; i++)
@@ -56,8 +56,8 @@ static octreel_status check_tree(const octree_def *own, const octree *tree, octr
 
 /* ---- The changes of a tick ---------------------------------------------------------------------------------- */
 
-/* Combine the pending changes of each point when the number of changes has doubled since the previous call that
- * combined them. Changes that cancel each other disappear, which limits memory while no tick is accepted. */
+/* Combine the pending changes of each point if the number of changes has doubled since they were last combined. Changes
+ * that cancel each other disappear, which limits memory while no tick is accepted. */
 static void combine_pending_changes(contents *c)
 {
     enum { FEW = 1024 };
@@ -93,7 +93,7 @@ static void revert_tick(contents *c)
 }
 
 /* Switch from sorted lists to the table. Returns false if memory runs out. */
-static bool start_point_table(contents *c)
+static bool switch_to_table(contents *c)
 {
     if (c->tabled)
         return true;
@@ -110,7 +110,7 @@ static bool start_point_table(contents *c)
 
 /* Switch from the table back to sorted lists: `now` becomes the list of points before the tick that is being read.
  * Returns false if memory runs out. */
-static bool start_point_lists(contents *c)
+static bool switch_to_lists(contents *c)
 {
     if (!c->tabled)
         return true;
@@ -151,7 +151,7 @@ static octreel_status read_edits(contents *c, const octreel_tick_info *about, oc
 {
     octreel_status first = OCTREEL_OK;
     octreel_error later;
-    if (!start_point_table(c))
+    if (!switch_to_table(c))
         return status_fail(error, OCTREEL_NO_MEMORY);
     c->source = FROM_CHANGES;
     for (size_t i = 0; about && i < about->change_count; i++) {
@@ -170,7 +170,7 @@ static octreel_status read_whole_tree(contents *c, const octree *tree, const oct
                                       octreel_error *error)
 {
     uint64_t clash = 0;
-    if (!start_point_lists(c))
+    if (!switch_to_lists(c))
         return status_fail(error, OCTREEL_NO_MEMORY);
     const octreel_status status = points_read(&c->next, &c->spare, tree, list, count, &clash);
     if (status == OCTREEL_DUPLICATE_ID && !tree)
@@ -198,7 +198,7 @@ static octreel_status read_point_list(contents *c, const octree_point *list, siz
 /* ---- Changes from a tree's log ------------------------------------------------------------------------------ */
 
 /* Returns a new name for a cursor into a tree's change log. The name was not used before and is never 0. */
-static size_t choose_log_number(contents *c)
+static size_t choose_cursor_name(contents *c)
 {
     struct timespec now = {0};
     if (c->names == 0 && timespec_get(&now, TIME_UTC))
@@ -209,7 +209,7 @@ static size_t choose_log_number(contents *c)
 
 /* Apply a change from a tree's log to the table. If two points of the tree have the same id, the table has only one of
  * them, and the changes of the other point are ignored. */
-static void apply_logged(const octree_change *logged, void *context)
+static void apply_logged_change(const octree_change *logged, void *context)
 {
     contents *c = context;
     if (logged->id >= SESSION_ID_LIMIT)
@@ -230,15 +230,15 @@ static bool read_log(contents *c, const octree *tree)
     c->log_incomplete = false;
     if (c->many_changes) /* A zero cursor does not ask for the tree's change log, so the tree may stop keeping a log. */
         c->mark = (octree_cursor){0};
-    if (c->many_changes || (c->mark.log != 0 && !start_point_table(c)))
+    if (c->many_changes || (c->mark.log != 0 && !switch_to_table(c)))
         return false;
-    return octree_changes_since(tree, choose_log_number(c), &c->mark, apply_logged, c) && !c->log_incomplete &&
+    return octree_changes_since(tree, choose_cursor_name(c), &c->mark, apply_logged_change, c) && !c->log_incomplete &&
            c->table.count == octree_count(tree);
 }
 
 static octreel_status read_tree(contents *c, const octree_def *def, const octree *tree, octreel_error *error)
 {
-    octreel_status status = check_tree(def, tree, error);
+    octreel_status status = check_tree_definition(def, tree, error);
     if (status == OCTREEL_OK && !read_log(c, tree))
         status = read_whole_tree(c, tree, NULL, octree_count(tree), error);
     c->many_changes = c->change_count - c->kept > octree_count(tree) / 8 + 16;
@@ -248,9 +248,9 @@ static octreel_status read_tree(contents *c, const octree_def *def, const octree
 /* ---- A tick ------------------------------------------------------------------------------------------------- */
 
 /* Find the source of this tick's points: tree, list or changes. If the program passes no points at this tick, the
- * source is the source of the previous tick: an empty list if it was a list, or no changes if it was changes. */
-static octreel_status choose_source_of_changes(contents *c, const octree *tree, const octreel_tick_info *about,
-                                               octreel_error *error)
+ * source of the previous tick is used again, with an empty list of points or with no changes. */
+static octreel_status choose_points_source(contents *c, const octree *tree, const octreel_tick_info *about,
+                                           octreel_error *error)
 {
     const bool list = about && (about->points || about->point_count);
     const bool changes = about && (about->changes || about->change_count);
@@ -268,7 +268,7 @@ octreel_status contents_read(contents *c, const octree_def *def, const octree *t
 {
     combine_pending_changes(c);
     c->kept = c->change_count;
-    const octreel_status status = choose_source_of_changes(c, tree, about, error);
+    const octreel_status status = choose_points_source(c, tree, about, error);
     if (status != OCTREEL_OK)
         return status;
     if (c->read_source == FROM_TREE)

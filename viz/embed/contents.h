@@ -17,8 +17,8 @@ typedef enum points_source { FROM_NOTHING, FROM_TREE, FROM_LIST, FROM_CHANGES } 
  * - The table. Changes that the program passes, or that the tree's change log has, are applied to `table`, in
  *   O(changes). The table has the points of the tick that was read last.
  *
- * Only the lists or the table are in use at a time; `tabled` is true for the table. When the source of the points
- * changes, the other way may be used from then on. A zero-initialized struct has no points. */
+ * Either the lists or the table are in use; `tabled` is true for the table. When the source of the points changes, the
+ * other way may be used from then on. A zero-initialized struct has no points. */
 typedef struct contents {
     /* `source`: where the points of the last accepted tick with points came from. `read_source`: where the points of
      * the tick that was read last came from. */
@@ -48,13 +48,13 @@ octreel_status contents_read(contents *c, const octree_def *def, const octree *t
                              octreel_error *error);
 
 /* contents_move_changes_to_batch() moves the changes since the last accepted tick into a batch.
- * contents_move_changes_from_batch() moves them back if the batch could not be recorded. */
+ * contents_move_changes_from_batch() moves these changes back if the batch could not be recorded. */
 void contents_move_changes_to_batch(contents *c, batch *b);
 void contents_move_changes_from_batch(contents *c, batch *b);
 
 /* Accept or refuse the tick that was read last. `status` is the reason for a refusal. If the points of a refused tick
- * came as a list or a whole tree, they are forgotten. If they came as edits or as changes from the tree's log, these
- * changes are kept for the next accepted tick, except after NO_MEMORY. */
+ * came as a list or a whole tree, these points are forgotten. If changes came from the program or from the tree's log,
+ * these changes are kept for the next accepted tick, except after NO_MEMORY. */
 void contents_accept_tick(contents *c);
 void contents_refuse_tick(contents *c, octreel_status status);
 

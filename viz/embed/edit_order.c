@@ -54,7 +54,8 @@ static bool is_inside(const edit_order *o, const double at[3])
     return inside;
 }
 
-/* Returns true if a change becomes an edit of this kind. A move across the world's bounds may become two edits. */
+/* Returns true if a change becomes an edit of this kind. A move out of the world becomes two edits, a removal and an
+ * insertion. */
 static bool needs_edit(const edit_order *o, const change *c, octree_edit_kind kind)
 {
     const bool from = c->kind != OCTREE_EDIT_INSERT && is_inside(o, c->from);
@@ -64,9 +65,9 @@ static bool needs_edit(const edit_order *o, const change *c, octree_edit_kind ki
     return from && to == (kind == OCTREE_EDIT_MOVE);
 }
 
-/* Try to make a change by an edit of the kind `kind`. *made becomes false if a full leaf has no room for the point.
- * Returns false if memory runs out. */
-static bool try_change(edit_order *o, uint64_t tick, octree_edit_kind kind, const change *c, bool *made)
+/* Try to make a change by an edit of the kind `kind`. *made becomes true if the edit was made, and false if a full leaf
+ * has no room for the point. Returns false if memory runs out. */
+static bool try_edit(edit_order *o, uint64_t tick, octree_edit_kind kind, const change *c, bool *made)
 {
     octree_status status = OCTREE_OK;
     if (o->tree && kind == OCTREE_EDIT_REMOVE)
@@ -85,10 +86,10 @@ static bool try_change(edit_order *o, uint64_t tick, octree_edit_kind kind, cons
     return status != OCTREE_NO_MEMORY;
 }
 
-/* Make the edits of the kind `kind`. If `again` is false, try all changes that need an edit of this kind. If it is
+/* Make the edits of the kind `kind`. If `again` is false, try all changes that need an edit of this kind. If `again` is
  * true, try the waiting changes. A change waits if a full leaf had no room for its point, or if this pass removed its
  * point so that a later pass inserts the point elsewhere. Returns false if memory runs out. */
-static bool make_edits(edit_order *o, const batch *b, uint64_t tick, octree_edit_kind kind, bool again)
+static bool make_edits_of_kind(edit_order *o, const batch *b, uint64_t tick, octree_edit_kind kind, bool again)
 {
     const size_t count = again ? o->waiting_count : b->change_count;
     o->waiting_count = again ? 0 : o->waiting_count;
@@ -97,7 +98,7 @@ static bool make_edits(edit_order *o, const batch *b, uint64_t tick, octree_edit
         bool made;
         if (!again && !needs_edit(o, &b->changes[index], kind))
             continue;
-        if (!try_change(o, tick, kind, &b->changes[index], &made))
+        if (!try_edit(o, tick, kind, &b->changes[index], &made))
             return false;
         if (!made || (again && kind == OCTREE_EDIT_REMOVE))
             o->waiting[o->waiting_count++] = index;
@@ -115,6 +116,6 @@ bool edit_order_make(edit_order *o, const batch *b, uint64_t tick)
     o->count = o->waiting_count = 0;
     bool made = reserve_edits(o, b->change_count);
     for (size_t i = 0; made && i < sizeof passes / sizeof passes[0]; i++)
-        made = make_edits(o, b, tick, passes[i].kind, passes[i].again);
+        made = make_edits_of_kind(o, b, tick, passes[i].kind, passes[i].again);
     return made;
 }

@@ -12,15 +12,16 @@
  * example because two points exchange places, it becomes a removal and an insertion. A player that is moved in this way
  * is swept from its new position.
  *
- * A point outside the world is in no tree. A move across the world's bounds becomes a removal and an insertion, and the
- * game refuses whichever of the two is outside the world. */
+ * A point outside the world is in no tree. A move out of the world becomes a removal and an insertion, which the game
+ * refuses. A move into the world, or from one place outside to another, becomes an insertion. */
 typedef struct edit_order {
     octree_box world;
     /* if full leaves refuse points (OCTREE_REFUSE), a tree to which all edits made so far were applied; else null */
     octree *tree;
     octree_edit *edits;
     size_t count;
-    size_t *waiting; /* indices of changes for whose points a full leaf had no room */
+    size_t *waiting; /* indices of changes that are not yet complete: a full leaf had no room for the point, or the
+                      * point is removed and is still to be inserted */
     size_t waiting_count;
     size_t room; /* number of changes for which `edits` and `waiting` have room */
 } edit_order;

@@ -19,7 +19,7 @@ void points_release(points *p)
     *p = (points){0};
 }
 
-static bool reserve_points(points *p, size_t count)
+static bool reserve_points_in_list(points *p, size_t count)
 {
     return array_grow(&p->items, count, &p->room, sizeof *p->items);
 }
@@ -37,7 +37,7 @@ static octree_walk_order add_leaf(const octree_node *node, void *context)
     return OCTREE_WALK_ON;
 }
 
-static unsigned digit_of(uint64_t id, int digit)
+static unsigned get_digit(uint64_t id, int digit)
 {
     return (unsigned)(id >> (8 * digit)) & (DIGIT_VALUES - 1);
 }
@@ -54,7 +54,7 @@ static bool sort_by_digit(const points *from, octree_point *to, const size_t cou
         sum += counts[i];
     }
     for (size_t i = 0; i < from->count; i++)
-        to[starts[digit_of(from->items[i].id, digit)]++] = from->items[i];
+        to[starts[get_digit(from->items[i].id, digit)]++] = from->items[i];
     return true;
 }
 
@@ -70,7 +70,7 @@ static void sort_by_id(points *p, points *spare)
     size_t counts[DIGITS][DIGIT_VALUES] = {{0}};
     for (size_t i = 0; i < p->count; i++)
         for (int digit = 0; digit < DIGITS; digit++)
-            counts[digit][digit_of(p->items[i].id, digit)]++;
+            counts[digit][get_digit(p->items[i].id, digit)]++;
     for (int digit = 0; digit < DIGITS; digit++) {
         if (!sort_by_digit(p, spare->items, counts[digit], digit))
             continue;
@@ -79,7 +79,7 @@ static void sort_by_id(points *p, points *spare)
     }
 }
 
-static octreel_status check_and_sort(points *p, points *spare, uint64_t *clash)
+static octreel_status check_ids_and_sort(points *p, points *spare, uint64_t *clash)
 {
     for (size_t i = 0; i < p->count; i++) {
         *clash = p->items[i].id;
@@ -101,14 +101,14 @@ octreel_status points_read(points *p, points *spare, const octree *tree, const o
     p->count = 0;
     if (count == 0)
         return OCTREEL_OK;
-    if (!reserve_points(p, count) || !reserve_points(spare, count))
+    if (!reserve_points_in_list(p, count) || !reserve_points_in_list(spare, count))
         return OCTREEL_NO_MEMORY;
     if (tree)
         octree_walk(tree, add_leaf, p); /* octree_walk() cannot fail here, because its arguments are valid */
     else
         memcpy(p->items, list, count * sizeof *list);
     p->count = count;
-    return check_and_sort(p, spare, clash);
+    return check_ids_and_sort(p, spare, clash);
 }
 
 /* ---- The table ----------------------------------------------------------------------------------------------
@@ -194,7 +194,7 @@ bool point_table_list(const point_table *t, points *p, points *spare)
     p->count = 0;
     if (t->count == 0)
         return true;
-    if (!reserve_points(p, t->count) || !reserve_points(spare, t->count))
+    if (!reserve_points_in_list(p, t->count) || !reserve_points_in_list(spare, t->count))
         return false;
     for (size_t i = 0; i < t->size; i++)
         if (t->slots[i].id != NO_ID)

@@ -13,8 +13,9 @@ bool queue_init(queue *q, size_t most, size_t most_bytes)
     return false;
 }
 
-/* Release all batches. The caller must hold the lock or be the last user of the queue. */
-static void drop_batches(queue *q)
+/* Remove all batches from the queue, and release batches that the queue owns. The caller must hold the lock or be the
+ * last user of the queue. */
+static void remove_all_batches(queue *q)
 {
     if (!q->borrowed)
         batch_list_clear(&q->list);
@@ -23,7 +24,7 @@ static void drop_batches(queue *q)
 
 void queue_release(queue *q)
 {
-    drop_batches(q);
+    remove_all_batches(q);
     pthread_cond_destroy(&q->changed);
     pthread_mutex_destroy(&q->lock);
 }
@@ -90,6 +91,6 @@ void queue_end_after_failure(queue *q, batch *b)
     release_unless_borrowed(q, b);
     pthread_mutex_lock(&q->lock);
     q->broken = true;
-    drop_batches(q);
+    remove_all_batches(q);
     wake_and_unlock(q);
 }

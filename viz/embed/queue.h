@@ -12,10 +12,10 @@ typedef struct queue {
     pthread_mutex_t lock;
     pthread_cond_t changed;
     batch_list list;
-    size_t most, most_bytes;
-    bool borrowed; /* true: the ring owns the batches and releases them */
-    bool ended;    /* true: no more batches will be added */
-    bool broken;   /* true: recording has failed, and no more batches are accepted */
+    size_t most, most_bytes; /* the maximum number of batches in the queue, and the maximum of their bytes */
+    bool borrowed;           /* true: the ring owns the batches and releases them */
+    bool ended;              /* true: no more batches will be added */
+    bool broken;             /* true: recording has failed, and no more batches are accepted */
 } queue;
 
 bool queue_init(queue *q, size_t most, size_t most_bytes);
@@ -30,13 +30,14 @@ octreel_status queue_put(queue *q, batch *b, bool wait);
 /* Wait for the next batch and remove it from the queue. Returns null once the queue has ended and is empty. */
 batch *queue_wait_for_batch(queue *q);
 
-/* Release the batch that queue_wait_for_batch() returned last. Call this after the batch is recorded. */
+/* Release the batch that queue_wait_for_batch() returned last. Call this function after the batch is recorded. */
 void queue_finish_batch(queue *q, batch *b);
 
+/* Declare that no more batches will be added. The recording thread ends after the last batch. */
 void queue_end(queue *q);
 
-/* Tell waiting threads that the recording has failed. Batch `b`, all batches in the queue and all later batches are
- * released. */
+/* Wake the waiting threads because the recording has failed. Batch `b` and all batches in the queue are released,
+ * unless the ring owns them. From now on, queue_put() returns BROKEN. */
 void queue_end_after_failure(queue *q, batch *b);
 
 #endif

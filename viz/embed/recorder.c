@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* recorder.c - the public recorder. It checks each tick of a program, finds the point changes, and passes the tick to
- * the recording thread's queue or to the ring. */
+/* recorder.c - the public recorder. The recorder checks each tick of a program, finds the point changes, and passes the
+ * tick to the recording thread's queue or to the ring. */
 #include "octreel/recorder.h"
 #include "about.h"
 #include "contents.h"
@@ -50,7 +50,7 @@ const char *octreel_recorder_error(const octreel_recorder *recorder)
 }
 
 /* Returns the status of a finished recording: GAPS with an error text if ticks were refused. */
-static octreel_status report_losses(octreel_recorder *r, const losses *lost, uint64_t ticks)
+static octreel_status find_final_status(octreel_recorder *r, const losses *lost, uint64_t ticks)
 {
     if (lost->ticks == 0)
         return OCTREEL_OK;
@@ -124,8 +124,8 @@ static octreel_status set_player(octreel_recorder *r, const octree_player *playe
     return OCTREEL_OK;
 }
 
-/* Set the view from the names and numbers in the definition. The table of view options that parses them also parses the
- * options of the command line. */
+/* Set the view from the names and numbers in the definition. The table of view options parses these values in the same
+ * way as the options of the command line. */
 static octreel_status set_view(octreel_recorder *r, const octreel_recorder_def *def)
 {
     view *v = &r->settings.film.view;
@@ -160,7 +160,7 @@ static octreel_status set_view(octreel_recorder *r, const octreel_recorder_def *
     return OCTREEL_OK;
 }
 
-static octreel_status set_film(octreel_recorder *r, const octreel_recorder_def *def)
+static octreel_status set_film_options(octreel_recorder *r, const octreel_recorder_def *def)
 {
     film_options *film = &r->settings.film;
     film->every = def->every;
@@ -198,7 +198,7 @@ static octreel_status set_options(octreel_recorder *r, const octreel_recorder_de
         status = set_player(r, &def->player);
     if (status == OCTREEL_OK)
         status = set_view(r, def);
-    return status == OCTREEL_OK ? set_film(r, def) : status;
+    return status == OCTREEL_OK ? set_film_options(r, def) : status;
 }
 
 /* ---- Opening ------------------------------------------------------------------------------------------------ */
@@ -270,8 +270,9 @@ static octreel_status open_recorder(const octreel_recorder_def *def, octreel_rec
 /* ---- A tick ------------------------------------------------------------------------------------------------- */
 
 /* If the program passes points without a tree, let full leaves grow. If full leaves refused points, a tree of the
- * program's points might be impossible. */
-static octreel_status require_growing_leaves(octreel_recorder *r)
+ * program's points might be impossible. Returns OTHER_TREE if leaves do not grow yet and earlier ticks are already in
+ * the recording. */
+static octreel_status let_full_leaves_grow(octreel_recorder *r)
 {
     const bool listed = r->contents.read_source == FROM_LIST || r->contents.read_source == FROM_CHANGES;
     if (!listed || r->settings.tree.full_leaf == OCTREE_GROW)
@@ -308,7 +309,7 @@ static octreel_status read_tick(octreel_recorder *r, const octree *tree, const o
         return status;
     if (read != OCTREEL_OK)
         r->error = why;
-    return read == OCTREEL_OK ? require_growing_leaves(r) : read;
+    return read == OCTREEL_OK ? let_full_leaves_grow(r) : read;
 }
 
 /* Add a batch to the queue. *taken becomes false if the batch was not added and the caller still owns it. */
@@ -326,7 +327,7 @@ static octreel_status queue_batch(octreel_recorder *r, batch *b, bool *taken)
     return r->filmer.status;
 }
 
-static octreel_status queue_batch_or_keep(octreel_recorder *r, batch *b)
+static octreel_status put_batch_into_queue_or_ring(octreel_recorder *r, batch *b)
 {
     octreel_status status = OCTREEL_OK;
     bool taken = true;
@@ -348,10 +349,10 @@ static octreel_status record_tick(octreel_recorder *r, const octreel_tick_info *
     if (!b)
         return status_fail(&r->error, OCTREEL_NO_MEMORY);
     contents_move_changes_to_batch(&r->contents, b);
-    return queue_batch_or_keep(r, b);
+    return put_batch_into_queue_or_ring(r, b);
 }
 
-static octreel_status accept_tick(octreel_recorder *r, const octree *tree, const octreel_tick_info *about)
+static octreel_status read_and_record_tick(octreel_recorder *r, const octree *tree, const octreel_tick_info *about)
 {
     octreel_error why;
     const octreel_status nodes = tick_info_check_nodes(about, &why);
@@ -390,7 +391,7 @@ static octreel_status record_or_add_gap(octreel_recorder *r, const octree *tree,
 {
     if (r->closed)
         return status_fail(&r->error, OCTREEL_CLOSED);
-    const octreel_status status = accept_tick(r, tree, about);
+    const octreel_status status = read_and_record_tick(r, tree, about);
     if (status != OCTREEL_OK && !r->broken)
         add_gap(r);
     r->ticks += !r->broken;
@@ -401,7 +402,7 @@ static octreel_status record_or_add_gap(octreel_recorder *r, const octree *tree,
 
 /* Record the ring into a folder. The ticks that were refused after the ring's last tick are added to the ring as a
  * batch of gaps, and removed again afterwards. */
-static octreel_status ring_write(octreel_recorder *r, const char *folder)
+static octreel_status record_ring(octreel_recorder *r, const char *folder)
 {
     ring *all = &r->ring;
     const batch_list before = all->list;
@@ -415,7 +416,7 @@ static octreel_status ring_write(octreel_recorder *r, const char *folder)
     all->list = before;
     all->list.last->next = NULL;
     batch_release(tail);
-    return status == OCTREEL_OK ? report_losses(r, &lost, ticks) : status;
+    return status == OCTREEL_OK ? find_final_status(r, &lost, ticks) : status;
 }
 
 static octreel_status write_ring_to_folder(octreel_recorder *r, const char *folder, uint64_t *first)
@@ -433,7 +434,7 @@ static octreel_status write_ring_to_folder(octreel_recorder *r, const char *fold
         return status;
     if (first)
         *first = r->ring.dropped;
-    return ring_write(r, folder);
+    return record_ring(r, folder);
 }
 
 /* Add the ticks that were refused after the last accepted tick to the queue. */
@@ -450,7 +451,7 @@ static octreel_status close_recorder(octreel_recorder *r)
         return status_fail(&r->error, OCTREEL_CLOSED);
     r->closed = true;
     if (r->ring.most > 0)
-        return report_losses(r, &r->lost, r->ticks);
+        return find_final_status(r, &r->lost, r->ticks);
     if (r->put > 0)
         queue_last_gaps(r);
     queue_end(&r->queue);
@@ -459,7 +460,7 @@ static octreel_status close_recorder(octreel_recorder *r)
     if (status != OCTREEL_OK)
         r->error = r->filmer.error;
     if (status != OCTREEL_OK || r->put > 0)
-        return status == OCTREEL_OK ? report_losses(r, &r->lost, r->ticks) : status;
+        return status == OCTREEL_OK ? find_final_status(r, &r->lost, r->ticks) : status;
     return r->lost.ticks == 0
                ? status_fail(&r->error, OCTREEL_NOTHING)
                : status_refuse(&r->error, OCTREEL_NOTHING, "%s: all ticks were refused; the first error is: %s",
@@ -469,9 +470,9 @@ static octreel_status close_recorder(octreel_recorder *r)
 /* ---- The public functions ------------------------------------------------------------------------------------
  *
  * The program may use any floating-point mode, so each public function sets the default mode and restores the program's
- * mode at the end. The compiler must not move arithmetic across these changes. It cannot: the inner functions take and
- * return only pointers and integers, and the compiler must assume that the calls which change the mode read and write
- * the doubles behind the pointers. */
+ * mode at the end. The compiler must not move arithmetic across these changes. The compiler cannot do so: the inner
+ * functions take and return only pointers and integers, and the compiler must assume that the calls which change the
+ * mode read and write the doubles behind the pointers. */
 
 static fenv_t enter_default_mode(void)
 {

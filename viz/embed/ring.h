@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* ring.h - a ring buffer that keeps a program's last ticks in memory. They are recorded only on request.
- * Private to viz/embed. */
+/* ring.h - a ring buffer that keeps a program's last ticks in memory. These ticks are recorded only on request. Private
+ * to viz/embed. */
 #ifndef EMBED_RING_H
 #define EMBED_RING_H
 
@@ -8,7 +8,7 @@
 
 /* The last ticks of a program: all points at the first tick of the ring, and the changes of each later tick. */
 typedef struct ring {
-    size_t most;
+    size_t most; /* the maximum number of ticks in the ring */
     batch_list list;
     point_table start; /* all points at the ring's first tick, so that the batch of this tick needs no changes */
     uint64_t dropped;  /* number of ticks that were dropped from the ring */

@@ -11,7 +11,7 @@
 
 /* ---- Ticks -------------------------------------------------------------------------------------------------- */
 
-/* Set the tick number of a batch's queries, shapes and foreign nodes, because the program does not set it. */
+/* Set the tick number of a batch's queries, shapes and foreign nodes, because the program does not set this number. */
 static void set_tick_number(batch *b, uint64_t tick)
 {
     for (size_t i = 0; i < b->query_count; i++)
@@ -32,7 +32,7 @@ static octree_game_body *make_bodies(const batch *first)
     return bodies;
 }
 
-static octreel_status refuse_for_memory(session_filmer *f, octreel_status status)
+static octreel_status fail_out_of_memory(session_filmer *f, octreel_status status)
 {
     error_no_memory(&f->error);
     return status;
@@ -47,7 +47,7 @@ static octreel_status film_first_tick(session_filmer *f, const batch *first, con
     octree_game_body *bodies = make_bodies(first);
     if (!bodies || !edit_order_init(&f->order, &s->tree, first)) {
         free(bodies);
-        return refuse_for_memory(f, OCTREEL_NO_MEMORY);
+        return fail_out_of_memory(f, OCTREEL_NO_MEMORY);
     }
     const octree_session session = {.tree = s->tree,
                                     .player = s->player,
@@ -77,13 +77,13 @@ static octreel_status film_input(session_filmer *f, const octree_input *input)
     return live_film_tick(f->live, input, &f->error) ? OCTREEL_OK : OCTREEL_BROKEN;
 }
 
-/* Record the tick of a batch. `changes` is false if tick 0 was a gap: tick 0 has then already used the batch's
- * points. */
-static octreel_status film_next_batch(session_filmer *f, const batch *b, bool changes)
+/* Record the tick of a batch. `has_changes` is false if tick 0 was a gap of this batch: tick 0 has then already used
+ * the batch's points. */
+static octreel_status film_next_batch(session_filmer *f, const batch *b, bool has_changes)
 {
     f->order.count = 0;
-    if (changes && !edit_order_make(&f->order, b, f->tick))
-        return refuse_for_memory(f, OCTREEL_BROKEN);
+    if (has_changes && !edit_order_make(&f->order, b, f->tick))
+        return fail_out_of_memory(f, OCTREEL_BROKEN);
     return film_input(f, &(octree_input){.key = '.',
                                          .edits = f->order.edits,
                                          .edit_count = f->order.count,
@@ -124,8 +124,8 @@ static octreel_status film_batch(session_filmer *f, batch *b)
 
 /* ---- The thread --------------------------------------------------------------------------------------------- */
 
-/* Record ticks until the queue ends or a tick fails. f->status is set before the waiting program is woken. After a
- * failure the program need not wait until the last files are written. */
+/* Record ticks until the queue ends or a tick fails. f->status is set before a waiting program is woken, so that after
+ * a failure the program can read the status at once and need not wait until the last files are written. */
 static void film_queue(session_filmer *f)
 {
     batch *b;
