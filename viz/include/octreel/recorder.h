@@ -6,7 +6,7 @@
  *
  * The recorder writes a session. Point changes since the last tick become edits; the program's queries and shapes are
  * stored beside them. The result is an ordinary recording: octreel can verify, join, compare and replay it. Recording
- * its session.json again gives the same bytes. A worker thread plays the session and draws the frames while the
+ * the written session.json again gives the same bytes. A worker thread plays the session and draws the frames while the
  * program's loop runs. With `ring` nothing is recorded until the program requests its last ticks, for example after a
  * failed assertion.
  *
@@ -33,8 +33,9 @@
  * Conventions
  *   - The recorder never ends the process, never handles signals and has no global variables. Any thread may use it,
  *     but only one thread at a time.
- *   - The program may use any floating-point mode; the files are the same. Each call restores the program's mode. The
- *     program's GL contexts are not touched: the recorder draws in its own thread, with all signals blocked.
+ *   - The program may use any floating-point mode: the files are the same in every mode, and each call restores the
+ *     program's mode. The program's GL contexts are not touched: the recorder draws in its own thread, with all
+ *     signals blocked.
  *   - A child of fork() must not use its parent's recorders.
  *   - Functions return a status. octreel_status_text() returns its text; octreel_recorder_error() returns the last
  *     error in full.
@@ -132,9 +133,9 @@ typedef struct octreel_recorder_def {
      * ticks.jsonl contains all ticks in any case. */
     uint64_t every;
     /* The rasterizer: "integers", "checked" or "gl". All three draw the same pixels. "integers" is the cheapest,
-     * because it never loads OpenGL, which takes 0.2 s of processor time and 85 MB. octreel verify can check its
-     * frames later. "checked" compares the first frame, every 100th frame and the last frame with the pixels of
-     * OSMesa, if OpenGL can be loaded. */
+     * because it never loads OpenGL, which takes 0.2 s of processor time and 85 MB. octreel verify can check such
+     * frames later. "checked" compares the first frame, every 100th frame and the last frame with the pixels of OSMesa,
+     * if OpenGL can be loaded. */
     const char *fill;
     const char *context; /* the OpenGL library to load: "auto", "osmesa", "egl" */
     /* True, with "egl": OpenGL may draw with any renderer, also a graphics card. Frames may then differ between
@@ -165,8 +166,8 @@ octreel_recorder_def octreel_recorder_def_default(void);
  * In one tick the points come from the tree, from `points` or from `changes`. A program may use lists at some ticks and
  * changes at others, but then it must not use trees. If a program that uses changes passes none of the three at a tick,
  * no point has changed. If a program that uses lists passes none of the three, its list is empty: the data pointer of
- * an empty C++ vector may be null. A point outside the world is in no answer. The tick in which it enters or leaves the
- * world has the event "refused".
+ * an empty C++ vector may be null. A point outside the world is in no answer. A tick in which a point is inserted
+ * outside the world, moves out of the world, or moves outside the world has the event "refused".
  *
  * Shapes are everything in a frame that is not a point or a node, such as walls and goals. */
 typedef struct octreel_tick_info {
@@ -214,8 +215,8 @@ octreel_status octreel_recorder_open(const octreel_recorder_def *def, octreel_re
  * Cost by source of the points (q is the number of queries and shapes):
  *    - a tree of which at most an eighth changes in a tick: O(changes + q), some hundred nanoseconds per change. The
  *      tree then keeps its changes for the recorder (octree_changes_since), at 64 bytes each.
- *    - a tree of which more changes, or that is new to the recorder, or was tuned, compacted or cleared; and a list:
- *      O(nodes + n + q), and 96 bytes per point.
+ *    - a tree of which more than an eighth changes, or that is new to the recorder, or was tuned, compacted or
+ *      cleared; and a list: O(nodes + n + q), and 96 bytes per point.
  *    - changes: O(changes log changes + q), and up to 128 bytes per point. The first changes after a list cost more.
  *    - in addition, m foreign nodes: O(m log m).
  * A tick's changes use memory until the tick is filmed. */
