@@ -3,70 +3,7 @@
 #ifndef DIFF_DIFF_H
 #define DIFF_DIFF_H
 
-#include "mask.h"
-#include "side.h"
-#include "image_compare.h"
-
-/* The findings. Each row has the finding, its name in reports, and the verdict for a pair with this finding. */
-#define DIFF_FINDING_MAP(X)                                                                                            \
-    X(SAME_BYTES, "same_bytes", DIFF_SAME)          /* the files have equal bytes and were not decoded */              \
-    X(SAME_PIXELS, "same_pixels", DIFF_SAME)        /* the files differ, but their pixels are equal */                 \
-    X(WITHIN, "within_tolerance", DIFF_SAME)        /* the pixels differ, but within the tolerance */                  \
-    X(PIXELS, "pixels", DIFF_DIFFERENT)             /* the pixels differ beyond the tolerance */                       \
-    X(SIZE, "size", DIFF_DIFFERENT)                 /* the widths or heights differ */                                 \
-    X(DIGEST, "digest", DIFF_DIFFERENT)             /* the sizes are equal, but the digests differ */                  \
-    X(NO_FRAME, "no_frame", DIFF_DIFFERENT)         /* the reference frame has no compared frame of the same name */   \
-    X(NO_REFERENCE, "no_reference", DIFF_DIFFERENT) /* the compared frame has no reference frame of the same name */   \
-    X(UNREADABLE, "unreadable", DIFF_TROUBLE)
-
-typedef enum diff_finding {
-#define DIFF_FINDING_ENUM(name, text, verdict) FOUND_##name,
-    DIFF_FINDING_MAP(DIFF_FINDING_ENUM)
-#undef DIFF_FINDING_ENUM
-        DIFF_FINDINGS
-} diff_finding;
-
-/* The verdicts, in ascending order of severity. The verdict of a comparison is the worst verdict of any pair. */
-typedef enum diff_verdict { DIFF_SAME, DIFF_DIFFERENT, DIFF_TROUBLE } diff_verdict;
-
-const char *diff_finding_name(diff_finding finding);
-diff_verdict diff_finding_verdict(diff_finding finding);
-
-struct diff_pair;
-
-/* A callback that adds the pixels of ignored layers to the mask of each pair. The caller of diff_run() provides it,
- * because this folder cannot play recordings. The callback returns false with an error on failure. */
-typedef bool diff_mask(void *context, const diff_side *a, const diff_side *b, struct diff_pair **pairs, size_t count,
-                       octreel_error *error);
-
-typedef struct diff_options {
-    image_tolerance tolerance;
-    image_color background; /* the color that is drawn behind transparent pixels */
-    diff_mask *mask;        /* the callback that masks ignored layers; null: no layer is ignored */
-    void *mask_context;
-    const char *layers; /* the names of the ignored layers, separated by commas */
-    const char *store;  /* the picture store of the reference, which must be a baseline; null: no picture store */
-} diff_options;
-
-/* Return options without a tolerance and with a white background. */
-diff_options diff_options_default(void);
-
-/* A pair: the frame `a` of the reference, the compared frame `b`, and the result of their comparison. */
-typedef struct diff_pair {
-    const diff_frame *a, *b; /* null if the side has no frame of this name */
-    diff_finding finding;
-    /* the size of each frame; if a side is a baseline, also the digest of each frame; zero: unknown */
-    frame_digest about[2];
-    bool transparent;            /* true: a frame has transparent pixels, so the background color is visible */
-    bool other_color_space;      /* true: the frames differ in gamma or color profile, which the comparison ignores */
-    image_difference difference; /* valid only if both frames were decoded */
-    pixel_mask mask;             /* the pixels of ignored layers */
-    char *trouble;               /* the error, if a frame could not be read; else null; owned */
-    /* why the store has no picture of the reference, so that the tolerance cannot be applied; else null; owned */
-    char *no_picture;
-    /* true: the system lacked memory or file handles, so the frame itself may be readable */
-    bool lacks_resources;
-} diff_pair;
+#include "pair.h"
 
 typedef struct diff_result {
     diff_options options; /* the options with which the sides were compared */
@@ -92,25 +29,6 @@ void diff_release(diff_result *result);
 
 /* Count the pairs with each finding, and update the verdict of the result. */
 void diff_count_findings(diff_result *result);
-
-/* Compare the two frames of a pair and set the finding. If one side is a baseline, compare digests; else compare
- * pixels. */
-void compare_pixels(diff_pair *pair, const diff_options *options);
-
-/* Set the finding of a pair that cannot be compared, and copy the error. The function sets pair->lacks_resources by
- * errno. The caller must set errno to 0 before it reads the pictures. */
-void set_unreadable(diff_pair *pair, const octreel_error *error);
-
-/* Set *tolerance to the tolerance of the options, with the mask of this pair added. Return false if memory runs out.
- * The caller releases the tolerance in any case. */
-bool pair_tolerance(const diff_pair *pair, const diff_options *options, image_tolerance *tolerance);
-void pair_tolerance_release(image_tolerance *tolerance);
-
-/* Return whether the options accept no difference. */
-bool diff_is_exact(const diff_options *options);
-
-/* Return the name of a pair: the name of its frame or, if the frame is missing, of its reference. */
-const char *diff_pair_name(const diff_pair *pair);
 
 /* Return the tick in the name of a pair of frames. Return DIFF_NO_TICK if the name is not that of a frame of a
  * recording. */

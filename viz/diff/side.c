@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* side.c - opens a side of a comparison and lists its frames. */
 #include "side.h"
-#include "array.h"
 #include "baseline.h"
 #include "file_kind.h"
 #include "frame_file.h"
@@ -10,7 +9,6 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -29,37 +27,6 @@ const char *diff_kind_name(diff_kind kind)
 static const char *base_name(const char *path)
 {
     return file_is_standard_stream(path) ? "stdin" : path_base_name(path);
-}
-
-bool diff_side_add_frame(diff_side *side, const char *name, frame_digest digest, octreel_error *error)
-{
-    const bool has_path = side->kind != DIFF_BASELINE;
-    const bool grown = array_grow(&side->frames, side->count + 1, &side->room, sizeof *side->frames);
-    diff_frame frame = {.name = grown ? strdup(name) : NULL, .digest = digest};
-    if (frame.name && has_path)
-        frame.path = side->kind == DIFF_PICTURE ? strdup(side->source) : path_join(side->path, name);
-    if (frame.name && (frame.path || !has_path)) {
-        side->frames[side->count++] = frame;
-        return true;
-    }
-    free(frame.name);
-    return error_no_memory(error);
-}
-
-bool digest_picture(const char *path, image_color background, frame_digest *digest, octreel_error *error)
-{
-    image about;
-    uint64_t pixels;
-    if (!image_digest_png(digest->kind, path, background, &about, &pixels, error))
-        return false;
-    *digest = (frame_digest){pixels, about.width, about.height, digest->kind, 0};
-    return true;
-}
-
-size_t diff_stem_length(const char *name)
-{
-    const size_t length = strlen(name);
-    return length > 4 && strcasecmp(name + length - 4, ".png") == 0 ? length - 4 : length;
 }
 
 static bool is_frame_name(const diff_side *side, const char *name)
@@ -183,29 +150,4 @@ bool diff_side_open(diff_side *side, const char *path, const diff_search *search
     if (!ok)
         diff_side_release(side);
     return ok;
-}
-
-static int compare_by_name(const void *a, const void *b)
-{
-    return strcmp(((const diff_frame *)a)->name, ((const diff_frame *)b)->name);
-}
-
-void diff_side_sort_frames(diff_side *side)
-{
-    if (side->count > 0)
-        qsort(side->frames, side->count, sizeof *side->frames, compare_by_name);
-}
-
-void diff_side_release(diff_side *side)
-{
-    for (size_t i = 0; i < side->count; i++) {
-        free(side->frames[i].name);
-        free(side->frames[i].path);
-        free(side->frames[i].variants);
-    }
-    for (size_t i = 0; i < side->acceptance_count; i++)
-        free(side->acceptances[i].reason);
-    free(side->acceptances);
-    free(side->frames);
-    *side = (diff_side){0};
 }
