@@ -76,45 +76,57 @@ void set_unreadable(diff_pair *pair, const octreel_error *error)
 
 /* ---- Pictures, a band of rows at a time ---------------------------------------------------------------------- */
 
-/* A picture that is read one band of rows at a time. */
+/* A picture that is read one band of rows at a time, from a file or from memory. */
 typedef struct reading {
-    image_source *source; /* null if the picture cannot be read */
+    image_source *source; /* null if the picture is in memory or cannot be read */
+    const image *about;   /* the picture's description; null if the picture cannot be read */
+    bool in_memory;       /* true: `about` has the pixels */
     int rows;             /* the number of rows of a band */
+    int next_y;           /* for a picture in memory, the first row of the next band */
     octreel_error error;
 } reading;
 
 /* Open a picture. With --antialias the band is the whole picture, because recognizing anti-aliasing needs the rows
  * above and below each row. */
-static void open_reading(reading *r, const char *path, const diff_options *options)
+static void open_reading(reading *r, const diff_frame *frame, const diff_options *options)
 {
-    r->source = image_source_open(path, options->background, options->tolerance.antialias, &r->error);
-    if (!r->source)
-        return;
-    const image *about = image_source_description(r->source);
-    r->rows = options->tolerance.antialias ? about->height : image_find_band_height(about);
+    r->about = frame->pixels;
+    r->in_memory = frame->pixels;
+    if (!r->in_memory)
+        r->source = image_source_open(frame->path, options->background, options->tolerance.antialias, &r->error);
+    if (r->source)
+        r->about = image_source_description(r->source);
+    if (r->about)
+        r->rows = options->tolerance.antialias ? r->about->height : image_find_band_height(r->about);
 }
 
 static bool has_failed(const reading *r)
 {
-    return !r->source || image_source_has_failed(r->source);
+    return !r->about || (r->source && image_source_has_failed(r->source));
 }
 
 static bool read_next_rows(reading *r, image *band)
 {
-    return r->source && image_source_read_band(r->source, r->rows, band);
+    if (!r->in_memory)
+        return r->source && image_source_read_band(r->source, r->rows, band);
+    const int left = r->about->height - r->next_y;
+    *band = *r->about;
+    band->height = left < r->rows ? left : r->rows;
+    band->pixels += (size_t)r->next_y * (size_t)band->width * image_pixel_size(band);
+    r->next_y += band->height;
+    return left > 0;
 }
 
 /* Compare two pictures. Both pictures are read to the end even if their sizes differ, because a later part of a file
  * may be damaged. An error in the first picture ends the loop and is reported. */
 static image_difference compare_rows(reading of[2], const image_tolerance *tolerance)
 {
-    const bool opened = of[0].source && of[1].source;
+    const bool opened = of[0].about && of[1].about;
     image_comparison c = {0};
     image bands[2];
     bool more[2] = {true, true};
     if (opened)
-        c = image_begin_comparison(image_source_description(of[0].source), image_source_description(of[1].source),
-                                   tolerance);
+        c = image_begin_comparison(of[0].about, of[1].about, tolerance);
     while (!has_failed(&of[0]) && (more[0] || more[1])) {
         for (int i = 0; i < 2; i++)
             more[i] = read_next_rows(&of[i], &bands[i]);
@@ -127,12 +139,11 @@ static image_difference compare_rows(reading of[2], const image_tolerance *toler
 static void set_finding(diff_pair *pair, const reading of[2], const image_tolerance *tolerance)
 {
     for (int i = 0; i < 2; i++) {
-        const image *about = image_source_description(of[i].source);
+        const image *about = of[i].about;
         pair->about[i] = (frame_digest){.width = about->width, .height = about->height};
         pair->transparent = pair->transparent || about->transparent;
     }
-    pair->other_color_space =
-        image_source_description(of[0].source)->color_space != image_source_description(of[1].source)->color_space;
+    pair->other_color_space = of[0].about->color_space != of[1].about->color_space;
     if (!pair->difference.same_size)
         pair->finding = FOUND_SIZE;
     else if (image_has_no_difference(&pair->difference))
@@ -148,7 +159,7 @@ static void compare_pictures(diff_pair *pair, const diff_options *options)
     reading of[2] = {{0}, {0}};
     image_tolerance tolerance;
     for (int i = 0; i < 2; i++)
-        open_reading(&of[i], i ? pair->b->path : pair->a->path, options);
+        open_reading(&of[i], i ? pair->b : pair->a, options);
     if (!pair_tolerance(pair, options, &tolerance)) {
         error_no_memory(&of[0].error);
         set_unreadable(pair, &of[0].error);
@@ -173,6 +184,23 @@ typedef struct known_digests {
     size_t count;
 } known_digests;
 
+static bool has_picture(const diff_frame *frame)
+{
+    return frame->pixels || frame->path;
+}
+
+static bool digest_frame(const diff_frame *frame, image_color background, frame_digest *digest, octreel_error *error)
+{
+    const image *pixels = frame->pixels;
+    if (!pixels)
+        return digest_picture(frame->path, background, digest, error);
+    *digest = (frame_digest){.pixels = image_digest_with(digest->kind, pixels),
+                             .width = pixels->width,
+                             .height = pixels->height,
+                             .kind = digest->kind};
+    return true;
+}
+
 /* Collect the digests of a frame. Return false with an error if the picture cannot be read. Return false without an
  * error if the frame has no digest of this kind. */
 static bool collect_digests(const diff_frame *frame, image_digest_kind kind, image_color background, known_digests *k,
@@ -180,10 +208,10 @@ static bool collect_digests(const diff_frame *frame, image_digest_kind kind, ima
 {
     *k = (known_digests){.newest = {.kind = kind}};
     error->text[0] = 0;
-    if (frame->path) {
+    if (has_picture(frame)) {
         k->list = &k->newest;
         k->count = 1;
-        return digest_picture(frame->path, background, &k->newest, error);
+        return digest_frame(frame, background, &k->newest, error);
     }
     k->list = frame->variants;
     k->count = frame->variant_count;
@@ -240,7 +268,7 @@ static void compare_digests(diff_pair *pair, const diff_options *options)
 
 void compare_pixels(diff_pair *pair, const diff_options *options)
 {
-    if (pair->a->path && pair->b->path)
+    if (has_picture(pair->a) && has_picture(pair->b))
         compare_pictures(pair, options);
     else
         compare_digests(pair, options);

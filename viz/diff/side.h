@@ -33,6 +33,7 @@ typedef struct diff_frame {
     /* a picture's file name, or its path in the folder of the side, such as "menu/1.png"; owned */
     char *name;
     char *path;             /* the path of the picture; in a baseline null, unless a store has the picture; owned */
+    const image *pixels;    /* the picture, if it is in memory; else null, and it is read from `path`; not owned */
     frame_digest digest;    /* in a baseline, the variant that was accepted last; else zero */
     frame_digest *variants; /* in a baseline, all accepted digests of the frame; else null; owned */
     size_t variant_count;

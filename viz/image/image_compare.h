@@ -5,15 +5,14 @@
 #define IMAGE_IMAGE_COMPARE_H
 
 #include "image.h"
+#include "octreel/compare.h"
 
 /* The unit of the perceived distance of two colours, which is 0 for equal colours and at most 1. Source: Kotsarenko and
  * Ramos, "Measuring perceived color difference using YIQ NTSC transmission color space in mobile applications", 2010.
  * pixelmatch and odiff use the same scale for their thresholds. */
 #define IMAGE_DELTA_UNIT "YIQ"
 
-typedef struct image_rectangle {
-    int x, y, width, height; /* a rectangle of pixels; it may extend beyond the image */
-} image_rectangle;
+typedef octreel_rectangle image_rectangle; /* a rectangle of pixels; it may extend beyond the image */
 
 /* The rules by which differing pixels are forgiven or ignored. A zeroed struct forgives and ignores none. */
 typedef struct image_tolerance {

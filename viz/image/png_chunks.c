@@ -7,7 +7,6 @@
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <zlib.h>
 
 /* NAME, DATA: offsets in a chunk; CRC_SIZE: the size of its CRC. A chunk consists of 4 bytes with the size of its data,
  * 4 bytes with its name, the data, and a CRC-32 of the name and the data. */
@@ -37,9 +36,17 @@ static void store_big_endian(uint8_t *to, uint32_t value)
         to[i] = (uint8_t)(value >> (24 - 8 * i));
 }
 
+/* CRC-32, bit by bit. A chunk of a page is so short that zlib's tables would save nothing, and liboctreel-compare does
+ * not link zlib. */
 static uint32_t compute_crc(const chunk *c)
 {
-    return (uint32_t)crc32(0, c->at + NAME, (uInt)(DATA - NAME + c->size));
+    uint32_t crc = UINT32_MAX;
+    for (size_t i = NAME; i < DATA + c->size; i++) {
+        crc ^= c->at[i];
+        for (int bit = 0; bit < 8; bit++)
+            crc = crc >> 1 ^ (crc & 1 ? UINT32_C(0xedb88320) : 0);
+    }
+    return ~crc;
 }
 
 static bool has_name(const chunk *c, const char *name)

@@ -3,6 +3,7 @@
 #include "png_read.h"
 #include "array.h"
 #include "file.h"
+#include "image_blend.h"
 #include "octree/digest.h"
 
 #include <errno.h>
@@ -167,19 +168,6 @@ static void check_size(const image_source *s)
         png_error(s->png, "the file is truncated, or claims more pixels than it can hold");
 }
 
-/* Blend a sample with the background. `alpha` ranges from 0 to `most`. */
-static unsigned blend_sample(unsigned value, unsigned ground, unsigned alpha, unsigned most)
-{
-    return (value * alpha + ground * (most - alpha) + most / 2) / most;
-}
-
-static image_color blend_color(image_color color, image_color ground, unsigned alpha)
-{
-    return (image_color){(uint8_t)blend_sample(color.r, ground.r, alpha, 255),
-                         (uint8_t)blend_sample(color.g, ground.g, alpha, 255),
-                         (uint8_t)blend_sample(color.b, ground.b, alpha, 255)};
-}
-
 /* Fill the image's palette with the colours of the file's palette or grey levels, blended with the background. */
 static void set_palette(image_source *s)
 {
@@ -203,7 +191,7 @@ static void set_palette(image_source *s)
             alpha = s->about.transparent && key->gray == i ? 0 : 255;
         else if (i < alpha_count)
             alpha = alphas[i];
-        palette->colors[i] = blend_color(color, s->background, alpha);
+        palette->colors[i] = image_blend_color(color, s->background, alpha);
     }
 }
 
@@ -239,52 +227,6 @@ static void read_description(image_source *s)
 
 /* ---- Pixels -------------------------------------------------------------------------------------------------- */
 
-/* Blend pixels of r, g, b, alpha with the background. The results r, g, b overwrite the pixels. */
-static void blend_pixels(uint8_t *pixels, size_t count, image_color ground)
-{
-    for (size_t n = 0; n < count; n++) {
-        const uint8_t *from = pixels + 4 * n;
-        const image_color color = blend_color((image_color){from[0], from[1], from[2]}, ground, from[3]);
-        memcpy(pixels + 3 * n, &color, 3);
-    }
-}
-
-/* Returns whether all of these 16-bit samples can be stored in 8 bits without loss. This is so if each sample is a
- * multiple of 257: its two bytes are then equal. */
-static bool fits_8_bits(const uint8_t *samples, size_t count)
-{
-    for (size_t i = 0; i < count; i++)
-        if (samples[2 * i] != samples[2 * i + 1])
-            return false;
-    return true;
-}
-
-/* Blend 16-bit pixels of r, g, b, alpha with the background. If all samples of a pixel fit 8 bits, the blended result
- * is rounded to 8 bits. So a picture has the same colours whether its file has 8 or 16 bits per sample. */
-static void blend_wide_pixels(uint8_t *pixels, size_t count, image_color ground)
-{
-    const unsigned grounds[3] = {ground.r * 257u, ground.g * 257u, ground.b * 257u};
-    for (size_t n = 0; n < count; n++) {
-        uint16_t from[4], to[3];
-        memcpy(from, pixels + n * sizeof from, sizeof from);
-        const unsigned unit = fits_8_bits(pixels + n * sizeof from, 4) ? 257 : 1;
-        for (size_t i = 0; i < 3; i++)
-            to[i] = (uint16_t)(blend_sample(from[i] / unit, grounds[i] / unit, from[3] / unit, 65535 / unit) * unit);
-        memcpy(pixels + n * sizeof to, to, sizeof to);
-    }
-}
-
-/* Convert an image to 8 bits per sample if no precision is lost, so that equal pictures have the same format. */
-static void narrow_to_8_bits_if_exact(image *band)
-{
-    const size_t count = 3 * (size_t)band->width * (size_t)band->height;
-    if (!band->wide || !fits_8_bits(band->pixels, count))
-        return;
-    for (size_t i = 0; i < count; i++)
-        band->pixels[i] = band->pixels[2 * i];
-    band->wide = false;
-}
-
 /* Convert a band in place: from the samples that libpng delivers, to the format of the image. */
 static void convert_band(image_source *s, image *band)
 {
@@ -293,8 +235,8 @@ static void convert_band(image_source *s, image *band)
         /* libpng does not reject indices beyond the palette, so they are looked for here */
         s->beyond = s->beyond || !image_has_valid_indices(band);
     if (s->samples == 4)
-        (band->wide ? blend_wide_pixels : blend_pixels)(band->pixels, count, s->background);
-    narrow_to_8_bits_if_exact(band);
+        (band->wide ? image_blend_wide_pixels : image_blend_pixels)(band->pixels, count, s->background);
+    image_narrow_if_exact(band);
 }
 
 /* Read the rows of s->wanted. After the picture's last row, read on to the end of the file, so that libpng checks the
