@@ -68,6 +68,13 @@ add_package(liboctreel-dev liboctreel-dev libdevel "films an octree in your prog
 Headers, pkg-config file and CMake package of liboctreel, which records what a
 program does with an octree or with a spatial index of its own."
             "liboctreel${so} ${same}, liboctree-dev ${same}")
+add_package(liboctreel-compare liboctreel-compare${so} libs "compares pictures in tests - shared library
+Compares pixels or PNG files with reference pictures or with baselines of
+digests, under a tolerance, and says how they differ." "")
+add_package(liboctreel-compare-dev liboctreel-compare-dev libdevel "compares pictures in tests - development files
+Header, pkg-config file and CMake package of liboctreel-compare, which compares
+pictures in tests. The CMake package also has octreel_add_image_test(), a test of
+a program that writes pictures." "liboctreel-compare${so} ${same}, octreel ${same}, libpng-dev")
 add_package(octreel octreel devel "films an octree and compares frames
 Records a game in an octree as PNG frames, one a tick, without a display; plays
 it again, says what is drawn at a pixel, and shows how a cloud of points is

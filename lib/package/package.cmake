@@ -34,10 +34,15 @@ function(show_only target prefix)
                      COMMAND ${CMAKE_COMMAND} -E rm ${whole})
 endfunction()
 
-# install_package(TARGET NAME [REQUIRES MODULE...] [LIBS FLAG...]): the library, the headers of include/NAME, and what
-# NAME.pc.in and NAME-config.cmake.in become; REQUIRES and LIBS are for pkg-config, of what the library uses itself.
+# install_package(TARGET NAME [HEADERS PATTERN...] [REQUIRES MODULE...] [LIBS FLAG...]): the library, the headers of include/
+# that match a pattern (default: all), and what NAME.pc.in and NAME-config.cmake.in become; REQUIRES and LIBS are for
+# pkg-config, of what the library uses itself.
 function(install_package target name)
-  cmake_parse_arguments(USES "" "" "REQUIRES;LIBS" ${ARGN})
+  cmake_parse_arguments(USES "" "" "HEADERS;REQUIRES;LIBS" ${ARGN})
+  if(NOT USES_HEADERS)
+    set(USES_HEADERS "*.h")
+  endif()
+  list(TRANSFORM USES_HEADERS PREPEND "PATTERN;")
   list(JOIN USES_REQUIRES " " REQUIRES)
   list(JOIN USES_LIBS " " LIBS)
   get_target_property(type ${target} TYPE)
@@ -51,8 +56,10 @@ function(install_package target name)
   set(cmake_folder ${CMAKE_INSTALL_LIBDIR}/cmake/${name})
   set(TO_PREFIX ${CMAKE_INSTALL_PREFIX})
   set(TO_INCLUDE ${CMAKE_INSTALL_FULL_INCLUDEDIR})
+  set(TO_BIN ${CMAKE_INSTALL_FULL_BINDIR})
   cmake_path(RELATIVE_PATH TO_PREFIX BASE_DIRECTORY ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig)
   cmake_path(RELATIVE_PATH TO_INCLUDE BASE_DIRECTORY ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig)
+  cmake_path(RELATIVE_PATH TO_BIN BASE_DIRECTORY ${CMAKE_INSTALL_FULL_LIBDIR}/cmake/${name})
   configure_file(${name}.pc.in ${name}.pc @ONLY)
   configure_file(${name}-config.cmake.in ${name}-config.cmake @ONLY)
   write_basic_package_version_file(${name}-config-version.cmake COMPATIBILITY SameMinorVersion)
@@ -63,7 +70,7 @@ function(install_package target name)
   set(dev COMPONENT lib${name}-dev)
   install(TARGETS ${target} EXPORT ${name}-targets INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
           LIBRARY COMPONENT lib${name} NAMELINK_COMPONENT lib${name}-dev ARCHIVE ${dev} RUNTIME COMPONENT lib${name})
-  install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} ${dev} FILES_MATCHING PATTERN "*.h")
+  install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} ${dev} FILES_MATCHING ${USES_HEADERS})
   install(FILES ${CMAKE_CURRENT_BINARY_DIR}/${name}.pc DESTINATION ${pkgconfig_folder} ${dev})
   install(FILES ${CMAKE_CURRENT_BINARY_DIR}/${name}-config.cmake ${CMAKE_CURRENT_BINARY_DIR}/${name}-config-version.cmake
           DESTINATION ${cmake_folder} ${dev})
