@@ -1,104 +1,17 @@
 /* SPDX-License-Identifier: MIT */
-/* fuzz_png.c - libFuzzer entry of the PNG reader and the comparison of pictures. The first byte says what the rest is:
- * a file; a file whose checksums are corrected, so that the code behind the checks is reached; or a recipe for a valid
- * file. No input may take more memory than the reader promises. Build with clang -fsanitize=fuzzer,address,undefined.
+/* fuzz_png.c - libFuzzer entry of the PNG reader and the comparison of pictures, with files of png_input.h. No input
+ * may take more memory than the reader promises. Build with clang -fsanitize=fuzzer,address,undefined.
  */
-#undef _POSIX_C_SOURCE
-#define _GNU_SOURCE /* for memfd_create() */
 #include "image_compare.h"
 #include "image_digest.h"
+#include "support/png_input.h"
 #include "png_read.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/mman.h>
-#include <unistd.h>
-#include <zlib.h>
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-enum { AS_IT_IS, WITH_CHECKSUMS, RECIPE, MODES, MOST = 1 << 16 };
-
-typedef struct file {
-    uint8_t bytes[2 * MOST];
-    size_t size;
-} file;
-
-/* ---- Files from input --------------------------------------------------------------------------------------- */
-
-static uint32_t read_u32(const uint8_t *at)
-{
-    return (uint32_t)at[0] << 24 | (uint32_t)at[1] << 16 | (uint32_t)at[2] << 8 | at[3];
-}
-
-static void write_u32(uint8_t *at, uint32_t value)
-{
-    for (int i = 0; i < 4; i++)
-        at[i] = (uint8_t)(value >> (24 - 8 * i));
-}
-
-static void repair_checksums(file *f)
-{
-    for (size_t at = 8; at + 12 <= f->size;) {
-        const uint32_t length = read_u32(f->bytes + at);
-        if (length > f->size - at - 12)
-            return;
-        write_u32(f->bytes + at + 8 + length, (uint32_t)crc32(0, f->bytes + at + 4, length + 4));
-        at += 12 + (size_t)length;
-    }
-}
-
-static void put_chunk(file *f, const char *type, const uint8_t *data, size_t size)
-{
-    uint8_t *at = f->bytes + f->size;
-    write_u32(at, (uint32_t)size);
-    memcpy(at + 4, type, 4);
-    if (size > 0)
-        memcpy(at + 8, data, size);
-    write_u32(at + 8 + size, (uint32_t)crc32(0, at + 4, (uInt)(size + 4)));
-    f->size += size + 12;
-}
-
-/* A recipe: kind, sides, number of colours and of alphas, these values, and then rows with their filter bytes. */
-static void follow_recipe(file *f, const uint8_t *data, size_t size)
-{
-    static const uint8_t kinds[][2] = {{0, 1}, {0, 2}, {0, 4}, {0, 8}, {0, 16}, {2, 8}, {2, 16}, {3, 1},
-                                       {3, 2}, {3, 4}, {3, 8}, {4, 8}, {4, 16}, {6, 8}, {6, 16}};
-    enum { HEAD = 6, KINDS = sizeof kinds / sizeof kinds[0] };
-    if (size < HEAD)
-        return;
-    const uint8_t *kind = kinds[data[0] % KINDS], *rest = data + HEAD;
-    size_t left = size - HEAD;
-    const size_t colors = 3u * data[4] < left ? 3u * data[4] : left;
-    const size_t alphas = data[5] < left - colors ? data[5] : left - colors;
-    const uint8_t header[13] = {0, 0, 0, data[1], 0, 0, 0, data[2], kind[1], kind[0], 0, 0, data[3] & 1};
-    static uint8_t packed[MOST];
-    uLongf packed_size = sizeof packed;
-    memcpy(f->bytes, "\x89PNG\r\n\x1a\n", 8);
-    f->size = 8;
-    put_chunk(f, "IHDR", header, sizeof header);
-    if (colors > 0)
-        put_chunk(f, "PLTE", rest, colors);
-    if (alphas > 0)
-        put_chunk(f, "tRNS", rest + colors, alphas);
-    if (compress(packed, &packed_size, rest + colors + alphas, left - colors - alphas) == Z_OK)
-        put_chunk(f, "IDAT", packed, packed_size);
-    put_chunk(f, "IEND", NULL, 0);
-}
-
-static void make_file(file *f, const uint8_t *data, size_t size)
-{
-    f->size = 0;
-    if (data[0] % MODES == RECIPE) {
-        follow_recipe(f, data + 1, size - 1);
-        return;
-    }
-    memcpy(f->bytes, data + 1, size - 1);
-    f->size = size - 1;
-    if (data[0] % MODES == WITH_CHECKSUMS)
-        repair_checksums(f);
-}
 
 /* ---- What must hold ----------------------------------------------------------------------------------------- */
 
@@ -106,18 +19,6 @@ static void check(bool holds)
 {
     if (!holds)
         abort();
-}
-
-/* Write a file into memory. Returns the path by which it is read. */
-static const char *save(const file *f)
-{
-    static int memory = -1;
-    static char path[40];
-    if (memory < 0)
-        memory = memfd_create("fuzz", 0);
-    snprintf(path, sizeof path, "/proc/self/fd/%d", memory);
-    check(memory >= 0 && ftruncate(memory, 0) == 0 && pwrite(memory, f->bytes, f->size, 0) == (ssize_t)f->size);
-    return path;
 }
 
 /* Read a file in bands, until it fails: the rows must equal those of the whole picture. */
@@ -133,19 +34,19 @@ static bool read_rows(image_source *source, int rows, const image *whole)
 }
 
 /* Reading row by row must succeed or fail exactly like reading the whole file. */
-static void check_rows(const file *f, image_color background, const image *whole, const octreel_error *failed)
+static void check_rows(const png_input *f, image_color background, const image *whole, const octreel_error *failed)
 {
     octreel_error error = {""};
-    image_source *source = image_source_open(save(f), background, false, &error);
+    image_source *source = image_source_open(png_input_save(f), background, false, &error);
     const bool ok = source && read_rows(source, 1 + (int)(f->size % 5), whole);
     check(ok == (whole->pixels != NULL) && strcmp(error.text, failed->text) == 0);
     image_source_close(source);
 }
 
-static bool read_file(const file *f, image_color background, image *read)
+static bool read_file(const png_input *f, image_color background, image *read)
 {
     octreel_error error = {""};
-    const char *path = save(f);
+    const char *path = png_input_save(f);
     const bool ok = image_read_png_over(path, background, read, &error);
     check(ok ? read->pixels != NULL : read->pixels == NULL && strncmp(error.text, path, strlen(path)) == 0);
     check_rows(f, background, read, &error);
@@ -192,11 +93,11 @@ static void check_sums(const image *a, const image *b)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    static file f;
+    static png_input f;
     image white, black;
-    if (size < 2 || size > MOST / 2)
+    if (size < 2 || size > PNG_INPUT_MOST / 2)
         return 0;
-    make_file(&f, data, size);
+    png_input_make(&f, data, size);
     if (f.size == 0 || !read_file(&f, (image_color){255, 255, 255}, &white))
         return 0;
     check_image(&white, f.size);

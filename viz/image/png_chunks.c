@@ -2,6 +2,7 @@
 /* png_chunks.c - walks the chunks in the first 4096 bytes of a PNG file. */
 #include "png_chunks.h"
 #include "file.h"
+#include "image.h"
 
 #include <stdint.h>
 #include <stdio.h>
@@ -99,6 +100,11 @@ static bool has_png_end(FILE *file)
            memcmp(last, end, sizeof end) == 0;
 }
 
+static bool is_side(int length)
+{
+    return length >= 1 && length <= IMAGE_MAX_SIDE;
+}
+
 bool image_read_png_size(const char *path, int *width, int *height)
 {
     page p;
@@ -111,7 +117,7 @@ bool image_read_png_size(const char *path, int *width, int *height)
         *width = (int)load_big_endian(c.at + DATA);
         *height = (int)load_big_endian(c.at + DATA + 4);
     }
-    const bool whole = found && has_png_end(file);
+    const bool whole = found && is_side(*width) && is_side(*height) && has_png_end(file);
     fclose(file);
     return whole;
 }

@@ -7,7 +7,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Read the width and height of a PNG file. Returns false if the file does not begin and end like a PNG. */
+/* Read the width and height of a PNG file. Returns false if the file does not begin and end like a PNG, or if a side is
+ * not from 1 to IMAGE_MAX_SIDE. */
 bool image_read_png_size(const char *path, int *width, int *height);
 
 /* Copy the text of the first tEXt chunk with this keyword to `text`, truncated to size - 1 characters. Searches only
