@@ -119,6 +119,22 @@ static void same_picture_is_equal_in_every_format(void **state)
     }
 }
 
+/* Opaque pixels are packed in blocks; a block with one that is not must be noticed, whatever its place. */
+static void one_transparent_pixel_is_blended(void **state)
+{
+    static unsigned char room[2][ROOM];
+    (void)state;
+    for (int n = 0; n < PIXELS; n++) {
+        samples s = make_samples(OCTREEL_RGBA8, (uint64_t)n);
+        for (int i = 0; i < PIXELS; i++)
+            s.of[i][3] = i != n ? 255 : n % 2 ? 254 : 100;
+        const samples flat = blend(&s, 0xffffff);
+        const octreel_pixels a = store(&s, OCTREEL_RGBA8, 0, false, room[0]);
+        const octreel_pixels b = store(&flat, OCTREEL_RGB8, 0, false, room[1]);
+        assert_int_equal(compare(&a, &b, NULL).verdict, OCTREEL_VERDICT_SAME);
+    }
+}
+
 /* Change the last stored sample of a pixel that is not alpha, by one level. */
 static void one_level_of_one_pixel_is_found(void **state)
 {
@@ -159,6 +175,34 @@ static void depth_alone_is_no_difference(void **state)
     const octreel_comparison found = compare(&wide, &narrow, NULL);
     assert_int_equal(found.verdict, OCTREEL_VERDICT_SAME);
     assert_int_equal(found.channel_range, 255);
+}
+
+/* Larger pictures are compared in bands of rows. */
+static void one_pixel_of_any_band_is_found(void **state)
+{
+    enum { SIDE = 300 };
+    static unsigned char grey[SIDE * SIDE], rgb[3 * SIDE * SIDE];
+    (void)state;
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        grey[i] = (unsigned char)(i * 7 / 5);
+        memset(rgb + 3 * i, grey[i], 3);
+    }
+    const octreel_pixels a = octreel_make_pixels(grey, SIDE, SIDE, OCTREEL_GREY8);
+    const octreel_pixels b = octreel_make_pixels(rgb, SIDE, SIDE, OCTREEL_RGB8);
+    octreel_compare_def def = octreel_compare_def_default();
+    for (int y = 0; y < SIDE; y += 23) {
+        rgb[3 * (y * SIDE + y / 2) + 1] ^= 128;
+        for (int antialias = 0; antialias < 2; antialias++) {
+            def.antialias = antialias;
+            const octreel_comparison found = compare(&a, &b, &def);
+            assert_int_equal(found.different, 1);
+            assert_int_equal(found.worst_x, y / 2);
+            assert_int_equal(found.worst_y, y);
+            assert_int_equal(found.max_y, y);
+        }
+        rgb[3 * (y * SIDE + y / 2) + 1] ^= 128;
+    }
+    assert_int_equal(compare(&a, &b, NULL).verdict, OCTREEL_VERDICT_SAME);
 }
 
 /* ---- Tolerances, against the oracle --------------------------------------------------------------------------- */
@@ -314,6 +358,8 @@ int main(void)
         cmocka_unit_test(invalid_pixels_are_refused),
         cmocka_unit_test(invalid_definitions_are_refused),
         cmocka_unit_test(other_size_is_a_difference),
+        cmocka_unit_test(one_pixel_of_any_band_is_found),
+        cmocka_unit_test(one_transparent_pixel_is_blended),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
