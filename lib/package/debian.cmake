@@ -73,7 +73,7 @@ Compares pixels or PNG files with reference pictures or with baselines of
 digests, under a tolerance, and says how they differ." "")
 add_package(liboctreel-compare-dev liboctreel-compare-dev libdevel "compares pictures in tests - development files
 Header, pkg-config file and CMake package of liboctreel-compare, which compares
-pictures in tests. The CMake package also has octreel_add_image_test(), a test of
+pictures in tests. octreel_add_image_test() of the CMake package adds a test of
 a program that writes pictures." "liboctreel-compare${so} ${same}, octreel ${same}, libpng-dev")
 add_package(octreel octreel devel "films an octree and compares frames
 Records a game in an octree as PNG frames, one a tick, without a display; plays
