@@ -34,9 +34,9 @@ function(show_only target prefix)
                      COMMAND ${CMAKE_COMMAND} -E rm ${whole})
 endfunction()
 
-# install_package(TARGET NAME [HEADERS PATTERN...] [REQUIRES MODULE...] [LIBS FLAG...]): the library, the headers of include/
-# that match a pattern (default: all), and what NAME.pc.in and NAME-config.cmake.in become; REQUIRES and LIBS are for
-# pkg-config, of what the library uses itself.
+# install_package(TARGET NAME [HEADERS PATTERN...] [REQUIRES MODULE...] [LIBS FLAG...]): the library, the headers of
+# include/ that match a pattern (default: all), and what NAME.pc.in and NAME-config.cmake.in become; REQUIRES and LIBS are
+# for pkg-config, of what the library uses itself.
 function(install_package target name)
   cmake_parse_arguments(USES "" "" "HEADERS;REQUIRES;LIBS" ${ARGN})
   if(NOT USES_HEADERS)

@@ -1,23 +1,25 @@
 # SPDX-License-Identifier: MIT
-# octreel_add_image_test(): a test of CTest that runs a program, and compares the pictures that it writes with a reference.
+# octreel_add_image_test(): a test of CTest that runs a program, and compares its pictures with a reference.
 #
 #   octreel_add_image_test(NAME name COMMAND program [argument...] REFERENCE path [ACTUAL path]
 #                          [TOLERANCE option...] [LABELS label...])
 #
 # NAME       the name of the test.
-# COMMAND    the program, a target or an absolute path, and its arguments. It runs in an empty folder of the test below the build
-#            folder. <ACTUAL> in an argument becomes the absolute path of ACTUAL. Generator expressions are allowed.
-# REFERENCE  a PNG, a folder of PNGs, or a baseline of `octreel accept`, relative to the current source folder. A PNG or a
-#            folder may be missing at first: the test then fails, and prints the command that creates it.
-# ACTUAL     the PNG or the folder that the program writes, relative to its folder; the default is the last part of REFERENCE.
-# TOLERANCE  options of `octreel diff`: --max-delta D, --max-pixels N, --antialias, --ignore X,Y,W,H, --ignore-layer LIST,
-#            --background RRGGBB, --store DIR, --no-recursive. Without them the pictures must be equal.
+# COMMAND    the program, a target or an absolute path, and its arguments. It runs in an empty folder of the test below
+#            the build folder. <ACTUAL> in an argument becomes the absolute path of ACTUAL. Generator expressions are
+#            allowed.
+# REFERENCE  a PNG, a folder of PNGs, or a baseline of `octreel accept`, relative to the current source folder. It may
+#            be missing at first: the test then fails, and prints the command that creates it.
+# ACTUAL     the PNG or the folder that the program writes, relative to its folder. Default: the last part of REFERENCE.
+# TOLERANCE  options of `octreel diff`: --max-delta D, --max-pixels N, --antialias, --ignore X,Y,W,H,
+#            --ignore-layer LIST, --background RRGGBB, --store DIR, --no-recursive. Without them the pictures must be
+#            equal.
 # LABELS     labels of the test, besides `image`.
 #
 # The test fails if the program fails, with the program's exit status, if ACTUAL is missing, or if pictures differ. The
 # folder image_tests/NAME below the current build folder then has run/ (what the program wrote), report/report.html, and
-# beside it the reference, the actual and the difference as PNGs. The output names them, has measurements for CDash, and ends
-# with the command that accepts the new pictures. Other properties are set with set_tests_properties().
+# beside it the reference, the actual and the difference as PNGs. The output names them, has measurements for CDash, and
+# ends with the command that accepts the new pictures. Other properties are set with set_tests_properties().
 
 find_program(OCTREEL_PROGRAM octreel HINTS "${CMAKE_CURRENT_LIST_DIR}/${OCTREEL_TO_BIN}"
              DOC "The program octreel, which compares the pictures of image tests")
@@ -27,8 +29,8 @@ function(octreel_refuse_image_test name reason)
   message(FATAL_ERROR "octreel_add_image_test(NAME ${name}): ${reason}")
 endfunction()
 
-# octreel_check_tolerance(NAME OPTION...): refuses at once what `octreel diff` would refuse when the test runs, and options
-# that do not say what counts as the same.
+# octreel_check_tolerance(NAME OPTION...): refuses options that `octreel diff` would refuse when the test runs, and
+# options that do not say what counts as the same.
 function(octreel_check_tolerance name)
   set(flags --antialias --no-recursive)
   set(valued --max-delta --max-pixels --ignore --ignore-layer --background --store)
@@ -41,7 +43,7 @@ function(octreel_check_tolerance name)
       set(last ${word})
     elseif(NOT word IN_LIST flags)
       list(JOIN valued ", " names)
-      octreel_refuse_image_test(${name} "TOLERANCE: unknown option ${word}; use ${names}, --antialias or --no-recursive")
+      octreel_refuse_image_test(${name} "TOLERANCE: unknown option ${word}; use ${names}, --antialias, --no-recursive")
     endif()
   endforeach()
   if(expects_value)
@@ -65,7 +67,7 @@ function(octreel_add_image_test)
   octreel_check_tolerance("${TEST_NAME}" ${TEST_TOLERANCE})
   get_filename_component(reference "${TEST_REFERENCE}" ABSOLUTE BASE_DIR "${CMAKE_CURRENT_SOURCE_DIR}")
   if(NOT TEST_ACTUAL AND reference MATCHES "[.]txt$")
-    octreel_refuse_image_test("${TEST_NAME}" "REFERENCE is a baseline; name the pictures that the program writes by ACTUAL")
+    octreel_refuse_image_test("${TEST_NAME}" "REFERENCE is a baseline; ACTUAL must name what the program writes")
   elseif(NOT TEST_ACTUAL)
     get_filename_component(TEST_ACTUAL "${reference}" NAME)
   endif()
