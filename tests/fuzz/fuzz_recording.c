@@ -221,7 +221,7 @@ static void audit(void)
     octreel_error error = {""};
     const audit_limits limits = {.by_ratio = true, .ratio = 1.5};
     const audit_verdict verdict = {edited, true, &report};
-    if (told(audit_read(edited, &limits, 0, NULL, &report, &error), &error)) {
+    if (told(audit_replay(edited, &limits, 0, NULL, &report, &error), &error)) {
         audit_print_text(nowhere, &verdict);
         audit_print_json(nowhere, &verdict);
         audit_print_junit(nowhere, &verdict);

@@ -111,7 +111,7 @@ static bool audit_and_write_outputs(const arguments *a, const char *path, audit_
 {
     progress p = progress_start("ticks");
     const char *folder = a->outputs[HTML].folder;
-    const bool done = audit_read(path, &a->limits, a->max_ticks, &(watcher){progress_show, NULL, &p}, report, error);
+    const bool done = audit_replay(path, &a->limits, a->max_ticks, &(watcher){progress_show, NULL, &p}, report, error);
     progress_end(&p);
     const audit_verdict verdict = {file_display_name(path), file_kind_of(path) == KIND_RECORDING, report};
     if (!done || (folder && !folder_create(folder, error)) ||

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* animate.c - reads the frames of a film one after the other, and passes them to a writer.
  *
- * A run is a frame with the frames after it that repeat it. An animated PNG must name the number of its frames and its
- * palette before the first frame. So a first pass over all runs counts them and collects their colours, and a second
- * pass writes them. */
+ * A run is a frame together with the equal frames that follow it. In an animated PNG the number of frames and the
+ * palette precede the first frame. So a first pass counts the runs and collects their colours, and a second pass writes
+ * the runs. */
 #include "animate.h"
 #include "apng_write.h"
 #include "color_table.h"
@@ -13,19 +13,20 @@
 
 #include <stdlib.h>
 
-/* Receives the RGB pixels of a run and the number of its frames. Returns false and sets *error to end the pass. */
+/* A function that is called for each run, with the run's RGB pixels and the number `shown` of the run's frames. Returns
+ * false and sets *error to end the pass. */
 typedef bool run_visitor(const uint8_t *rgb, unsigned shown, void *context, octreel_error *error);
 
 typedef struct reel {
     const animation_frames *list;
-    animation_options options; /* with the size of the film in width and height */
+    animation_options options; /* the options; width and height are always set, to the size of the film */
     size_t pixels;             /* number of pixels of a frame of the film */
     uint8_t *now, *next;       /* the RGB pixels of the current run, and of the frame that was read last */
-    uint64_t read, to_read;    /* number of frames read, and to be read, in all passes */
+    uint64_t read, to_read;    /* number of frames read so far, and to be read by all passes together */
     bool stopped;
 } reel;
 
-static void copy_row(const image *from, int left, int y, int count, uint8_t *rgb)
+static void copy_row_as_rgb(const image *from, int left, int y, int count, uint8_t *rgb)
 {
     const uint8_t *pixels = from->pixels + ((size_t)y * (size_t)from->width + (size_t)left) * image_pixel_size(from);
     if (from->channels == 3 && !from->wide) {
@@ -47,14 +48,14 @@ static bool read_frame(reel *r, size_t index, uint8_t *rgb, octreel_error *error
         return false;
     const bool same = whole.width == r->list->width && whole.height == r->list->height;
     for (int y = 0; same && y < o->height; y++)
-        copy_row(&whole, o->left, o->top + y, o->width, rgb + 3 * (size_t)y * (size_t)o->width);
+        copy_row_as_rgb(&whole, o->left, o->top + y, o->width, rgb + 3 * (size_t)y * (size_t)o->width);
     image_release(&whole);
     watcher_report(&o->watch, ++r->read, r->to_read);
     r->stopped = !watcher_continues(&o->watch);
     return same || error_set(error, "%s: has changed while the film was made", path);
 }
 
-/* Call `visit` for each run. Returns true without visiting all if the film was stopped. */
+/* Call `visit` for each run. Returns true also if the watcher stopped the film before the last run. */
 static bool visit_runs(reel *r, run_visitor *visit, void *context, octreel_error *error)
 {
     unsigned shown = 1;
@@ -83,7 +84,7 @@ typedef struct apng_passes {
     apng_writer *writer;
 } apng_passes;
 
-static bool survey_run(const uint8_t *rgb, unsigned shown, void *context, octreel_error *error)
+static bool count_run_and_colors(const uint8_t *rgb, unsigned shown, void *context, octreel_error *error)
 {
     apng_passes *p = context;
     (void)shown, (void)error;
@@ -122,7 +123,7 @@ static bool animate_png(reel *r, const char *path, animation_summary *summary, o
         return error_no_memory(error);
     p->pixels = r->pixels;
     r->to_read = 2 * r->list->count;
-    const bool ok = visit_runs(r, survey_run, p, error) && (r->stopped || write_apng(r, p, path, error));
+    const bool ok = visit_runs(r, count_run_and_colors, p, error) && (r->stopped || write_apng(r, p, path, error));
     summary->stored = p->runs;
     summary->colors = p->colors.is_full ? 0 : p->colors.palette.count;
     free(p->indices);
@@ -137,7 +138,7 @@ typedef struct video_pass {
     size_t size, runs;
 } video_pass;
 
-static bool send_run(const uint8_t *rgb, unsigned shown, void *context, octreel_error *error)
+static bool send_run_to_ffmpeg(const uint8_t *rgb, unsigned shown, void *context, octreel_error *error)
 {
     video_pass *p = context;
     p->runs++;
@@ -154,14 +155,14 @@ static bool animate_video(reel *r, const char *path, animation_summary *summary,
     p.writer = ffmpeg_open(path, r->options.width, r->options.height, r->options.rate, error);
     if (!p.writer)
         return false;
-    const bool ok = visit_runs(r, send_run, &p, error);
+    const bool ok = visit_runs(r, send_run_to_ffmpeg, &p, error);
     summary->stored = p.runs;
     return ok && !r->stopped ? ffmpeg_close(p.writer, error) : (ffmpeg_discard(p.writer), ok);
 }
 
 /* ---- The film ------------------------------------------------------------------------------------------------ */
 
-static bool check_part(const animation_frames *list, animation_options *o, octreel_error *error)
+static bool check_crop(const animation_frames *list, animation_options *o, octreel_error *error)
 {
     if (o->width == 0) {
         o->width = list->width;
@@ -182,7 +183,7 @@ bool animate(const animation_frames *list, const animation_options *options, con
 {
     reel r = {.list = list, .options = *options};
     *summary = (animation_summary){0};
-    if (!check_part(list, &r.options, error))
+    if (!check_crop(list, &r.options, error))
         return false;
     summary->width = r.options.width;
     summary->height = r.options.height;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* animation_frames.c - finds the pictures of a folder, and checks that they can be one film. */
+/* animation_frames.c - finds the pictures of a folder, and checks that all have one size, as a film needs. */
 #include "animation_frames.h"
 #include "array.h"
 #include "file.h"
@@ -18,7 +18,7 @@ void animation_frames_release(animation_frames *list)
     *list = (animation_frames){0};
 }
 
-static bool has_frames(char *const *names)
+static bool has_frame_names(char *const *names)
 {
     uint64_t tick;
     for (size_t i = 0; names[i]; i++)
@@ -27,7 +27,7 @@ static bool has_frames(char *const *names)
     return false;
 }
 
-/* Add all pictures of the folder. The list has room for all names. */
+/* Add all pictures of the folder to the list, which has room for all names. */
 static bool add_pictures(const char *folder, char *const *names, animation_frames *list, octreel_error *error)
 {
     for (size_t i = 0; names[i]; i++) {
@@ -51,7 +51,7 @@ static bool list_pictures(const char *folder, animation_frames *list, octreel_er
         return false;
     while (names[count - 1])
         count++;
-    list->are_ticks = has_frames(names);
+    list->are_ticks = has_frame_names(names);
     list->frames = calloc(count, sizeof *list->frames);
     const bool ok = list->frames ? add_pictures(folder, names, list, error) : error_no_memory(error);
     free(names);
@@ -62,7 +62,7 @@ static bool list_pictures(const char *folder, animation_frames *list, octreel_er
     return ok && (list->count > 0 || error_set(error, "%s: contains no PNG files", folder));
 }
 
-/* Keep every n-th picture of those whose numbers are at least `first` and below `last`. */
+/* Of the pictures with the numbers `first` to `last` - 1, keep every n-th, where n is `every`. */
 static void keep_frames(animation_frames *list, uint64_t first, uint64_t last, uint64_t every)
 {
     size_t kept = 0;
@@ -77,7 +77,7 @@ static void keep_frames(animation_frames *list, uint64_t first, uint64_t last, u
     list->count = kept;
 }
 
-static void count_missing(animation_frames *list)
+static void count_missing_frames(animation_frames *list)
 {
     uint64_t step = UINT64_MAX;
     for (size_t i = 1; i < list->count; i++) {
@@ -92,7 +92,8 @@ static void count_missing(animation_frames *list)
     }
 }
 
-/* Remove the pictures that are not chosen. Frames that --every leaves out are not missing. */
+/* Remove the pictures that are not chosen. Missing frames are counted before `every` is applied, because frames that
+ * --every leaves out are not missing. */
 static bool choose_frames(const char *folder, const frame_choice *choice, animation_frames *list, octreel_error *error)
 {
     const uint64_t first = list->frames[0].number, last = list->frames[list->count - 1].number;
@@ -100,12 +101,13 @@ static bool choose_frames(const char *folder, const frame_choice *choice, animat
     if (list->count == 0)
         return error_set(error, "%s: none of its %s, %" PRIu64 " to %" PRIu64 ", is in the range of --ticks", folder,
                          list->are_ticks ? "ticks with frames" : "pictures", first, last);
-    count_missing(list);
+    count_missing_frames(list);
     keep_frames(list, 0, UINT64_MAX, choice->every ? choice->every : 1);
     return true;
 }
 
-/* Read the size of a picture. If the file is damaged, decoding it finds the reason. */
+/* Read the size of a picture from its header. If this fails, decode the whole file, which reports what is wrong with
+ * it. */
 static bool read_size(const char *path, int *width, int *height, octreel_error *error)
 {
     image whole;

@@ -13,7 +13,7 @@
  * order of their names. */
 typedef struct frame_choice {
     uint64_t first, last; /* the numbers first to last - 1 are chosen; last 0: all from `first` on */
-    uint64_t every;       /* of them, only every n-th picture is chosen; 0 stands for 1 */
+    uint64_t every;       /* of these pictures, every n-th is chosen, where n is `every`; 0 means 1 */
 } frame_choice;
 
 typedef struct listed_frame {
@@ -24,15 +24,16 @@ typedef struct listed_frame {
 typedef struct animation_frames {
     listed_frame *frames; /* at least one, in the order of their numbers */
     size_t count;
-    int width, height; /* of every frame */
+    int width, height; /* the size of every frame, in pixels */
     bool are_ticks;    /* true: the frames of a recording; false: other pictures */
-    /* The number of frames that seem to be missing, because the step from one number to the next is larger than the
-     * smallest step; and the number of the frame before the first one that is missing. */
+    /* `missing`: the number of frames that seem to be missing, because two neighbouring numbers differ by more than the
+     * smallest such difference. `missing_after`: the number of the frame before the first missing frame. */
     uint64_t missing, missing_after;
 } animation_frames;
 
 /* List the chosen pictures. In a folder with frames of a recording, other pictures are ignored. Returns false and sets
- * *error if there are none, or if they have different sizes. Cost: the header of every chosen file is read. */
+ * *error if no picture is chosen, or if the chosen pictures have different sizes. Cost: the header of every chosen file
+ * is read. */
 bool animation_frames_read(const char *folder, const frame_choice *choice, animation_frames *list,
                            octreel_error *error);
 void animation_frames_release(animation_frames *list);

@@ -6,9 +6,9 @@
  *
  * Recall is the share of the true points that the answers name. It is computed over all answers of a query kind
  * together, so large answers weigh more. Ratio is the distance of a named neighbour divided by the distance of the true
- * neighbour of the same rank. The ratio of every answer is stored, because a percentile (the worst of 99 of 100
- * answers) needs all ratios, sorted; an average would hide a few very bad answers. Benchmarks of approximate
- * nearest-neighbour search use both numbers (Aumueller, Bernhardsson and Faithfull 2018, "ANN-Benchmarks").
+ * neighbour of the same rank. The ratio of every answer is stored, because a percentile (such as the ratio that 99 of
+ * 100 answers do not exceed) needs all ratios, sorted; an average would hide a few very bad answers. Benchmarks of
+ * approximate nearest-neighbour search use both numbers (Aumueller, Bernhardsson and Faithfull 2018, "ANN-Benchmarks").
  *
  * The limits excuse only approximation. An error that no honest approximation makes, such as an unknown id, always
  * counts as wrong. For each query kind the three worst answers are kept in full, sorted by insertion, so memory does
@@ -33,7 +33,7 @@
 
 /* ---- Counting ----------------------------------------------------------------------------------------------- */
 
-static bool write_answer(const octree_answer *answer, char **text)
+static bool format_answer(const octree_answer *answer, char **text)
 {
     text_stream s;
     if (text_stream_begin(&s))
@@ -49,7 +49,7 @@ static void copy_points(octree_point to[AUDIT_POINTS], const octree_point *from,
 
 /* True if an approximate search could make this error: farther neighbours, fewer neighbours, or fewer points. The
  * limits excuse no other kind of error. */
-static bool is_inexact(const octree_judgement *made)
+static bool is_approximation_error(const octree_judgement *made)
 {
     return made->wrong == OCTREE_WRONG_FARTHER ||
            (made->wrong == OCTREE_WRONG_COUNT && made->given_count < made->expected) ||
@@ -62,15 +62,16 @@ static bool is_allowed(const octree_judgement *made, const audit_limits *limits)
 {
     if (limits->by_ratio && made->ratio > limits->ratio)
         return false;
-    return (limits->by_recall && is_inexact(made)) || (limits->by_ratio && made->wrong == OCTREE_WRONG_FARTHER);
+    return (limits->by_recall && is_approximation_error(made)) ||
+           (limits->by_ratio && made->wrong == OCTREE_WRONG_FARTHER);
 }
 
 static bool is_worse(const audit_case *c, const audit_case *than)
 {
     if (c->allowed != than->allowed)
         return than->allowed;
-    if (is_inexact(&c->made) != is_inexact(&than->made))
-        return is_inexact(&than->made);
+    if (is_approximation_error(&c->made) != is_approximation_error(&than->made))
+        return is_approximation_error(&than->made);
     return judgement_is_worse(&c->made, &than->made);
 }
 
@@ -82,7 +83,7 @@ static bool insert_into_worst_answers(audit_kind *kind, audit_case c, const octr
         at--;
     if (at == AUDIT_WORST)
         return true;
-    if (!write_answer(answer, &c.answer))
+    if (!format_answer(answer, &c.answer))
         return false;
     copy_points(c.missing, c.made.missing, c.made.missing_count);
     copy_points(c.extra, c.made.extra, c.made.extra_count);
@@ -244,8 +245,8 @@ static bool play_session(const char *path, const octree_session *session, const 
     return done;
 }
 
-bool audit_read(const char *path, const audit_limits *limits, uint64_t max_ticks, const watcher *watch,
-                audit_report *report, octreel_error *error)
+bool audit_replay(const char *path, const audit_limits *limits, uint64_t max_ticks, const watcher *watch,
+                  audit_report *report, octreel_error *error)
 {
     session_file file = {0};
     uint64_t digest;
@@ -270,7 +271,7 @@ void audit_release(audit_report *report)
     *report = (audit_report){0};
 }
 
-double audit_ratio(const audit_kind *kind, double share)
+double audit_ratio_percentile(const audit_kind *kind, double share)
 {
     const double place = ceil(share * (double)kind->ratio_count);
     return kind->ratio_count == 0 ? 1 : kind->ratios[place < 1 ? 0 : (size_t)place - 1];
@@ -324,7 +325,7 @@ bool audit_limits_parse(const char *text, audit_limits *limits, octreel_error *e
 
 bool audit_kind_passes(const audit_kind *kind, const audit_limits *limits)
 {
-    return kind->beyond == 0 && (!limits->by_ratio || audit_ratio(kind, 1) <= limits->ratio) &&
+    return kind->beyond == 0 && (!limits->by_ratio || audit_ratio_percentile(kind, 1) <= limits->ratio) &&
            (!limits->by_recall || audit_recall(kind) >= limits->recall);
 }
 

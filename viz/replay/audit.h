@@ -15,8 +15,8 @@
  * true neighbour of the same rank. `recall`: the answers of a query kind must name at least this share of all true
  * points; the other points may be missing, or farther neighbours may be named instead.
  *
- * Always wrong are unknown ids, points that are named twice, points that the query excludes, points outside the query,
- * too many neighbours, and invalid foreign nodes. */
+ * These errors are wrong under any limits: unknown ids, points that are named twice, points that the query excludes,
+ * points outside the query, too many neighbours, and invalid foreign nodes. */
 typedef struct audit_limits {
     bool by_ratio, by_recall; /* the limits that are set; if both are false, every answer must be exact */
     double ratio, recall;
@@ -37,18 +37,18 @@ typedef struct audit_case {
     char *answer;
 } audit_case;
 
-/* The answers to one kind of query in one tick. */
+/* The sums over the answers to one kind of query in one tick. The members mean the same as in audit_kind. */
 typedef struct audit_tick {
     uint64_t tick, asked, wrong, expected, missing;
     double ratio; /* the largest ratio of a neighbour in these answers */
 } audit_tick;
 
-/* The answers to one kind of query. */
+/* The sums over all answers to one kind of query. */
 typedef struct audit_kind {
-    uint64_t asked, wrong;
-    /* Number of points in the exact answers; number of these points that the foreign answers lack. */
-    uint64_t expected, missing;
-    uint64_t extra;
+    uint64_t asked, wrong; /* number of answers; number of wrong answers */
+    /* `expected`: number of points in the exact answers; `missing`: number of these points that the foreign answers
+     * lack; `extra`: number of points in the foreign answers that the exact answers lack. */
+    uint64_t expected, missing, extra;
     /* Number of wrong answers by kind; an answer with several errors counts under its first error. */
     uint64_t wrong_by_kind[OCTREE_WRONG_KINDS];
     uint64_t on_boundary; /* wrong answers that would be right with other bounds of the query (open or closed) */
@@ -65,7 +65,7 @@ typedef struct audit_kind {
 
 /* The wrong foreign nodes of all ticks. A node that stays wrong for several ticks is counted once per tick. */
 typedef struct audit_nodes {
-    bool given;
+    bool given; /* true: the session has foreign nodes */
     /* Number of wrong nodes, number of ticks with a wrong node, and the first tick with a wrong node. */
     uint64_t wrong, ticks, first_wrong;
     uint64_t wrong_by_kind[OCTREE_WRONG_NODE_KINDS];
@@ -80,20 +80,20 @@ typedef struct audit_report {
     audit_limits limits;
     audit_kind kinds[OCTREE_QUERY_KINDS];
     audit_nodes nodes;
-    uint64_t ticks, asked, wrong;
+    uint64_t ticks, asked, wrong; /* number of ticks, of answers and of wrong answers */
 } audit_report;
 
 /* Replay the recording or session at a path and compare its foreign answers with the exact ones. Returns false with an
  * error on failure, and also if the session has neither answers nor foreign nodes, or more than `max_ticks` ticks (0:
  * SESSION_MOST_PLAYED). Release the report after a failure too. `watch` may be null; its keep_going() is not called.
  * Cost: the time to play the session. Memory: 8 bytes per answer, and 48 bytes per tick and kind of query. */
-bool audit_read(const char *path, const audit_limits *limits, uint64_t max_ticks, const watcher *watch,
-                audit_report *report, octreel_error *error);
+bool audit_replay(const char *path, const audit_limits *limits, uint64_t max_ticks, const watcher *watch,
+                  audit_report *report, octreel_error *error);
 void audit_release(audit_report *report);
 
-/* Returns a percentile of the ratios: the smallest ratio that is not exceeded by the share `share` of all answers, such
- * as 0.99. Returns 1 if there are no answers. */
-double audit_ratio(const audit_kind *kind, double share);
+/* Returns a percentile of the ratios: the smallest stored ratio that at least the share `share` of all answers, such as
+ * 0.99, does not exceed. Returns 1 if there are no answers. */
+double audit_ratio_percentile(const audit_kind *kind, double share);
 
 /* Return the recall: the share of the true points that the answers name. Return 1 if there are no true points. */
 double audit_recall(const audit_kind *kind);

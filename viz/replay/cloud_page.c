@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* cloud_page.c - writes the page of a point cloud.
  *
- * The page is the page of a session of one tick without a player. Its session.json has the tree's options and the
- * queries, and no points: the points are a compressed block (point_block.h) in a script element of their own. So the
- * viewer, the module and the facts are those of every page. */
+ * The page is an ordinary page, of a session that has one tick and no player. So the viewer and the module are the same
+ * as in every page. The page's session.json has the tree's options and the queries, but no points: the points are a
+ * compressed block (point_block.h) in a separate script element. */
 #include "cloud_page.h"
 #include "octree/octree.h"
 #include "packed_points.h"
@@ -35,7 +35,7 @@ static octree_walk_order collect_leaf(const octree_node *node, void *context)
     return OCTREE_WALK_ON;
 }
 
-/* Collect the points of the tree in ascending order of their ids, which are rows of the file. */
+/* Collect the points of the tree in ascending order of their ids, which are row numbers of the file. */
 static bool collect_points(const inspection *made, point_block *b)
 {
     const size_t rows = made->points + made->skipped;
@@ -78,7 +78,7 @@ static bool begin_page(const cloud_page *c, page_writer *w, FILE *page, octreel_
     return ok;
 }
 
-/* Add tick 0 with the counts of the tree. The module adds the answers to it. */
+/* Add tick 0 with the tree's statistics, without answers. The page's module adds the answers. */
 static bool add_tick(const cloud_page *c, page_writer *w, octreel_error *error)
 {
     octree_tick tick = {.tree_digest = octree_digest(c->made->tree)};

@@ -9,10 +9,10 @@
 
 /* The contents of the page. */
 typedef struct cloud_page {
-    const char *title;   /* the name of the cloud; at most 255 bytes are kept */
-    octree_address node; /* the node that is marked; 0: no node */
-    const inspection *made;
-    const view *view; /* the view with which the page opens: that of the picture */
+    const char *title;      /* the name of the cloud; at most 255 bytes are kept */
+    octree_address node;    /* the node that is marked; 0: no node */
+    const inspection *made; /* the cloud's tree and values */
+    const view *view;       /* the view with which the page opens; a picture of the cloud has the same view */
     const octree_query *queries;
     size_t query_count;
 } cloud_page;

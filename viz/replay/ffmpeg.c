@@ -15,7 +15,7 @@
 extern char **environ;
 
 struct ffmpeg {
-    file_writer file; /* the temporary file is the one that ffmpeg writes; nothing is written to the stream */
+    file_writer file; /* ffmpeg writes the temporary file of this writer; the writer's stream is not used */
     FILE *frames;     /* the pipe that ffmpeg reads */
     pid_t child;
     void (*old_handler)(int signal); /* the handler of SIGPIPE */
@@ -26,8 +26,8 @@ const char *ffmpeg_find_format(const char *path)
     return file_has_ending(path, ".mp4") ? "mp4" : file_has_ending(path, ".webm") ? "webm" : NULL;
 }
 
-/* Start the child. It has a process group of its own, so that Ctrl-C reaches only the caller, which then decides.
- * Returns 0, or the reason as a value of errno. */
+/* Start the child. The child has a process group of its own, so that Ctrl-C interrupts only this process, not ffmpeg.
+ * Returns 0, or the reason of a failure as a value of errno. */
 static int start_child(ffmpeg *f, char *const *arguments, int input)
 {
     posix_spawn_file_actions_t files;
@@ -47,9 +47,10 @@ static int start_child(ffmpeg *f, char *const *arguments, int input)
     return reason;
 }
 
-/* Start ffmpeg with a pipe. Most players need yuv420p, which needs an even width and height. "file:" keeps ffmpeg from
- * reading a name such as "a:b" as a protocol. */
-static int start(ffmpeg *f, int width, int height, unsigned rate)
+/* Start ffmpeg with a pipe for the frames. Most players need yuv420p, which needs an even width and height. "file:"
+ * keeps ffmpeg from reading a name such as "a:b" as a protocol. Returns 0, or the reason of a failure as a value of
+ * errno. */
+static int start_ffmpeg(ffmpeg *f, int width, int height, unsigned rate)
 {
     char size[32], speed[16], output[PATH_MAX + 8];
     int ends[2];
@@ -80,7 +81,8 @@ static int start(ffmpeg *f, int width, int height, unsigned rate)
                                      NULL};
     if (pipe(ends) != 0)
         return errno;
-    /* The child must not inherit the end for writing, or it would wait for frames for ever. */
+    /* The child must not inherit the write end: while the child held it open, the pipe would never end, and ffmpeg
+     * would wait for more frames for ever. */
     fcntl(ends[1], F_SETFD, FD_CLOEXEC);
     const int reason = start_child(f, (char *const *)arguments, ends[0]);
     close(ends[0]);
@@ -90,7 +92,7 @@ static int start(ffmpeg *f, int width, int height, unsigned rate)
     return reason != 0 || f->frames ? reason : ENOMEM;
 }
 
-static bool open_file(ffmpeg *f, const char *path, octreel_error *error)
+static bool open_output_file(ffmpeg *f, const char *path, octreel_error *error)
 {
     if (!file_writer_open(&f->file, path, error))
         return false;
@@ -103,14 +105,14 @@ static bool open_file(ffmpeg *f, const char *path, octreel_error *error)
 ffmpeg *ffmpeg_open(const char *path, int width, int height, unsigned rate, octreel_error *error)
 {
     ffmpeg *f = calloc(1, sizeof *f);
-    if (!f || !open_file(f, path, error)) {
+    if (!f || !open_output_file(f, path, error)) {
         if (!f)
             error_no_memory(error);
         free(f);
         return NULL;
     }
     f->old_handler = signal(SIGPIPE, SIG_IGN);
-    const int reason = start(f, width, height, rate);
+    const int reason = start_ffmpeg(f, width, height, rate);
     if (reason == 0)
         return f;
     if (reason == ENOENT)
@@ -131,7 +133,7 @@ bool ffmpeg_add(ffmpeg *f, const uint8_t *rgb, size_t size, octreel_error *error
 }
 
 /* Close the pipe and wait for the child. Returns whether ffmpeg succeeded. */
-static bool finish(ffmpeg *f)
+static bool close_pipe_and_wait(ffmpeg *f)
 {
     int status = -1;
     const bool sent = f->frames && fclose(f->frames) == 0;
@@ -143,7 +145,8 @@ static bool finish(ffmpeg *f)
 
 bool ffmpeg_close(ffmpeg *f, octreel_error *error)
 {
-    const bool whole = finish(f), ok = whole ? file_writer_close(&f->file, error) : file_writer_discard(&f->file);
+    const bool whole = close_pipe_and_wait(f),
+               ok = whole ? file_writer_close(&f->file, error) : file_writer_discard(&f->file);
     if (!whole)
         error_set(error, "%s: cannot be written: ffmpeg failed", f->file.path);
     free(f);
@@ -154,7 +157,7 @@ void ffmpeg_discard(ffmpeg *f)
 {
     if (f->child > 0)
         kill(f->child, SIGKILL);
-    finish(f);
+    close_pipe_and_wait(f);
     file_writer_discard(&f->file);
     free(f);
 }

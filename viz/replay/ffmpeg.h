@@ -11,14 +11,16 @@
 
 typedef struct ffmpeg ffmpeg;
 
-/* Returns ffmpeg's name for the format of a video, by the ending of its file's name; null if it names no video. */
+/* Returns ffmpeg's name, such as "mp4", for the video format that the ending of a file's name selects. Returns null if
+ * the ending selects no video. */
 const char *ffmpeg_find_format(const char *path);
 
 /* Start ffmpeg for a video of frames of this size. `path` must outlive the writer. Returns null and sets *error if
- * ffmpeg is not installed or the file cannot be written. Until the writer is closed, SIGPIPE is ignored. */
+ * ffmpeg is not installed or the file cannot be written. Until the writer is closed or discarded, the process ignores
+ * SIGPIPE. */
 ffmpeg *ffmpeg_open(const char *path, int width, int height, unsigned rate, octreel_error *error);
 
-/* Append a frame of `size` bytes r, g, b. Returns false and sets *error on failure. */
+/* Append a frame: `size` bytes of RGB pixels, three bytes for each pixel. Returns false and sets *error on failure. */
 bool ffmpeg_add(ffmpeg *f, const uint8_t *rgb, size_t size, octreel_error *error);
 
 /* Wait until ffmpeg has written the video, which then appears at its path by a rename. Returns false and sets *error

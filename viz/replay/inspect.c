@@ -33,7 +33,7 @@ static octree_walk_order count_leaf(const octree_node *node, void *context)
 }
 
 /* Fill `rows` with the rows that count at least one leaf. Returns the number of rows. */
-static size_t count_occupancy(const octree *tree, histogram_row rows[OCCUPANCY_ROWS])
+static size_t count_leaves_by_points(const octree *tree, histogram_row rows[OCCUPANCY_ROWS])
 {
     size_t used = 0;
     for (unsigned i = 0; i < OCCUPANCY_ROWS; i++)
@@ -69,7 +69,7 @@ static void print_histograms(FILE *out, const octree *tree, const octree_stats *
     for (unsigned depth = 0; depth <= stats->depth; depth++)
         depths[depth] = (histogram_row){depth, depth, stats->leaves_at_depth[depth]};
     print_histogram(out, "leaves by depth", depths, stats->depth + 1);
-    print_histogram(out, "leaves by points", occupancy, count_occupancy(tree, occupancy));
+    print_histogram(out, "leaves by points", occupancy, count_leaves_by_points(tree, occupancy));
 }
 
 void inspect_print_name(const char *name, FILE *out)
@@ -164,7 +164,7 @@ static void print_statistics(const inspection *i, const octree_stats *stats, con
 static void write_occupancy(json_writer *w, const octree *tree)
 {
     histogram_row rows[OCCUPANCY_ROWS];
-    const size_t count = count_occupancy(tree, rows);
+    const size_t count = count_leaves_by_points(tree, rows);
     json_begin_array_member(w, "leaves_by_points");
     for (size_t i = 0; i < count; i++) {
         json_write_begin_object(w);
@@ -270,7 +270,7 @@ void inspect_print_node(const octree_node *node, const char *name, bool json, FI
     (json ? write_node : print_node)(node, name, out);
 }
 
-static octree_walk_order write_row(const octree_node *node, void *context)
+static octree_walk_order write_node_row(const octree_node *node, void *context)
 {
     FILE *out = context;
     char text[OCTREE_ADDRESS_TEXT];
@@ -289,6 +289,6 @@ bool inspect_write_nodes(const inspection *i, const char *path, octreel_error *e
     if (!file_writer_open(&file, path, error))
         return false;
     fputs("address,depth,leaf,count,min_x,min_y,min_z,max_x,max_y,max_z\n", file.stream);
-    octree_walk(i->tree, write_row, file.stream);
+    octree_walk(i->tree, write_node_row, file.stream);
     return file_writer_close(&file, error);
 }

@@ -14,13 +14,13 @@ typedef struct inspection {
     octree *tree;            /* a point's id is its row in the cloud */
     size_t points;           /* number of points in the cloud: all points of the file except the skipped ones */
     size_t skipped;          /* number of points in the file that are not in the cloud */
-    const char *why_skipped; /* the reason why points were skipped; a text that belongs to the cloud reader (cloud.h) */
+    const char *why_skipped; /* the reason why points were skipped; a constant string of the cloud reader (cloud.h) */
     size_t refused;          /* number of points that a full leaf refused, under OCTREE_REFUSE */
     size_t outside;          /* number of points that were not inserted because they are outside the world */
     point_values values;     /* colours, intensities and classes, indexed by point id */
     size_t *classes;         /* classes[c]: number of points with class c; null if no point has a class */
     unsigned color_full;     /* the largest value of a colour channel: 1, 255 or 65535; 0 if no point has a colour */
-    char column_note[CLOUD_COLUMN_NOTE];
+    char column_note[CLOUD_COLUMN_NOTE]; /* copies of the members of the cloud (cloud.h) */
     size_t out_of_range[POINT_VALUE_KINDS];
 } inspection;
 

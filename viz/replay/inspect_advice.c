@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* inspect_advice.c - see inspect_advice.h.
+/* inspect_advice.c - measures which leaf capacity and which epsilon make searches faster.
  *
- * The targets lie near points of the cloud, because that is where most programs search: each is a random point, moved
- * by up to the distance of its eighth neighbour. The tree's exact answers are the truth. Times are medians of several
- * rounds of processor time; differences below a tenth are noise on most machines, and no reason for advice. */
+ * A target is a place whose neighbours are searched. Most programs search near their points, so each target is a random
+ * point of the cloud, moved by up to the distance of its eighth neighbour. An approximate answer (epsilon above 0) is
+ * compared with the tree's exact answer. Each time is the median of several rounds, in processor time. Differences
+ * below a tenth are noise on most machines, so they change no advice. */
 #include "inspect_advice.h"
 
 #include <math.h>
@@ -17,15 +18,15 @@
 
 enum { TARGETS = 10000, EIGHT = 8, ROUNDS = 5 };
 
-#define WORTH 1.1 /* a setting is advised if it makes searches this many times as fast */
+#define WORTH 1.1 /* a setting is advised only if it makes searches at least this many times as fast */
 
-/* What is measured on. */
+/* The input of all measurements. */
 typedef struct bench {
     const octree *tree;
     octree_point *points;
     size_t count;
     double (*targets)[3];
-    octree_neighbor (*truth)[EIGHT]; /* of each target */
+    octree_neighbor (*truth)[EIGHT]; /* truth[i]: the exact nearest neighbours of targets[i] */
 } bench;
 
 static double processor_ns(void)
@@ -43,7 +44,8 @@ static int compare_numbers(const void *a, const void *b)
 
 /* ---- The targets -------------------------------------------------------------------------------------------- */
 
-/* A place near a random point of the cloud. */
+/* Choose a place near a random point of the cloud: the point, moved along each axis by up to the distance of its eighth
+ * neighbour. */
 static void choose_target(const bench *b, uint64_t *random, double target[3])
 {
     const octree_point *p = &b->points[octree_random(random) % b->count];
@@ -56,14 +58,14 @@ static void choose_target(const bench *b, uint64_t *random, double target[3])
         target[axis] += (2 * octree_random_unit(random) - 1) * near[count - 1].distance;
 }
 
-static void bench_close(bench *b)
+static void bench_release(bench *b)
 {
     free(b->points);
     free(b->targets);
     free(b->truth);
 }
 
-static bool bench_open(bench *b, const octree *tree)
+static bool bench_prepare(bench *b, const octree *tree)
 {
     const octree_box world = octree_definition(tree).world;
     uint64_t random = 1;
@@ -85,8 +87,8 @@ static bool bench_open(bench *b, const octree *tree)
 
 /* ---- Measuring ---------------------------------------------------------------------------------------------- */
 
-/* Nanoseconds of one search for k neighbours: the mean over all targets. */
-static double time_round(const octree *tree, const bench *b, size_t k, double epsilon)
+/* Returns the nanoseconds of one search for k neighbours: the mean over all targets. */
+static double measure_round_ns(const octree *tree, const bench *b, size_t k, double epsilon)
 {
     const octree_search how = {.epsilon = epsilon};
     octree_neighbor found[EIGHT];
@@ -103,21 +105,21 @@ static double find_median(double rounds[ROUNDS])
     return rounds[ROUNDS / 2];
 }
 
-static double time_search(const octree *tree, const bench *b, size_t k)
+static double measure_search_ns(const octree *tree, const bench *b, size_t k)
 {
     double rounds[ROUNDS];
     for (int round = 0; round < ROUNDS; round++)
-        rounds[round] = time_round(tree, b, k, 0);
+        rounds[round] = measure_round_ns(tree, b, k, 0);
     return find_median(rounds);
 }
 
-/* In turn, so that a busy machine slows all of them. */
-static void time_epsilons(const bench *b, epsilon_row rows[ADVICE_EPSILONS])
+/* Measure all epsilons in each round, so that a busy machine slows all of them alike. */
+static void measure_epsilon_times(const bench *b, epsilon_row rows[ADVICE_EPSILONS])
 {
     double rounds[ADVICE_EPSILONS][ROUNDS];
     for (int round = 0; round < ROUNDS; round++)
         for (int i = 0; i < ADVICE_EPSILONS; i++)
-            rounds[i][round] = time_round(b->tree, b, EIGHT, rows[i].epsilon);
+            rounds[i][round] = measure_round_ns(b->tree, b, EIGHT, rows[i].epsilon);
     for (int i = 0; i < ADVICE_EPSILONS; i++)
         rows[i].eight_ns = find_median(rounds[i]);
 }
@@ -136,14 +138,14 @@ static bool measure_capacity(const bench *b, capacity_row *row)
     ok = ok && octree_statistics(tree, &stats) == OCTREE_OK;
     if (ok) {
         row->bytes = (double)stats.memory / (double)b->count;
-        row->one_ns = time_search(tree, b, 1);
-        row->eight_ns = time_search(tree, b, EIGHT);
+        row->one_ns = measure_search_ns(tree, b, 1);
+        row->eight_ns = measure_search_ns(tree, b, EIGHT);
     }
     octree_destroy(tree);
     return ok;
 }
 
-static void compare_answers(const bench *b, epsilon_row *row)
+static void measure_accuracy(const bench *b, epsilon_row *row)
 {
     const octree_search how = {.epsilon = row->epsilon};
     size_t ranks = 0, right = 0, count;
@@ -164,26 +166,26 @@ static void compare_answers(const bench *b, epsilon_row *row)
     row->true_share = (double)right / (double)ranks;
 }
 
-/* The time of both kinds of search. */
-static double cost_of(const capacity_row *row)
+/* Returns the time of one search for the nearest point plus one for the 8 nearest points. */
+static double sum_search_ns(const capacity_row *row)
 {
     return row->one_ns + row->eight_ns;
 }
 
-static void advise(inspect_advice *a, size_t present)
+static void choose_advice(inspect_advice *a, size_t present)
 {
     const capacity_row *best = &a->capacities[0], *own = NULL;
     for (int i = 0; i < ADVICE_CAPACITIES; i++) {
-        best = cost_of(&a->capacities[i]) < cost_of(best) ? &a->capacities[i] : best;
+        best = sum_search_ns(&a->capacities[i]) < sum_search_ns(best) ? &a->capacities[i] : best;
         own = a->capacities[i].capacity == present ? &a->capacities[i] : own;
     }
-    a->capacity = own && cost_of(own) < WORTH * cost_of(best) ? present : best->capacity;
+    a->capacity = own && sum_search_ns(own) < WORTH * sum_search_ns(best) ? present : best->capacity;
     for (int i = ADVICE_EPSILONS - 1; i > 0; i--)
         if (a->epsilons[i].eight_ns * WORTH < a->epsilons[0].eight_ns)
             a->epsilon = a->epsilons[i].epsilon;
 }
 
-/* The capacities that are measured: powers of two, the one closest to the tree's replaced by the tree's. */
+/* Set the capacities to measure: powers of two. The tree's own capacity replaces the one that is closest to it. */
 static void choose_capacities(inspect_advice *a, size_t present)
 {
     static const size_t capacities[ADVICE_CAPACITIES] = {8, 16, 32, 64, 128, 256};
@@ -197,7 +199,7 @@ static void choose_capacities(inspect_advice *a, size_t present)
     a->capacities[nearest].capacity = present;
 }
 
-static bool measure(const bench *b, const watcher *watch, inspect_advice *a)
+static bool measure_all(const bench *b, const watcher *watch, inspect_advice *a)
 {
     static const double epsilons[ADVICE_EPSILONS] = {0, 0.1, 0.5, 1, 2};
     for (int i = 0; i < ADVICE_CAPACITIES; i++) {
@@ -207,9 +209,9 @@ static bool measure(const bench *b, const watcher *watch, inspect_advice *a)
     }
     for (int i = 0; i < ADVICE_EPSILONS; i++) {
         a->epsilons[i].epsilon = epsilons[i];
-        compare_answers(b, &a->epsilons[i]);
+        measure_accuracy(b, &a->epsilons[i]);
     }
-    time_epsilons(b, a->epsilons);
+    measure_epsilon_times(b, a->epsilons);
     return true;
 }
 
@@ -222,15 +224,15 @@ bool inspect_advise(const inspection *i, const watcher *watch, inspect_advice *a
         return error_set(error, "--advise needs at least %d points in the tree; it has %zu", ADVICE_LEAST_POINTS,
                          octree_count(i->tree));
     choose_capacities(advice, present);
-    const bool ok = bench_open(&b, i->tree) && measure(&b, watch, advice);
-    bench_close(&b);
-    advise(advice, present);
+    const bool ok = bench_prepare(&b, i->tree) && measure_all(&b, watch, advice);
+    bench_release(&b);
+    choose_advice(advice, present);
     return ok || error_set(error, "out of memory");
 }
 
 /* ---- Printing ----------------------------------------------------------------------------------------------- */
 
-static void print_sentence(const inspect_advice *a, size_t present, FILE *out)
+static void print_advice_sentence(const inspect_advice *a, size_t present, FILE *out)
 {
     if (a->capacity == present)
         fprintf(out, "advice: keep capacity %zu, no other one saves a tenth of the time", present);
@@ -265,7 +267,7 @@ static void print_text(const inspect_advice *a, const inspection *i, const char 
         fprintf(out, "%10g  %12.0f  %7.2f %%  %20.4f  %5.2f\n", e->epsilon, e->eight_ns, 100 * e->true_share,
                 e->mean_ratio, e->worst_ratio);
     }
-    print_sentence(a, present, out);
+    print_advice_sentence(a, present, out);
 }
 
 static void write_json(const inspect_advice *a, const inspection *i, const char *name, FILE *out)

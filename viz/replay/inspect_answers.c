@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* inspect_answers.c - queries the tree of a cloud and prints the answers, by the tables of octree/query.h. */
+/* inspect_answers.c - queries the tree of a cloud and prints the answers. The tables of octree/query.h say which
+ * members each kind of query has. */
 #include "inspect_answers.h"
 #include "inspect.h"
 #include "json_write.h"

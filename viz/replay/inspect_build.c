@@ -30,14 +30,14 @@ enum {
     CELLS = 1 << 3 * LEVELS
 };
 
-/* The cells of the world, and the portion to which each cell belongs. */
+/* The cells of the world, and the portion to which each cell belongs: a group of cells whose points are inserted at
+ * once. */
 typedef struct portions {
     double min[3], scale[3];
     /* spread[k]: the bits of cell coordinate k, with two zero bits between neighbouring bits. */
     unsigned spread[SIDE];
     size_t points[CELLS];                 /* number of points in each cell */
-    unsigned char portion_of_cell[CELLS]; /* portion_of_cell[c]: the portion, a group of cells that is inserted at once,
-                                             of cell c */
+    unsigned char portion_of_cell[CELLS]; /* portion_of_cell[c]: the number of the portion of cell c */
     size_t ends[MOST_PORTIONS];           /* ends[i]: index of the first point after portion i */
     unsigned count;
 } portions;

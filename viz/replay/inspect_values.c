@@ -17,7 +17,7 @@ typedef struct value_summary {
     float least, most; /* the smallest and the largest intensity of all points */
 } value_summary;
 
-static void count_intensity(value_summary *s, float intensity)
+static void widen_intensity_range(value_summary *s, float intensity)
 {
     const bool first = s->counts[POINT_INTENSITY] == 1;
     if (first || intensity < s->least)
@@ -33,7 +33,7 @@ static value_summary summarize_values(const point_values *v)
         for (int kind = 0; kind < POINT_VALUE_KINDS; kind++)
             s.counts[kind] += v->rows[row].has[kind];
         if (v->rows[row].has[POINT_INTENSITY])
-            count_intensity(&s, v->rows[row].intensity);
+            widen_intensity_range(&s, v->rows[row].intensity);
     }
     return s;
 }

@@ -28,7 +28,7 @@
 /* ---- The frame and its recording ---------------------------------------------------------------------------- */
 
 /* Read the frame and check that the pixel lies inside it. */
-static bool read_picture(pick *p, image *frame, octreel_error *error)
+static bool read_frame_and_check_pixel(pick *p, image *frame, octreel_error *error)
 {
     if (!image_read_png(p->path, frame, error))
         return false;
@@ -67,9 +67,9 @@ static bool compose_scene_again(pick *p, replay *r, octreel_error *error)
 
 /* ---- The pixel ---------------------------------------------------------------------------------------------- */
 
-/* True if an element covers one of the samples of the pixel (x, y). `numbers` has the element number of each sample; 0:
- * no element. */
-static bool is_drawn(const uint32_t *numbers, size_t samples, size_t width, int x, int y)
+/* True if an element covers one of the samples of the pixel (x, y). `numbers` has the element number of each sample of
+ * the picture; 0: no element. A pixel has `samples` x `samples` samples. */
+static bool is_pixel_drawn(const uint32_t *numbers, size_t samples, size_t width, int x, int y)
 {
     bool drawn = false;
     for (size_t i = 0; i < samples * samples; i++)
@@ -85,7 +85,7 @@ static int clamp(int value, int low, int high)
 
 /* Find the drawn pixel that is nearest to the requested pixel. If several pixels are at the same distance, the first
  * one in row order is taken. */
-static void find_nearest(pick *p, const uint32_t *numbers, size_t samples)
+static void find_nearest_drawn_pixel(pick *p, const uint32_t *numbers, size_t samples)
 {
     const int left = clamp(p->asked[0] - p->radius, 0, p->width), top = clamp(p->asked[1] - p->radius, 0, p->height);
     const int right = clamp(p->asked[0] + p->radius + 1, 0, p->width);
@@ -94,7 +94,7 @@ static void find_nearest(pick *p, const uint32_t *numbers, size_t samples)
     for (int y = top; y < bottom; y++) {
         for (int x = left; x < right; x++) {
             const int64_t dx = x - p->asked[0], dy = y - p->asked[1], square = dx * dx + dy * dy;
-            if (square >= best || !is_drawn(numbers, samples, (size_t)p->width, x, y))
+            if (square >= best || !is_pixel_drawn(numbers, samples, (size_t)p->width, x, y))
                 continue;
             best = square;
             p->pixel[0] = x;
@@ -103,14 +103,14 @@ static void find_nearest(pick *p, const uint32_t *numbers, size_t samples)
     }
 }
 
-static bool move_to_nearest(pick *p, renderer *r, const scene *s, octreel_error *error)
+static bool move_to_nearest_drawn_pixel(pick *p, renderer *r, const scene *s, octreel_error *error)
 {
     const size_t samples = (size_t)s->view.aa;
     uint32_t *numbers = malloc((size_t)p->width * (size_t)p->height * samples * samples * sizeof *numbers);
     bool ok = numbers || error_no_memory(error);
     ok = ok && renderer_find_element_numbers(r, s, numbers, error);
     if (ok)
-        find_nearest(p, numbers, samples);
+        find_nearest_drawn_pixel(p, numbers, samples);
     free(numbers);
     return ok;
 }
@@ -126,7 +126,7 @@ static void copy_foreign_node(pick_element *e)
 }
 
 /* True if an earlier element of the pick, which is drawn above, already explains this node. */
-static bool is_node_known(const pick *p, octree_address node)
+static bool is_node_explained(const pick *p, octree_address node)
 {
     for (size_t i = 0; i < p->count; i++)
         if (p->elements[i].explained && p->elements[i].subject.node.address == node)
@@ -141,7 +141,7 @@ static bool explain_node(const pick *p, pick_element *e, const playback *from, o
     text_stream s;
     const octree_node *node = &e->subject.node;
     if (!e->subject.has_node || e->subject.gone || !has_node_reason(from->game, node) ||
-        is_node_known(p, node->address))
+        is_node_explained(p, node->address))
         return true;
     const bool found = node_reason_find(&e->reason, from->game, &from->history.changes, node);
     if (text_stream_begin(&s)) {
@@ -183,7 +183,7 @@ bool pick_scene(pick *p, const playback *from, renderer *r, octreel_error *error
         return false;
     if (p->count || p->radius == 0)
         return true;
-    return move_to_nearest(p, r, &from->scene, error) && list_elements_at_pixel(p, r, from, error);
+    return move_to_nearest_drawn_pixel(p, r, &from->scene, error) && list_elements_at_pixel(p, r, from, error);
 }
 
 static bool pick_pixel(pick *p, replay *from, const pick_options *options, octreel_error *error)
@@ -199,7 +199,7 @@ bool pick_frame(const char *path, const pick_options *options, pick *found, octr
     replay r = {.ticks = 0};
     image frame = {0};
     char *folder = path_parent_folder(path);
-    const bool ok = (folder || error_no_memory(error)) && read_picture(found, &frame, error) &&
+    const bool ok = (folder || error_no_memory(error)) && read_frame_and_check_pixel(found, &frame, error) &&
                     frame_read_tick(path, &found->tick, error) && check_recording_beside(found, folder, error) &&
                     replay_open(&r, folder, options->max_ticks, error) && compose_scene_again(found, &r, error) &&
                     pick_pixel(found, &r, options, error);
@@ -225,13 +225,13 @@ void pick_release(pick *p)
 
 #define COLOR_TEXT 8
 
-static char *print_color(const pick *p, char text[COLOR_TEXT])
+static char *format_color(const pick *p, char text[COLOR_TEXT])
 {
     snprintf(text, COLOR_TEXT, "#%02x%02x%02x", p->color.r, p->color.g, p->color.b);
     return text;
 }
 
-static double find_distance(const pick *p)
+static double distance_from_asked_pixel(const pick *p)
 {
     const double dx = p->pixel[0] - p->asked[0], dy = p->pixel[1] - p->asked[1];
     return sqrt(dx * dx + dy * dy);
@@ -239,7 +239,7 @@ static double find_distance(const pick *p)
 
 /* True if the pixel lies between two dashes of a dashed line. The renderer reports such a pixel as painted, but without
  * a colour. */
-static bool is_element_beside_pixel(const pick_element *e)
+static bool is_in_gap_of_dashed_line(const pick_element *e)
 {
     return e->touch.painted > 0 && e->touch.color == 0 && e->kind != SCENE_PANEL;
 }
@@ -254,11 +254,11 @@ static void print_heading(FILE *out, const pick *p)
     if (p->count == 0)
         fprintf(out, ": nothing is drawn there, nor within %d pixel%s\n", p->radius,
                 plural_ending((uint64_t)p->radius));
-    else if (find_distance(p) > 0)
-        fprintf(out, ": nothing is drawn there; %.1f pixels away, at (%d, %d), %s:\n", find_distance(p), p->pixel[0],
-                p->pixel[1], print_color(p, color));
+    else if (distance_from_asked_pixel(p) > 0)
+        fprintf(out, ": nothing is drawn there; %.1f pixels away, at (%d, %d), %s:\n", distance_from_asked_pixel(p),
+                p->pixel[0], p->pixel[1], format_color(p, color));
     else
-        fprintf(out, ", %s:\n", print_color(p, color));
+        fprintf(out, ", %s:\n", format_color(p, color));
 }
 
 static const char *element_text(const pick_element *e)
@@ -284,7 +284,7 @@ static void print_element(FILE *out, const pick *p, const pick_element *e)
     fputs(e->touch.shown ? "  " : "    over ", out);
     if (e->touch.shown && p->samples > 1)
         fprintf(out, "%d of %d samples: ", e->touch.shown, p->samples);
-    fprintf(out, "%s%s%s\n", element_text(e), is_element_beside_pixel(e) ? " (in a gap of its dashed line)" : "",
+    fprintf(out, "%s%s%s\n", element_text(e), is_in_gap_of_dashed_line(e) ? " (in a gap of its dashed line)" : "",
             closeup_words(e));
 }
 
@@ -373,7 +373,7 @@ static void write_element(json_writer *w, const pick_element *e)
     json_write_text_member(w, "layer", e->layer);
     json_write_integer_member(w, "shown", (uint64_t)e->touch.shown);
     json_write_integer_member(w, "painted", (uint64_t)e->touch.painted);
-    if (is_element_beside_pixel(e))
+    if (is_in_gap_of_dashed_line(e))
         json_write_bool_member(w, "gap", true);
     if (e->in_closeup)
         json_write_bool_member(w, "closeup", true);
@@ -397,7 +397,7 @@ void pick_print_json(FILE *out, const pick *p)
         json_write_key(w, "pixel");
         json_write_null(w);
     }
-    json_write_text_member(w, "color", print_color(p, color));
+    json_write_text_member(w, "color", format_color(p, color));
     json_write_integer_member(w, "samples", (uint64_t)p->samples);
     json_begin_array_member(w, "elements");
     for (size_t i = 0; i < p->count; i++)
@@ -414,7 +414,7 @@ void pick_print(FILE *out, const pick *p, bool json)
 
 /* ---- An element by its name ---------------------------------------------------------------------------------- */
 
-/* Returns the text behind `word` and a blank if the name begins with them, or null. */
+/* If the name begins with `word` and a blank, returns the text after the blank. Otherwise returns null. */
 static const char *skip_word(const char *name, const char *word)
 {
     const size_t length = strlen(word);
@@ -428,7 +428,7 @@ static bool parse_id(const char *text, uint64_t *id)
     return text && *text >= '0' && *text <= '9' && *end == 0;
 }
 
-/* Describe the element that a name means. If there is none, the description stays empty. */
+/* Describe the element that has this name. If the tick has no such element, *subject stays empty. */
 static void describe_named(element_subject *subject, const char *name, const playback *from)
 {
     description d = {from->game, octree_game_tick(from->game), &from->history.heat, subject, 0};
@@ -458,21 +458,22 @@ static void write_contents(json_writer *w, const octree_node *node)
 }
 
 /* Write the address of the leaf in which a point lies. Cost: O(depth). */
-static void write_leaf(json_writer *w, const octree *tree, const double at[3])
+static void write_leaf_address(json_writer *w, const octree *tree, const double at[3])
 {
     const octree_box world = octree_definition(tree).world;
     char path[OCTREE_ADDRESS_TEXT];
     octree_node node = {.leaf = true};
     octree_address address = OCTREE_ROOT;
     while (octree_node_at(tree, address, &node) == OCTREE_OK && !node.leaf) {
-        const octree_box last = octree_cell_box(&world, address << 3 | 7); /* its lower corner is on the three planes */
+        /* the lower corner of the last octant is the centre of the node */
+        const octree_box last = octree_cell_box(&world, address << 3 | 7);
         address = address << 3 | (at[0] >= last.min[0] ? 4u : 0u) | (at[1] >= last.min[1] ? 2u : 0u) |
                   (at[2] >= last.min[2] ? 1u : 0u);
     }
     json_write_text_member(w, "leaf", octree_address_format(address, path));
 }
 
-static void write_values(json_writer *w, const point_value *value)
+static void write_point_values(json_writer *w, const point_value *value)
 {
     char color[COLOR_TEXT];
     if (value->has[POINT_COLOR]) {
@@ -501,8 +502,8 @@ bool pick_print_named(FILE *out, const char *name, const playback *from, octreel
             write_contents(w, &e.subject.node);
         if (e.subject.has_point) {
             const point_value value = point_values_get(from->values, e.subject.point.id);
-            write_leaf(w, octree_game_tree(from->game), e.subject.point.position);
-            write_values(w, &value);
+            write_leaf_address(w, octree_game_tree(from->game), e.subject.point.position);
+            write_point_values(w, &value);
         }
         json_write_end_object(w);
     }

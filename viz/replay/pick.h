@@ -21,7 +21,7 @@ typedef struct pick_options {
     uint64_t max_ticks; /* maximum number of ticks: a longer session is refused; 0: SESSION_MOST_PLAYED */
 } pick_options;
 
-/* An element at a pixel. `touch` describes which samples of the pixel it covers. */
+/* An element at a pixel. `touch` describes the samples of the pixel that the element covers. */
 typedef struct pick_element {
     draw_cover touch;
     scene_kind kind;
@@ -42,8 +42,8 @@ typedef struct pick {
     const char *path; /* path of the frame; the caller owns it */
     uint64_t tick;
     int width, height;
-    int samples; /* samples per pixel */
-    int asked[2];
+    int samples;  /* samples per pixel */
+    int asked[2]; /* the requested pixel, x and y */
     int pixel[2]; /* the pixel that is described: `asked`, or the nearest drawn pixel */
     int radius;
     image_color color;      /* the colour of the frame at `pixel` */

@@ -3,7 +3,7 @@
  *
  *   replay r;
  *   if (replay_open(&r, "frames", 0, &error) && replay_play_up_to(&r, 41, &error) &&
- * playback_compose_scene(&r.playback, &error))
+ *       playback_compose_scene(&r.playback, &error))
  *       ... octree_game_tick(r.playback.game), r.playback.scene ...
  *   replay_close(&r);
  */

@@ -29,7 +29,8 @@ typedef struct verifying {
     const verify_options *options;
     replay replay;
     film_share share;        /* the ticks to verify, all of them or the share of one process */
-    uint64_t filmed_session; /* the digest of the session that the recording's first frame contains */
+    uint64_t filmed_session; /* the session digest in the recording's first frame; without this frame, the digest of
+                                session.json */
     line_reader lines;
     bool stopped; /* true: verification has stopped at the first tick that differs */
     verify_report *report;
@@ -49,7 +50,7 @@ static verify_finding *add_finding(verifying *v, verify_kind kind, uint64_t tick
 
 /* ---- Before the first tick ---------------------------------------------------------------------------------- */
 
-static void check_session(verifying *v)
+static void check_session_digest(verifying *v)
 {
     if (!frame_read_session_digest(v->folder, 0, &v->filmed_session) || v->filmed_session == v->replay.session_digest)
         return;
@@ -60,7 +61,7 @@ static void check_session(verifying *v)
         ->has_tick = false;
 }
 
-static void check_size(verifying *v, const char *path)
+static void check_frame_size(verifying *v, const char *path)
 {
     const view *wanted = &v->replay.film.view;
     octreel_error ignored;
@@ -90,8 +91,8 @@ static bool check_first_frame(verifying *v, octreel_error *error)
         return error_no_memory(error);
     errno = 0;
     if (is_file(path)) {
-        check_session(v);
-        check_size(v, path);
+        check_session_digest(v);
+        check_frame_size(v, path);
     }
     free(path);
     return check_system_resources(error);
@@ -109,7 +110,7 @@ static bool check_line(verifying *v, const film_step *step, octreel_error *error
     const tick_extras extras = {.frame = step->filmed ? frame_print_name(step->tick, name) : NULL,
                                 .scene_digest = p->extras.scene_digest};
     const expected_line expected = {step->line, step->size, octree_game_tick(p->game), &extras};
-    const line_state state = line_reader_next(&v->lines, line_limit(&expected));
+    const line_state state = line_reader_next(&v->lines, line_size_limit(&expected));
     verify_finding differs = {.kind = VERIFY_LINES, .has_tick = true, .tick = step->tick};
     if (state == LINE_TROUBLE)
         return error_set(error, "%s/ticks.jsonl: cannot be read: %s", v->folder, strerror(errno));
@@ -129,7 +130,7 @@ static bool check_line(verifying *v, const film_step *step, octreel_error *error
     return true;
 }
 
-static void report_pixels(verifying *v, const char *path, uint64_t tick)
+static void report_pixel_difference(verifying *v, const char *path, uint64_t tick)
 {
     image_tally unlike = {0};
     octreel_error ignored;
@@ -147,7 +148,7 @@ static void report_pixels(verifying *v, const char *path, uint64_t tick)
 }
 
 /* Report a wrong frame. `drawn` is true if the pixels of the frame are correct and something else is wrong. */
-static void report_frame(verifying *v, const char *sentence, uint64_t tick, bool drawn)
+static void report_wrong_frame(verifying *v, const char *sentence, uint64_t tick, bool drawn)
 {
     const size_t length = strlen(v->folder);
     const bool inside = strncmp(sentence, v->folder, length) == 0 && sentence[length] == '/';
@@ -168,7 +169,7 @@ static bool check_readable(const char *path, octreel_error *error)
 }
 
 /* Returns true if the pixel digest that a frame contains is the digest of the pixels that were drawn now. */
-static bool is_drawn(const verifying *v, const frame_origin *origin)
+static bool is_pixel_digest_correct(const verifying *v, const frame_origin *origin)
 {
     return origin->pixels == image_digest_with(origin->kind, &v->replay.playback.picture.frame);
 }
@@ -190,9 +191,9 @@ static bool check_frame(verifying *v, const film_step *step, octreel_error *erro
     else if (!check_readable(path, error))
         v->stopped = ok = false;
     else if (!frame_check_tick(v->folder, &origin, &unlike))
-        report_frame(v, unlike.text, step->tick, is_drawn(v, &origin));
-    else if (!is_drawn(v, &origin))
-        report_pixels(v, path, step->tick);
+        report_wrong_frame(v, unlike.text, step->tick, is_pixel_digest_correct(v, &origin));
+    else if (!is_pixel_digest_correct(v, &origin))
+        report_pixel_difference(v, path, step->tick);
     else
         v->stopped = false;
     free(path);
@@ -390,8 +391,9 @@ static bool verify_by_jobs(verifying *v, unsigned jobs, octreel_error *error)
 {
     verifier *others = calloc(jobs, sizeof *others);
     bool ok = others || error_no_memory(error);
+    /* llvmpipe must draw without threads, because each process uses one core, as in octreel record */
     if (jobs > 1)
-        setenv("LP_NUM_THREADS", "0", 0); /* as in record, whose jobs use one core each */
+        setenv("LP_NUM_THREADS", "0", 0);
     for (unsigned i = jobs; ok && i-- > 0;) {
         v->share = (film_share){.first = v->replay.ticks * i / jobs, .last = v->replay.ticks * (i + 1) / jobs};
         ok = i > 0 ? start_verifier(v, &others[i], error) : verify_share(v, NULL, error);

@@ -77,7 +77,8 @@ static const char *format_value(const json_t *value, char text[VALUE_TEXT])
 }
 
 /* Report that the found value differs from the expected value. */
-static void report_values(const json_place *at, const json_t *found, const json_t *expected, verify_finding *finding)
+static void report_different_values(const json_place *at, const json_t *found, const json_t *expected,
+                                    verify_finding *finding)
 {
     char place[128], texts[2][VALUE_TEXT];
     json_place_format(at, place, sizeof place);
@@ -89,7 +90,8 @@ static void report_values(const json_place *at, const json_t *found, const json_
 
 static bool find_difference(const json_place *at, const json_t *found, const json_t *expected, verify_finding *finding);
 
-static bool compare_arrays(const json_place *at, const json_t *found, const json_t *expected, verify_finding *finding)
+static bool find_array_difference(const json_place *at, const json_t *found, const json_t *expected,
+                                  verify_finding *finding)
 {
     const size_t a = json_array_size(found), b = json_array_size(expected);
     for (size_t i = 0; i < a || i < b; i++) {
@@ -100,9 +102,10 @@ static bool compare_arrays(const json_place *at, const json_t *found, const json
     return false;
 }
 
-/* Compare two objects. The members of the expected object are compared first, in their order. Then members that only
- * the found object has are reported. */
-static bool compare_objects(const json_place *at, const json_t *found, const json_t *expected, verify_finding *finding)
+/* Report the first difference between two objects. Returns false if they are equal. The members of the expected object
+ * are compared first, in their order, and then the members that only the found object has. */
+static bool find_object_difference(const json_place *at, const json_t *found, const json_t *expected,
+                                   verify_finding *finding)
 {
     const json_t *const both[] = {expected, found};
     for (int i = 0; i < 2; i++) {
@@ -127,16 +130,16 @@ static bool find_difference(const json_place *at, const json_t *found, const jso
     if (json_equal(found, expected))
         return false;
     if (json_is_object(found) && json_is_object(expected))
-        return compare_objects(at, found, expected, finding);
+        return find_object_difference(at, found, expected, finding);
     if (json_is_array(found) && json_is_array(expected))
-        return compare_arrays(at, found, expected, finding);
-    report_values(at, found, expected, finding);
+        return find_array_difference(at, found, expected, finding);
+    report_different_values(at, found, expected, finding);
     return true;
 }
 
 /* ---- Comparing lines ---------------------------------------------------------------------------------------- */
 
-static void report_line(verify_finding *finding, const char *what)
+static void report_line_difference(verify_finding *finding, const char *what)
 {
     finding->kind = VERIFY_LINES;
     snprintf(finding->text, sizeof finding->text, "%s", what);
@@ -159,11 +162,11 @@ static bool report_other_tick(const json_t *found, uint64_t tick, verify_finding
 static void compare_lines(const json_t *found, const json_t *expected, uint64_t tick, verify_finding *finding)
 {
     if (!json_is_object(found)) {
-        report_line(finding, "its line in ticks.jsonl is not a JSON object");
+        report_line_difference(finding, "its line in ticks.jsonl is not a JSON object");
     } else if (!report_other_tick(found, tick, finding)) {
         finding->kind = VERIFY_FACTS;
-        if (!compare_objects(NULL, found, expected, finding))
-            report_line(
+        if (!find_object_difference(NULL, found, expected, finding))
+            report_line_difference(
                 finding,
                 "its line in ticks.jsonl has the same values, but is formatted differently than octreel formats it");
         else if (strcmp(finding->fact, "scene") == 0)
@@ -181,7 +184,7 @@ static bool line_equals(const line_reader *found, const char *text, size_t size)
 #define LINE_FACTOR 16
 #define LINE_SLACK 65536
 
-size_t line_limit(const expected_line *expected)
+size_t line_size_limit(const expected_line *expected)
 {
     const octree_tick *tick = expected->tick;
     return LINE_FACTOR * expected->size + LINE_SLACK + (tick->split_count + tick->merge_count) * OCTREE_ADDRESS_TEXT;
@@ -217,7 +220,7 @@ bool line_matches(const line_reader *found, const expected_line *expected, verif
     if (a)
         compare_lines(a, b, expected->tick->number, finding);
     else
-        report_line(finding, "its line in ticks.jsonl is not JSON");
+        report_line_difference(finding, "its line in ticks.jsonl is not JSON");
     json_decref(a);
     json_decref(b);
     return false;

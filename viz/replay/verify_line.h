@@ -14,7 +14,7 @@ typedef struct line_reader {
 } line_reader;
 
 typedef enum line_state {
-    LINE_WHOLE,
+    LINE_WHOLE,   /* the line is complete, with its newline */
     LINE_TORN,    /* the file ends in the middle of the line, before its newline */
     LINE_LONG,    /* the line is longer than the limit; the part beyond the limit is not read */
     LINE_NONE,    /* the end of the file: no line is left */
@@ -25,7 +25,7 @@ typedef enum line_state {
 bool line_reader_open(line_reader *reader, const char *folder, octreel_error *error);
 void line_reader_close(line_reader *reader);
 
-/* Skip lines. */
+/* Skip the next `count` lines. */
 void line_reader_skip(line_reader *reader, uint64_t count);
 
 /* Read the next line of ticks.jsonl. `limit` is the maximum number of bytes to read. */
@@ -41,7 +41,7 @@ typedef struct expected_line {
 
 /* Returns the maximum number of bytes to read of a line. The limit allows for lines of earlier versions, which are
  * longer because they list all nodes that split or merged. */
-size_t line_limit(const expected_line *expected);
+size_t line_size_limit(const expected_line *expected);
 
 /* Returns true if a line equals the expected line, or the line that an earlier version would have written. Otherwise
  * sets the members kind, fact and text of the finding. */

@@ -8,8 +8,8 @@
 #include <string.h>
 
 static const struct {
-    const char *name; /* the name of the kind in JSON */
-    const char *words;
+    const char *name;  /* the name of the kind in JSON */
+    const char *words; /* the text that follows "tick 3 differs" */
 } kinds[VERIFY_KINDS] = {
 #define VERIFY_ROW(name, word, words) [VERIFY_##name] = {word, words},
     VERIFY_KIND_MAP(VERIFY_ROW)

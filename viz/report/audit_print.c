@@ -150,8 +150,8 @@ void audit_print_kind(FILE *out, const audit_verdict *v, int of)
             share_text(audit_recall(kind), recall));
     if (about->neighbors)
         fprintf(out, ", ratio of distances %s at worst, 99th percentile %s",
-                audit_ratio_text(audit_ratio(kind, 1), ratios[0]),
-                audit_ratio_text(audit_ratio(kind, 0.99), ratios[1]));
+                audit_ratio_text(audit_ratio_percentile(kind, 1), ratios[0]),
+                audit_ratio_text(audit_ratio_percentile(kind, 0.99), ratios[1]));
     else
         fprintf(out, ", %" PRIu64 " missing, %" PRIu64 " extra", kind->missing, kind->extra);
     if (kind->wrong)
@@ -280,8 +280,8 @@ static void write_kind(json_writer *w, const audit_verdict *v, int of)
     json_write_integer_member(w, "missing", kind->missing);
     json_write_integer_member(w, "extra", kind->extra);
     if (about->neighbors) {
-        json_write_number_member(w, "worst_ratio", audit_ratio(kind, 1));
-        json_write_number_member(w, "ratio_99", audit_ratio(kind, 0.99));
+        json_write_number_member(w, "worst_ratio", audit_ratio_percentile(kind, 1));
+        json_write_number_member(w, "ratio_99", audit_ratio_percentile(kind, 0.99));
     }
     if (kind->wrong)
         json_write_integer_member(w, "first_wrong_tick", kind->first_wrong);
