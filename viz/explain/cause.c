@@ -32,7 +32,7 @@ static bool create_game(playing *p, int side, const octree_session *session, oct
 
 /* ---- One tick ------------------------------------------------------------------------------------------------ */
 
-static bool do_current_trees_differ(const playing *p)
+static bool do_tree_contents_differ(const playing *p)
 {
     cause_facts facts = {0};
     if (p->same_rules)
@@ -43,12 +43,13 @@ static bool do_current_trees_differ(const playing *p)
     return unlike;
 }
 
+/* Return whether the trees differ. They are compared only if one of them has changed since the last call. */
 static bool do_trees_differ(playing *p)
 {
     const uint64_t versions[2] = {octree_version(octree_game_tree(p->games[0])),
                                   octree_version(octree_game_tree(p->games[1]))};
     if (versions[0] != p->versions[0] || versions[1] != p->versions[1])
-        p->unlike = do_current_trees_differ(p);
+        p->unlike = do_tree_contents_differ(p);
     p->versions[0] = versions[0];
     p->versions[1] = versions[1];
     return p->unlike;
@@ -83,7 +84,7 @@ static bool has_same_wrong_answers(const octree_tick *a, const octree_tick *b)
     return true;
 }
 
-static void count_wrong_answers(cause_span wrong[WRONG_CHANGES], const octree_tick *a, const octree_tick *b)
+static void count_wrong_answer_changes(cause_span wrong[WRONG_CHANGES], const octree_tick *a, const octree_tick *b)
 {
     size_t worst;
     const size_t before = judgement_count_wrong(a->answers, a->answer_count, &worst);
@@ -96,37 +97,38 @@ static void count_wrong_answers(cause_span wrong[WRONG_CHANGES], const octree_ti
         extend_span(&wrong[WRONG_OTHER], 1, a->number);
 }
 
-/* Return whether the states of the games differ, so that later ticks may differ, too. */
-static bool do_games_differ(const playing *p, bool trees)
+/* Return whether the states of the games differ, so that later ticks may differ, too. The caller has compared the
+ * trees. */
+static bool do_games_differ(const playing *p, bool trees_differ)
 {
     const octree_tick *a = octree_game_tick(p->games[0]), *b = octree_game_tick(p->games[1]);
-    return trees || a->has_player != b->has_player || memcmp(a->player, b->player, sizeof a->player) != 0 ||
+    return trees_differ || a->has_player != b->has_player || memcmp(a->player, b->player, sizeof a->player) != 0 ||
            a->foreign.digest != b->foreign.digest;
 }
 
-/* Compare one tick. Only in ticks that are reported in detail are the trees compared node by node. In other ticks,
- * only whether the trees differ is found. */
+/* Compare one tick. If the tick may be reported in detail, the trees are compared node by node. Otherwise it is only
+ * determined whether the trees differ. */
 static bool compare_tick(playing *p, octreel_error *error)
 {
     const octree_game *const games[2] = {p->games[0], p->games[1]};
     const cause_watcher *w = p->watcher;
     const uint64_t tick = octree_game_tick(games[0])->number;
     const bool wanted = w->wants && w->wants(w->context, tick), is_early = p->found->differing.count < w->first;
-    const bool trees = !p->same_session && do_trees_differ(p);
+    const bool trees_differ = !p->same_session && do_trees_differ(p);
     cause_facts facts = {0};
-    if (trees && (wanted || is_early))
+    if (trees_differ && (wanted || is_early))
         cause_compare_trees(games[0], games[1], &facts);
     if (!p->same_session) {
         cause_compare_ticks(games[0], games[1], &facts);
-        count_wrong_answers(p->found->wrong, octree_game_tick(games[0]), octree_game_tick(games[1]));
+        count_wrong_answer_changes(p->found->wrong, octree_game_tick(games[0]), octree_game_tick(games[1]));
     }
-    const bool differs = trees || facts.count > 0;
+    const bool differs = trees_differ || facts.count > 0;
     const bool reported = wanted || (differs && is_early);
     if (differs)
         extend_span(&p->found->differing, 1, tick);
     if (reported && p->other_heat)
         cause_add_whole(&facts, "heat", CAUSE_OTHER, NULL, NULL);
-    bool ok = cause_origins_advance(&p->found->session.origins, tick, do_games_differ(p, trees), p->other_heat);
+    bool ok = cause_origins_update(&p->found->session.origins, tick, do_games_differ(p, trees_differ), p->other_heat);
     ok = ok && !facts.out_of_memory && (!reported || append_tick(p->found, tick, &facts));
     p->other_heat |= p->shows_heat && differs;
     cause_facts_release(&facts);
@@ -136,7 +138,7 @@ static bool compare_tick(playing *p, octreel_error *error)
     return !w->watch || w->watch(w->context, games, differs, error);
 }
 
-/* ---- All of them --------------------------------------------------------------------------------------------- */
+/* ---- All ticks ------------------------------------------------------------------------------------------------- */
 
 static bool advance_games(playing *p, octreel_error *error)
 {

@@ -105,7 +105,7 @@ static keyed *sort_by_key(json_t *list, size_t count)
 }
 
 /* Compare two lists by merging them in the order of their keys. */
-static void compare_keyed(const cause_place *place, json_t *a, json_t *b)
+static void compare_lists_by_key(const cause_place *place, json_t *a, json_t *b)
 {
     const size_t a_count = json_array_size(a), b_count = json_array_size(b);
     keyed *as = sort_by_key(a, a_count), *bs = sort_by_key(b, b_count);
@@ -153,7 +153,7 @@ static json_t *make_query_of_answer(json_t *answer)
 
 /* Return a copy of a session's query without the answer and the visited nodes of the foreign index. The caller
  * releases the copy. */
-static json_t *query_without_answer(json_t *query)
+static json_t *copy_query_without_answer(json_t *query)
 {
     json_t *asked = json_copy(query);
     json_object_del(asked, "answer");
@@ -171,7 +171,7 @@ static json_t *make_pairing_keys(cause_rule rule, json_t *list)
     json_array_foreach(list, i, element)
     {
         json_t *key = rule == CAUSE_ANSWERS   ? make_query_of_answer(element)
-                      : rule == CAUSE_QUERIES ? query_without_answer(element)
+                      : rule == CAUSE_QUERIES ? copy_query_without_answer(element)
                                               : json_incref(element);
         json_array_append_new(keys, key);
     }
@@ -206,7 +206,7 @@ static void compare_foreign_answers(cause_place place, json_t *a, json_t *b)
 
 static void compare_queries(const cause_place *place, json_t *a, json_t *b)
 {
-    json_t *const asked[2] = {query_without_answer(a), query_without_answer(b)};
+    json_t *const asked[2] = {copy_query_without_answer(a), copy_query_without_answer(b)};
     if (!asked[0] || !asked[1])
         place->facts->out_of_memory = true;
     else if (are_values_equal(place, asked[0], asked[1]))
@@ -244,6 +244,8 @@ static void format_query_name(cause_rule rule, json_t *list, size_t i, bool of_r
         snprintf(text, CAUSE_QUERY, "query %zu (%s)%s", i + 1, kind, of_reference ? " of the reference" : "");
 }
 
+/* Return whether paired elements have the same order in both lists. mates[j] is the index in `a` of the partner of
+ * element j of `b`, or CAUSE_ALONE. */
 static bool are_mates_in_order(const size_t *mates, size_t count)
 {
     size_t last = 0;
@@ -257,10 +259,11 @@ static bool are_mates_in_order(const size_t *mates, size_t count)
     return true;
 }
 
-/* Report the differences within pairs, then the elements that only one list has. The function sets has_partner[i] to
- * true for each element i of `a` that has a partner. Before the call, all elements of has_partner must be false. */
-static void compare_paired(cause_place place, cause_rule rule, json_t *a, json_t *b, const size_t *mates,
-                           bool *has_partner)
+/* Report the differences within pairs, then the elements that only one list has. `mates` is the result of
+ * cause_pair_elements(). The function sets has_partner[i] to true for each element i of `a` that has a partner. Before
+ * the call, all elements of has_partner must be false. */
+static void compare_paired_lists(cause_place place, cause_rule rule, json_t *a, json_t *b, const size_t *mates,
+                                 bool *has_partner)
 {
     const size_t count = json_array_size(b);
     char query[CAUSE_QUERY] = "";
@@ -290,14 +293,14 @@ static void compare_paired(cause_place place, cause_rule rule, json_t *a, json_t
         add_fact(&place, CAUSE_ORDER, CAUSE_NO_ID, NULL, NULL);
 }
 
-static void compare_by_similarity(const cause_place *place, cause_rule rule, json_t *a, json_t *b)
+static void compare_lists_by_similarity(const cause_place *place, cause_rule rule, json_t *a, json_t *b)
 {
     json_t *const keys[2] = {make_pairing_keys(rule, a), make_pairing_keys(rule, b)};
     size_t *mates = malloc((json_array_size(b) + 1) * sizeof *mates);
     bool *has_partner = calloc(json_array_size(a) + 1, sizeof *has_partner);
     const bool whole = json_array_size(keys[0]) == json_array_size(a) && json_array_size(keys[1]) == json_array_size(b);
     if (whole && mates && has_partner && cause_pair_elements(keys[0], keys[1], mates))
-        compare_paired(*place, rule, a, b, mates, has_partner);
+        compare_paired_lists(*place, rule, a, b, mates, has_partner);
     else
         place->facts->out_of_memory = true;
     free(mates);
@@ -312,11 +315,11 @@ static void compare_lists(const cause_place *place, cause_rule rule, json_t *a, 
 {
     const json_t *first = json_array_get(json_array_size(a) ? a : b, 0);
     if (rule == CAUSE_BY_KEY || json_is_string(first) || json_object_get(first, "id"))
-        compare_keyed(place, a, b);
+        compare_lists_by_key(place, a, b);
     else if (json_is_number(first))
         add_fact(place, CAUSE_OTHER, CAUSE_NO_ID, a, b);
     else
-        compare_by_similarity(place, rule, a, b);
+        compare_lists_by_similarity(place, rule, a, b);
 }
 
 /* Compare two values of any type. The path of a member of an answer leaves out the kind of the query, because the

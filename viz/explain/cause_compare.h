@@ -44,6 +44,8 @@ typedef struct cause_points {
     size_t count;
 } cause_points;
 
+/* Compare two lists of points by id. Add a fact at the place `where` for each point that only one list has, or whose
+ * positions differ. With `exact`, 0 and -0 differ. Cost: O(n). */
 void cause_compare_points(cause_facts *facts, const char *where, const cause_points *a, const cause_points *b,
                           bool exact);
 

@@ -56,7 +56,7 @@ void cause_add_fact(cause_facts *facts, const char *where, const char *query, ca
     }
 }
 
-const cause_group *cause_group_of(const cause_facts *facts, const char *where, cause_change change)
+const cause_group *cause_find_group(const cause_facts *facts, const char *where, cause_change change)
 {
     for (size_t i = 0; i < facts->count; i++)
         if (is_group_with(&facts->groups[i], where, "", change))
@@ -64,7 +64,7 @@ const cause_group *cause_group_of(const cause_facts *facts, const char *where, c
     return NULL;
 }
 
-static bool is_before(const cause_group *a, const cause_group *b)
+static bool is_group_before(const cause_group *a, const cause_group *b)
 {
     return !is_about_all_ticks(b) && (is_about_all_ticks(a) || a->listed[0].tick < b->listed[0].tick);
 }
@@ -74,7 +74,7 @@ static bool is_before(const cause_group *a, const cause_group *b)
 void cause_facts_sort(cause_facts *facts)
 {
     for (size_t i = 1; i < facts->count; i++)
-        for (size_t j = i; j > 0 && is_before(&facts->groups[j], &facts->groups[j - 1]); j--) {
+        for (size_t j = i; j > 0 && is_group_before(&facts->groups[j], &facts->groups[j - 1]); j--) {
             const cause_group swapped = facts->groups[j];
             facts->groups[j] = facts->groups[j - 1];
             facts->groups[j - 1] = swapped;
@@ -83,7 +83,7 @@ void cause_facts_sort(cause_facts *facts)
 }
 
 /* Return a copy of a group that holds only the facts that the frame of a tick can show. */
-static cause_group select_facts_of_tick(const cause_group *group, uint64_t tick)
+static cause_group select_group_facts_of_tick(const cause_group *group, uint64_t tick)
 {
     cause_group shown = *group;
     if (is_about_all_ticks(group)) {
@@ -93,25 +93,25 @@ static cause_group select_facts_of_tick(const cause_group *group, uint64_t tick)
     }
     shown.found = 0;
     for (size_t i = 0; i < cause_count_listed(group); i++)
-        if (cause_origin_shows(group->where, group->listed[i].tick, tick))
+        if (cause_is_origin_shown(group->where, group->listed[i].tick, tick))
             shown.listed[shown.found++] = group->listed[i];
     return shown;
 }
 
-bool cause_facts_show(const cause_facts *facts, uint64_t tick)
+bool cause_has_facts_of_tick(const cause_facts *facts, uint64_t tick)
 {
     for (size_t i = 0; i < facts->count; i++)
-        if (select_facts_of_tick(&facts->groups[i], tick).found > 0)
+        if (select_group_facts_of_tick(&facts->groups[i], tick).found > 0)
             return true;
     return false;
 }
 
-cause_facts cause_facts_shown(const cause_facts *facts, uint64_t tick)
+cause_facts cause_select_facts_of_tick(const cause_facts *facts, uint64_t tick)
 {
     cause_facts shown = {.groups = malloc((facts->count + 1) * sizeof *shown.groups)};
     shown.out_of_memory = !shown.groups;
     for (size_t i = 0; shown.groups && i < facts->count; i++) {
-        shown.groups[shown.count] = select_facts_of_tick(&facts->groups[i], tick);
+        shown.groups[shown.count] = select_group_facts_of_tick(&facts->groups[i], tick);
         shown.count += shown.groups[shown.count].found > 0;
     }
     return shown;

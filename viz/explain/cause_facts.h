@@ -43,11 +43,11 @@ typedef struct cause_fact {
 
 /* All facts with the same place, query and change. In one group, either every fact has a tick or no fact has a tick. */
 typedef struct cause_group {
-    char where[40];
+    char where[40];          /* the place of the facts */
     char query[CAUSE_QUERY]; /* the query whose answer the facts are about: "the range query"; else "" */
     cause_change change;
-    uint64_t found;
-    cause_fact listed[CAUSE_LISTED];
+    uint64_t found;                  /* the number of all facts of the group */
+    cause_fact listed[CAUSE_LISTED]; /* the first facts of the group */
 } cause_group;
 
 /* A list of facts in groups. A zeroed list is empty. */
@@ -76,14 +76,14 @@ void cause_facts_sort(cause_facts *facts);
 /* Return the stored facts that the frame of a tick can show: the facts of this tick and the facts without a tick.
  * Facts about the interval of frames and about the last tick are left out. The result borrows all memory from
  * `facts` except its array `groups`, which the caller frees. */
-cause_facts cause_facts_shown(const cause_facts *facts, uint64_t tick);
+cause_facts cause_select_facts_of_tick(const cause_facts *facts, uint64_t tick);
 
-/* Return whether cause_facts_shown() would return any fact. */
-bool cause_facts_show(const cause_facts *facts, uint64_t tick);
+/* Return whether cause_select_facts_of_tick() would return any fact. */
+bool cause_has_facts_of_tick(const cause_facts *facts, uint64_t tick);
 
 /* Return the group that has this place and this change and is not about a query. Return null if no such group
  * exists. */
-const cause_group *cause_group_of(const cause_facts *facts, const char *where, cause_change change);
+const cause_group *cause_find_group(const cause_facts *facts, const char *where, cause_change change);
 
 /* Return the number of facts that are stored in a group. */
 static inline size_t cause_count_listed(const cause_group *group)

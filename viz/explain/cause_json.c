@@ -77,7 +77,7 @@ static void write_facts(json_writer *w, const char *key, const cause_facts *fact
     json_write_end_array(w);
 }
 
-/* ---- The whole ----------------------------------------------------------------------------------------------- */
+/* ---- The explanation ------------------------------------------------------------------------------------------- */
 
 static void write_trace(json_writer *w, const trace *t)
 {
@@ -94,7 +94,7 @@ static void write_trace(json_writer *w, const trace *t)
 }
 
 /* Write how the wrong answers of the two recordings differ. If they do not differ, write nothing. */
-static void write_wrong(json_writer *w, const cause_span wrong[WRONG_CHANGES])
+static void write_wrong_answers(json_writer *w, const cause_span wrong[WRONG_CHANGES])
 {
     static const char *const names[] = {[WRONG_MORE] = "more", [WRONG_FEWER] = "fewer", [WRONG_OTHER] = "other"};
     if (wrong[WRONG_MORE].count + wrong[WRONG_FEWER].count + wrong[WRONG_OTHER].count == 0)
@@ -127,7 +127,7 @@ static void write_ticks(json_writer *w, const explanation *e)
     json_write_end_array(w);
 }
 
-static void write_sides(json_writer *w, const explanation *e)
+static void write_warnings_and_renderers(json_writer *w, const explanation *e)
 {
     json_begin_array_member(w, "warnings");
     for (int side = 0; side < 2; side++)
@@ -146,7 +146,7 @@ void cause_write_json(json_writer *w, const explanation *e)
     json_write_begin_object(w);
     write_facts(w, "session", &c->session);
     write_facts(w, "view", &c->view);
-    write_wrong(w, c->wrong);
+    write_wrong_answers(w, c->wrong);
     json_write_integer_member(w, "compared", c->compared);
     json_write_integer_member(w, "differing", c->differing.count);
     if (c->differing.count) {
@@ -154,7 +154,7 @@ void cause_write_json(json_writer *w, const explanation *e)
         json_write_integer_member(w, "last", c->differing.last);
     }
     write_ticks(w, e);
-    write_sides(w, e);
+    write_warnings_and_renderers(w, e);
     if (*e->tracer.untraced)
         json_write_text_member(w, "untraced", e->tracer.untraced);
     json_write_end_object(w);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* cause_json.h - writes why two recordings differ as JSON.
+/* cause_json.h - writes, in JSON, why two recordings differ.
  *
  *     {"session": [group ...], "view": [group ...], "compared": 253, "differing": 212, "first": 41, "last": 252,
  *      "ticks": [{"tick": 41, "causes": [group ...], "pixels": 312,
@@ -17,8 +17,7 @@
  *      "facts": [{"id": 7, "frames": 7}]}
  *
  * "ticks" holds the ticks that are reported in detail. "elements" lists the elements drawn at the differing pixels: at
- * most CAUSE_ELEMENTS, in descending order of pixels.
- */
+ * most CAUSE_ELEMENTS, in descending order of pixels. */
 #ifndef EXPLAIN_CAUSE_JSON_H
 #define EXPLAIN_CAUSE_JSON_H
 

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-bool cause_origin_shows(const char *where, uint64_t origin, uint64_t tick)
+bool cause_is_origin_shown(const char *where, uint64_t origin, uint64_t tick)
 {
     const bool keys = strcmp(where, "keys") == 0;
     return origin == tick || (keys && origin < tick + KEYS_AHEAD + 1 && tick < origin + KEYS_BEHIND + 1);
@@ -18,7 +18,8 @@ bool cause_origin_shows(const char *where, uint64_t origin, uint64_t tick)
 
 /* ---- Collecting ---------------------------------------------------------------------------------------------- */
 
-static size_t find_kind(cause_origins *o, const char *name)
+/* Return the index of the kind with this name, or SIZE_MAX if memory runs out. */
+static size_t find_or_add_kind(cause_origins *o, const char *name)
 {
     for (size_t i = 0; i < o->kind_count; i++)
         if (strcmp(o->kinds[i].name, name) == 0)
@@ -38,13 +39,13 @@ static bool is_momentary(const char *where)
     return strncmp(where, "queries", 7) == 0 || strncmp(where, "shapes", 6) == 0;
 }
 
-/* A lasting difference affects all later ticks. There, the effects of several lasting differences at the same path
- * cannot be separated, so all of them get the same kind. */
+/* A difference that is not momentary affects all later ticks. In a later tick, the effects of several such differences
+ * at the same path cannot be separated, so all of them get the same kind: the path alone. */
 bool cause_origins_add(cause_origins *o, uint64_t tick, const char *where, const char *kind)
 {
     char name[CAUSE_KIND];
     snprintf(name, sizeof name, "%s%s%s", where, is_momentary(where) ? " " : "", is_momentary(where) ? kind : "");
-    const cause_origin origin = {tick, find_kind(o, name)};
+    const cause_origin origin = {tick, find_or_add_kind(o, name)};
     const cause_origin *last = o->count ? &o->listed[o->count - 1] : NULL;
     if (origin.kind == SIZE_MAX || (last && last->tick == tick && last->kind == origin.kind))
         return origin.kind != SIZE_MAX;
@@ -72,7 +73,8 @@ void cause_origins_release(cause_origins *o)
 
 /* ---- Stretches of ticks with the same causes ----------------------------------------------------------------- */
 
-static bool add_differing_ticks(cause_origins *o, uint64_t tick)
+/* Begin a stretch at a tick, and write the kinds that are now in effect to its text. */
+static bool begin_stretch(cause_origins *o, uint64_t tick)
 {
     text_stream s;
     bool any = false;
@@ -92,7 +94,7 @@ static bool add_differing_ticks(cause_origins *o, uint64_t tick)
     return true;
 }
 
-static bool kind_differs_at(const cause_origins *o, uint64_t tick, size_t kind)
+static bool has_difference_of_kind(const cause_origins *o, uint64_t tick, size_t kind)
 {
     for (size_t i = o->next; i < o->count && o->listed[i].tick == tick; i++)
         if (o->listed[i].kind == kind)
@@ -100,14 +102,14 @@ static bool kind_differs_at(const cause_origins *o, uint64_t tick, size_t kind)
     return false;
 }
 
-bool cause_origins_advance(cause_origins *o, uint64_t tick, bool games_differ, bool other_heat)
+bool cause_origins_update(cause_origins *o, uint64_t tick, bool games_differ, bool other_heat)
 {
     bool changed = false;
     for (size_t i = 0; i < o->kind_count; i++) {
         cause_kind *kind = &o->kinds[i];
         const bool lasts = other_heat || (games_differ && !is_momentary(kind->name));
         const uint64_t before = kind->since;
-        if (!kind_differs_at(o, tick, i))
+        if (!has_difference_of_kind(o, tick, i))
             kind->since = lasts ? kind->since : CAUSE_NO_TICK;
         else if (kind->since == CAUSE_NO_TICK)
             kind->since = tick;
@@ -115,12 +117,12 @@ bool cause_origins_advance(cause_origins *o, uint64_t tick, bool games_differ, b
     }
     while (o->next < o->count && o->listed[o->next].tick == tick)
         o->next++;
-    return !changed || add_differing_ticks(o, tick);
+    return !changed || begin_stretch(o, tick);
 }
 
 /* Return the number of items whose tick is before `end`. Each item begins with its tick as a uint64_t. The items are
  * sorted by tick in ascending order. */
-static size_t count_before(const void *items, size_t count, size_t item_size, uint64_t end)
+static size_t count_items_before(const void *items, size_t count, size_t item_size, uint64_t end)
 {
     size_t low = 0, high = count;
     while (low < high) {
@@ -135,21 +137,21 @@ static size_t count_before(const void *items, size_t count, size_t item_size, ui
 
 static const char *find_causes_at(const cause_origins *o, uint64_t tick)
 {
-    const size_t count = count_before(o->stretches, o->stretch_count, sizeof *o->stretches, tick + 1);
+    const size_t count = count_items_before(o->stretches, o->stretch_count, sizeof *o->stretches, tick + 1);
     return count && o->stretches[count - 1].causes ? o->stretches[count - 1].causes : "";
 }
 
 /* A frame also lists the key presses of neighbouring ticks. If no difference is in effect at this tick, search for
  * differing key presses: first at this tick and later ticks, then at earlier ticks. */
-const char *cause_origins_at(const cause_origins *o, uint64_t tick)
+const char *cause_origins_find_causes(const cause_origins *o, uint64_t tick)
 {
     const char *causes = find_causes_at(o, tick);
-    const size_t here = count_before(o->listed, o->count, sizeof *o->listed, tick);
+    const size_t here = count_items_before(o->listed, o->count, sizeof *o->listed, tick);
     for (size_t i = here; !*causes && i < o->count && o->listed[i].tick <= tick + KEYS_AHEAD; i++)
-        if (cause_origin_shows(o->kinds[o->listed[i].kind].name, o->listed[i].tick, tick))
+        if (cause_is_origin_shown(o->kinds[o->listed[i].kind].name, o->listed[i].tick, tick))
             causes = find_causes_at(o, o->listed[i].tick);
     for (size_t i = here; !*causes && i > 0 && o->listed[i - 1].tick + KEYS_BEHIND >= tick; i--)
-        if (cause_origin_shows(o->kinds[o->listed[i - 1].kind].name, o->listed[i - 1].tick, tick))
+        if (cause_is_origin_shown(o->kinds[o->listed[i - 1].kind].name, o->listed[i - 1].tick, tick))
             causes = find_causes_at(o, o->listed[i - 1].tick);
     return causes;
 }

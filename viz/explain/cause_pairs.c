@@ -129,9 +129,9 @@ static size_t find_first_candidate(size_t j)
     return j < PAIR_CANDIDATES / 2 ? 0 : j - PAIR_CANDIDATES / 2;
 }
 
-/* Return the similarity of two elements without a partner, or 0 if their kinds differ. Each equal value counts 2.
- * Elements at the same distance from the beginning or from the end of their lists get 1 more, which decides between
- * pairs with the same number of equal values. */
+/* Return the similarity of two elements without a partner, or 0 if their kinds differ. Elements of the same kind have
+ * at least 1, and each equal value adds 2. Elements at the same distance from the beginning or from the end of their
+ * lists get 1 more, which decides between pairs with the same number of equal values. */
 static uint8_t find_similarity(const entries *a, size_t i, const entries *b, size_t j)
 {
     json_t *x = a->left[i]->element, *y = b->left[j]->element;

@@ -12,7 +12,7 @@
 /* With JSON_DECODE_INT_AS_REAL all numbers are compared as doubles. */
 #define PARSE_FLAGS ((size_t)(JSON_DECODE_INT_AS_REAL | JSON_DISABLE_EOF_CHECK))
 
-static bool same_position(const double *a, const double *b, bool exact)
+static bool is_same_position(const double *a, const double *b, bool exact)
 {
     return exact ? memcmp(a, b, 3 * sizeof *a) == 0 : a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
 }
@@ -31,7 +31,7 @@ void cause_compare_points(cause_facts *facts, const char *where, const cause_poi
         const octree_point *x = &a->points[i], *y = &b->points[j];
         const bool less = j == b->count || (i < a->count && x->id < y->id);
         const bool more = i == a->count || (j < b->count && y->id < x->id);
-        if (less || more || !same_position(x->position, y->position, exact))
+        if (less || more || !is_same_position(x->position, y->position, exact))
             cause_add_fact(facts, where, "",
                            less   ? CAUSE_LESS
                            : more ? CAUSE_MORE
@@ -64,7 +64,8 @@ static cause_points sort_bodies(const octree_session *session, bool velocities)
     return sorted;
 }
 
-static void compare_sorted(const octree_session *a, const octree_session *b, bool velocities, cause_facts *facts)
+static void compare_positions_or_velocities(const octree_session *a, const octree_session *b, bool velocities,
+                                            cause_facts *facts)
 {
     const cause_points as = sort_bodies(a, velocities), bs = sort_bodies(b, velocities);
     facts->out_of_memory |= !as.points || !bs.points;
@@ -110,10 +111,10 @@ static void compare_bodies(const octree_session *a, const octree_session *b, cau
 {
     if (have_same_bodies(a, b) || has_different_sample(facts))
         return;
-    compare_sorted(a, b, false, facts);
-    if (cause_group_of(facts, "points", CAUSE_MORE) || cause_group_of(facts, "points", CAUSE_LESS))
+    compare_positions_or_velocities(a, b, false, facts);
+    if (cause_find_group(facts, "points", CAUSE_MORE) || cause_find_group(facts, "points", CAUSE_LESS))
         return;
-    compare_sorted(a, b, true, facts);
+    compare_positions_or_velocities(a, b, true, facts);
     if (!have_same_ids(a, b))
         cause_add_whole(facts, "points", CAUSE_ORDER, NULL, NULL);
 }
@@ -140,7 +141,7 @@ static void compare_key_presses(const octree_session *a, const octree_session *b
     }
 }
 
-/* ---- Everything else, in its written form --------------------------------------------------------------------- */
+/* ---- Everything else, as JSON ---------------------------------------------------------------------------------- */
 
 /* Write a session as lines of JSON. Points and key presses are left out, because they are compared separately. The
  * member "ticks" is written even if a session file would leave it out. */
@@ -187,7 +188,7 @@ static json_t *normalize_player(json_t *header)
 }
 
 /* Remove from the object `from` all members that the object `other` does not have. */
-static void remove_missing(json_t *from, const json_t *other)
+static void remove_members_missing_in(json_t *from, const json_t *other)
 {
     const char *key;
     json_t *value;
@@ -201,7 +202,8 @@ typedef struct tick_line {
     size_t size;
 } tick_line;
 
-static tick_line find_tick_line(const char *at)
+/* Read the tick and the size of the line at `at`, without parsing the line. */
+static tick_line read_tick_line(const char *at)
 {
     static const char start[] = "{\"tick\": ";
     if (strncmp(at, start, sizeof start - 1) != 0)
@@ -211,10 +213,10 @@ static tick_line find_tick_line(const char *at)
 
 /* Compare the tick lines of two sessions. Both texts are read in the order of ticks, so that lines of the same tick
  * meet. Equal lines are not parsed, because a session may have many lines. */
-static void compare_lines(cause_place place, const char *x, const char *y)
+static void compare_tick_lines(cause_place place, const char *x, const char *y)
 {
-    for (tick_line a = find_tick_line(x), b = find_tick_line(y); a.tick != UINT64_MAX || b.tick != UINT64_MAX;
-         a = find_tick_line(x), b = find_tick_line(y)) {
+    for (tick_line a = read_tick_line(x), b = read_tick_line(y); a.tick != UINT64_MAX || b.tick != UINT64_MAX;
+         a = read_tick_line(x), b = read_tick_line(y)) {
         const bool in_a = a.tick <= b.tick, in_b = b.tick <= a.tick;
         if (in_a && in_b && a.size == b.size && memcmp(x, y, a.size) == 0) {
             x += a.size + 1;
@@ -233,15 +235,15 @@ static void compare_lines(cause_place place, const char *x, const char *y)
 
 /* Compare the JSON lines of two sessions. If the sessions have different kinds of players, members that only one of
  * the kinds uses are skipped. */
-static void compare_texts(const cause_place *place, const char *x, const char *y)
+static void compare_session_texts(const cause_place *place, const char *x, const char *y)
 {
     json_t *a = parse_next_object(&x), *b = parse_next_object(&y);
     if (a && b) {
         json_t *const players[2] = {normalize_player(a), normalize_player(b)};
-        remove_missing(players[0], players[1]);
-        remove_missing(players[1], players[0]);
+        remove_members_missing_in(players[0], players[1]);
+        remove_members_missing_in(players[1], players[0]);
         cause_compare_members(place, a, b);
-        compare_lines(*place, x, y);
+        compare_tick_lines(*place, x, y);
     } else {
         place->facts->out_of_memory = true;
     }
@@ -257,7 +259,7 @@ static void compare_sessions(const octree_session *a, const octree_session *b, c
     if (!texts[0] || !texts[1])
         facts->out_of_memory = true;
     else if (strcmp(texts[0], texts[1]) != 0)
-        compare_texts(&place, texts[0], texts[1]);
+        compare_session_texts(&place, texts[0], texts[1]);
     free(texts[0]);
     free(texts[1]);
     compare_key_presses(a, b, facts);
@@ -274,7 +276,7 @@ void cause_compare_sessions(const session_file *a, const session_file *b, cause_
 /* ---- Views --------------------------------------------------------------------------------------------------- */
 
 /* Return the JSON object of a view as in recording.json. The object has a member for every option. */
-static json_t *view_object(const cause_view *v)
+static json_t *make_view_object(const cause_view *v)
 {
     text_stream s;
     json_error_t error;
@@ -308,7 +310,7 @@ static void compare_option(const cause_place *place, const view_option *option, 
 void cause_compare_views(const cause_view *a, const cause_view *b, bool same_session, cause_facts *facts)
 {
     const cause_place place = {facts, "", "", CAUSE_NO_TICK, false};
-    json_t *objects[2] = {view_object(a), view_object(b)};
+    json_t *objects[2] = {make_view_object(a), make_view_object(b)};
     facts->out_of_memory |= !objects[0] || !objects[1];
     for (size_t i = 0; objects[0] && objects[1] && view_option_at(i); i++)
         if (view_option_at(i)->member.name)

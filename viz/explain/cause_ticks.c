@@ -45,7 +45,7 @@ static octree_walk_order compare_node(const octree_node *node, void *context)
 
 /* Return all points of a tree in ascending order of id. If `excluded` is not null, leave out the point with the id
  * *excluded. */
-static cause_points sort_points(const octree *tree, const uint64_t *excluded)
+static cause_points list_sorted_points(const octree *tree, const uint64_t *excluded)
 {
     static const octree_box all = {{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}};
     const size_t room = octree_count(tree);
@@ -62,7 +62,7 @@ static cause_points sort_points(const octree *tree, const uint64_t *excluded)
 }
 
 /* Return the id of the player if both games have a player with the same id, else null. */
-static const uint64_t *player_of_both(const octree_game *a, const octree_game *b)
+static const uint64_t *find_common_player_id(const octree_game *a, const octree_game *b)
 {
     const uint64_t *ids[2] = {&octree_game_session(a)->player.id, &octree_game_session(b)->player.id};
     const bool both = octree_game_tick(a)->has_player && octree_game_tick(b)->has_player;
@@ -72,8 +72,9 @@ static const uint64_t *player_of_both(const octree_game *a, const octree_game *b
 /* Compare the points of both trees. Points with the same id are compared with each other: an id is unique in a game. */
 static void compare_points(const octree_game *a, const octree_game *b, cause_facts *facts)
 {
-    const uint64_t *player = player_of_both(a, b);
-    const cause_points as = sort_points(octree_game_tree(a), player), bs = sort_points(octree_game_tree(b), player);
+    const uint64_t *player = find_common_player_id(a, b);
+    const cause_points as = list_sorted_points(octree_game_tree(a), player),
+                       bs = list_sorted_points(octree_game_tree(b), player);
     facts->out_of_memory |= !as.points || !bs.points;
     if (as.points && bs.points)
         cause_compare_points(facts, "tree.points", &as, &bs, false);
@@ -117,25 +118,26 @@ static char *write_line(const octree_game *game)
     return text_stream_end(&s, &text) ? text : NULL;
 }
 
-static bool is_inner(const octree_game *game, octree_address address)
+static bool is_inner_node(const octree_game *game, octree_address address)
 {
     octree_node node;
     return octree_node_at(octree_game_tree(game), address, &node) == OCTREE_OK && !node.leaf;
 }
 
-/* In both trees some nodes differ, and cause_compare_trees() reports them. Remove these nodes from `nodes`, a member
- * of a line of ticks.jsonl. */
+/* Remove from `nodes`, a list of addresses in a line of ticks.jsonl, each node that is an inner node in only one of the
+ * trees, because cause_compare_trees() reports this node. */
 static void drop_reported_nodes(const octree_game *a, const octree_game *b, json_t *nodes)
 {
     for (size_t i = json_array_size(nodes); i-- > 0;) {
         octree_address node;
         if (!octree_address_parse(json_string_value(json_array_get(nodes, i)), &node) ||
-            is_inner(a, node) != is_inner(b, node))
+            is_inner_node(a, node) != is_inner_node(b, node))
             json_array_remove(nodes, i);
     }
 }
 
-static json_t *read_line(const octree_game *a, const octree_game *b, const char *text)
+/* Parse a line of ticks.jsonl and remove what cause_compare_trees() reports. */
+static json_t *parse_line(const octree_game *a, const octree_game *b, const char *text)
 {
     json_error_t error;
     json_t *line = json_parse(text, strlen(text), JSON_DECODE_INT_AS_REAL, &error);
@@ -151,7 +153,7 @@ static void compare_lines(const octree_game *a, const octree_game *b, cause_fact
     char *texts[2] = {write_line(a), write_line(b)};
     facts->out_of_memory |= !texts[0] || !texts[1];
     if (texts[0] && texts[1] && strcmp(texts[0], texts[1]) != 0) {
-        json_t *lines[2] = {read_line(a, b, texts[0]), read_line(a, b, texts[1])};
+        json_t *lines[2] = {parse_line(a, b, texts[0]), parse_line(a, b, texts[1])};
         facts->out_of_memory |= !lines[0] || !lines[1];
         cause_compare_members(&place, lines[0], lines[1]);
         json_decref(lines[0]);
@@ -178,7 +180,7 @@ static bool have_same_visits(const octree_tick *a, const octree_tick *b)
 }
 
 /* In both ticks, a swept collision test hit points. Return whether these points came from the same positions. */
-static bool have_same_hit_ways(const octree_tick *a, const octree_tick *b)
+static bool have_same_hit_starts(const octree_tick *a, const octree_tick *b)
 {
     for (size_t i = 0; a->hit_from && b->hit_from && a->hit_count == b->hit_count && i < a->hit_count; i++)
         for (int axis = 0; axis < 3; axis++)
@@ -191,8 +193,8 @@ void cause_compare_ticks(const octree_game *a, const octree_game *b, cause_facts
 {
     const octree_tick *x = octree_game_tick(a), *y = octree_game_tick(b);
     compare_lines(a, b, facts);
-    if (!have_same_visits(x, y) && !cause_group_of(facts, "visits", CAUSE_OTHER))
+    if (!have_same_visits(x, y) && !cause_find_group(facts, "visits", CAUSE_OTHER))
         cause_add_whole(facts, "visited", CAUSE_OTHER, NULL, NULL);
-    if (!have_same_hit_ways(x, y))
+    if (!have_same_hit_starts(x, y))
         cause_add_whole(facts, "hit_from", CAUSE_OTHER, NULL, NULL);
 }

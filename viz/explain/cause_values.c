@@ -22,7 +22,7 @@ static uint64_t *list_ids(const octree_session *session, size_t *count)
     return ids;
 }
 
-static json_t *value_of(const point_value *value, point_value_kind kind)
+static json_t *make_json_value(const point_value *value, point_value_kind kind)
 {
     if (!value->has[kind])
         return NULL;
@@ -36,7 +36,8 @@ static void compare_value(cause_facts *facts, uint64_t id, const point_value *a,
     static const char *const where[] = {
         [POINT_COLOR] = "points.color", [POINT_INTENSITY] = "points.intensity", [POINT_CLASS] = "points.class"};
     for (int kind = 0; kind < POINT_VALUE_KINDS; kind++) {
-        json_t *const x = value_of(a, (point_value_kind)kind), *const y = value_of(b, (point_value_kind)kind);
+        json_t *const x = make_json_value(a, (point_value_kind)kind), *const y =
+                                                                          make_json_value(b, (point_value_kind)kind);
         if (!cause_values_are_equal(x, y, true))
             cause_add_fact(facts, where[kind], "", CAUSE_OTHER,
                            (cause_fact){CAUSE_NO_TICK, id, json_incref(x), json_incref(y)});

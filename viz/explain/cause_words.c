@@ -172,7 +172,7 @@ static void print_fact(FILE *out, const cause_row *p, const cause_group *group, 
                                              [CAUSE_MORE] = "one more ",
                                              [CAUSE_LESS] = "one ",
                                              [CAUSE_ORDER] = "another order of the "};
-    /* here only one recording has the query of the answer */
+    /* here the query was asked in only one recording */
     if (strcmp(group->where, "answers") == 0 && group->change != CAUSE_ORDER) {
         fprintf(out, "%s%s", group->query,
                 group->change == CAUSE_MORE ? " asked only in the frames" : " asked only in the reference");
@@ -212,7 +212,7 @@ static void print_subjects(FILE *out, const cause_group *group, bool brief)
 
 /* Print a group with the verb of its place: "points 12 and 13 moved", "49 points moved (such as 12)" or "point 12
  * moved from (0, 0, 0) to (1, 2, 3)". */
-static void print_verb(FILE *out, const cause_row *p, const cause_group *group, bool brief)
+static void print_group_with_verb(FILE *out, const cause_row *p, const cause_group *group, bool brief)
 {
     const cause_fact *fact = &group->listed[0];
     if (group->found > (p->minor ? MINOR_SUBJECTS : count_printed_subjects(group, brief))) {
@@ -235,7 +235,7 @@ static void print_verb(FILE *out, const cause_row *p, const cause_group *group, 
 }
 
 /* Print a group of several facts without a verb: "12 more edits (points 3, 4, 5 and 9 more)". */
-static void print_fact_count(FILE *out, const cause_row *p, const cause_group *group, bool brief)
+static void print_group_as_count(FILE *out, const cause_row *p, const cause_group *group, bool brief)
 {
     static const char *const words[] = {
         [CAUSE_OTHER] = "other ", [CAUSE_MORE] = "more ", [CAUSE_LESS] = "fewer ", [CAUSE_ORDER] = "reordered "};
@@ -252,9 +252,9 @@ static void print_fact_count(FILE *out, const cause_row *p, const cause_group *g
     fputc(')', out);
 }
 
-/* Print a group with the verb of its place; its facts have no id and no word: "the query visited other nodes at tick
+/* Print a group whose facts have no id and no word, with the verb of its place: "the query visited other nodes at tick
  * 3 (visited 12, was 9)" or "17 queries visited other nodes, the first at tick 3 (...)". */
-static void print_unnamed_verb(FILE *out, const cause_row *p, const cause_group *group)
+static void print_verb_without_subjects(FILE *out, const cause_row *p, const cause_group *group)
 {
     const cause_fact *first = &group->listed[0];
     if (group->found == 1)
@@ -278,13 +278,13 @@ static void print_group(FILE *out, const cause_group *group, bool brief)
     const size_t listed = count_printed_subjects(group, brief), printed = brief && listed > 2 ? 1 : listed;
     if (p.verbs[group->change]) {
         if (has_subject(&group->listed[0]))
-            print_verb(out, &p, group, brief);
+            print_group_with_verb(out, &p, group, brief);
         else
-            print_unnamed_verb(out, &p, group);
+            print_verb_without_subjects(out, &p, group);
         return;
     }
     if (group->found > 1 && has_subject(&group->listed[0])) {
-        print_fact_count(out, &p, group, brief);
+        print_group_as_count(out, &p, group, brief);
         return;
     }
     for (size_t i = 0; i < printed; i++) {
@@ -320,7 +320,7 @@ void cause_print_facts(FILE *out, const cause_facts *facts, bool brief)
 /* ---- The headline -------------------------------------------------------------------------------------------- */
 
 /* Print how many ticks differ because of a different option. */
-static void print_extent(FILE *out, const cause *c)
+static void print_differing_tick_count(FILE *out, const cause *c)
 {
     if (c->differing.count == 0) /* frames may still differ: shapes and arrows are not compared */
         fputs("the ticks that both sides have are equal", out);
@@ -336,14 +336,14 @@ static void print_first_difference(FILE *out, const cause *c)
 {
     const cause_tick *first = cause_find_tick(c, c->differing.first);
     if (c->differing.count == 0 || !first || first->facts.count == 0) {
-        print_extent(out, c);
+        print_differing_tick_count(out, c);
         return;
     }
     fprintf(out, "tick %" PRIu64 ": ", c->differing.first);
     cause_print_facts(out, &first->facts, true);
 }
 
-static bool has_view_option(const cause_facts *facts)
+static bool has_option_fact(const cause_facts *facts)
 {
     for (size_t i = 0; i < facts->count; i++)
         if (cause_row_of(&facts->groups[i]).option)
@@ -354,7 +354,7 @@ static bool has_view_option(const cause_facts *facts)
 /* Print "4 more wrong answers from tick 41 on" or "other wrong answers in 3 ticks from tick 2 on". With `later`,
  * print only differences that begin after the first differing tick; else print only the earlier ones. Return whether
  * anything was printed. */
-static bool print_wrong(FILE *out, const cause *c, bool later)
+static bool print_wrong_answer_changes(FILE *out, const cause *c, bool later)
 {
     bool any = false;
     for (int i = 0; i < WRONG_CHANGES; i++) {
@@ -375,8 +375,8 @@ static bool print_wrong(FILE *out, const cause *c, bool later)
     return any;
 }
 
-/* Return the number of groups of facts about the sessions that begin after the first differing tick. If all groups
- * begin after it, return 0. The groups are sorted by tick, so these groups are the last ones. */
+/* Return the number of groups in c->session whose first fact comes after the first differing tick; 0 if this holds for
+ * all groups. The groups are sorted by tick, so these groups are the last ones. */
 static size_t count_later_groups(const cause *c)
 {
     size_t count = 0;
@@ -393,14 +393,14 @@ static size_t count_later_groups(const cause *c)
  * differing tick cannot be its cause, so they are printed last. */
 void cause_print_headline(FILE *out, const cause *c)
 {
-    const bool options = has_view_option(&c->session);
+    const bool options = has_option_fact(&c->session);
     const size_t later = count_later_groups(c), soon = c->session.count - later;
-    if (print_wrong(out, c, false))
+    if (print_wrong_answer_changes(out, c, false))
         fputs("; ", out);
     if (c->session.count) {
         cause_print_facts(out, &(cause_facts){.groups = c->session.groups, .count = soon}, true);
         fputs(options ? ": " : "; ", out);
-        (options ? print_extent : print_first_difference)(out, c);
+        (options ? print_differing_tick_count : print_first_difference)(out, c);
         if (c->view.count == 0 && c->drawn < (c->differing.count ? c->differing.first : CAUSE_NO_TICK))
             fprintf(out, "; frames differ from tick %" PRIu64 " on", c->drawn);
     }
@@ -414,5 +414,5 @@ void cause_print_headline(FILE *out, const cause *c)
         fputs("; ", out);
         cause_print_facts(out, &(cause_facts){.groups = c->session.groups + soon, .count = later}, true);
     }
-    print_wrong(out, c, true);
+    print_wrong_answer_changes(out, c, true);
 }

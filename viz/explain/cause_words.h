@@ -7,9 +7,9 @@
 
 #include <stdio.h>
 
-/* Print facts separated by commas. Minor facts follow after a semicolon: "node 0/3/7 only in the frames, point 12
- * moved from (0, 0, 0) to (1, 2, 3)". With `brief`, leave out positions and minor facts, and print only the first
- * CAUSE_BRIEF groups. */
+/* Print facts separated by commas. Minor facts follow after a semicolon: "node 0/3/7 only in the frames, point 12 moved
+ * from (0, 0, 0) to (1, 2, 3)". With `brief`, leave out positions, print minor facts only if there are no other facts,
+ * and print only the first CAUSE_BRIEF groups. */
 #define CAUSE_BRIEF 4
 void cause_print_facts(FILE *out, const cause_facts *facts, bool brief);
 

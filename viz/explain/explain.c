@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* explain.c - explains how two sides differ, pair of frames by pair. If both sides are recordings, it also plays
+/* explain.c - explains why two sides differ, for each pair of frames. If both sides are recordings, the file also plays
  * their sessions. */
 #include "explain.h"
 #include "array.h"
@@ -89,7 +89,7 @@ static bool explain_pair_of_tick(void *context, const octree_game *const games[2
 
 /* Return the first tick whose frames differ. All pairs are searched: the pairs are sorted by name, and names of
  * ticks with more than six digits are not in the order of ticks. */
-static uint64_t find_first_drawn_tick(const diff_result *result)
+static uint64_t find_first_tick_with_other_frame(const diff_result *result)
 {
     uint64_t first = CAUSE_NO_TICK;
     for (size_t i = 0; i < result->count; i++) {
@@ -101,7 +101,7 @@ static uint64_t find_first_drawn_tick(const diff_result *result)
 }
 
 /* List the first `most` pairs whose frames differ. */
-static bool list_pairs(watching *w, const diff_result *result, uint64_t most)
+static bool list_wanted_pairs(watching *w, const diff_result *result, uint64_t most)
 {
     w->pairs = malloc((result->count + 1) * sizeof *w->pairs);
     if (!w->pairs)
@@ -118,10 +118,11 @@ static bool play_both_sessions(explanation *e, const diff_result *result, uint64
     const cause_view views[2] = {e->sides[0].view, e->sides[1].view};
     watching w = {.e = e, .options = &result->options};
     const cause_watcher watcher = {most < SIZE_MAX ? (size_t)most : SIZE_MAX, is_wanted, explain_pair_of_tick, &w};
-    const bool ok = list_pairs(&w, result, most) ? cause_find(&e->sides[0].replay.session, &e->sides[1].replay.session,
-                                                              views, &watcher, &e->cause, error)
-                                                 : error_no_memory(error);
-    e->cause.drawn = find_first_drawn_tick(result);
+    const bool ok =
+        list_wanted_pairs(&w, result, most)
+            ? cause_find(&e->sides[0].replay.session, &e->sides[1].replay.session, views, &watcher, &e->cause, error)
+            : error_no_memory(error);
+    e->cause.drawn = find_first_tick_with_other_frame(result);
     free(w.pairs);
     return ok;
 }
@@ -171,7 +172,7 @@ static bool make_headline(explanation *e, const diff_result *result, octreel_err
     return ok || error_no_memory(error);
 }
 
-/* ---- Both kinds of sides ------------------------------------------------------------------------------------- */
+/* ---- The explanation ------------------------------------------------------------------------------------------- */
 
 /* Return whether a file of this name differs between the sides: only one side has the file, or the bytes of the two
  * files differ. */
@@ -181,7 +182,7 @@ static bool file_differs(const diff_side *a, const diff_side *b, const char *nam
            !have_same_file(a->path, b->path, name);
 }
 
-static bool has_pair_to_explain(const diff_side *a, const diff_side *b, const diff_result *result)
+static bool has_difference_to_explain(const diff_side *a, const diff_side *b, const diff_result *result)
 {
     for (size_t i = 0; i < result->count; i++)
         if (explain_has_difference(&result->pairs[i]))
@@ -192,15 +193,15 @@ static bool has_pair_to_explain(const diff_side *a, const diff_side *b, const di
 }
 
 /* The context of examine_pair(), which runs for all pairs in parallel. */
-typedef struct looking {
+typedef struct examining {
     const explanation *e;
     const diff_result *result;
     pair_look *looks;
-} looking;
+} examining;
 
 static void examine_pair(size_t i, void *context)
 {
-    const looking *l = context;
+    const examining *l = context;
     const diff_pair *pair = &l->result->pairs[i];
     if (explain_has_difference(pair)) {
         l->looks[i] = pair_examine(l->e, pair);
@@ -211,7 +212,7 @@ static void examine_pair(size_t i, void *context)
 /* For each differing pair, set the key of its cause. For the first `most` differing pairs, also set the sentence. */
 static bool explain_pairs(explanation *e, const diff_result *result, uint64_t most, octreel_error *error)
 {
-    looking l = {e, result, calloc(result->count + 1, sizeof *l.looks)};
+    examining l = {e, result, calloc(result->count + 1, sizeof *l.looks)};
     e->pairs = calloc(result->count + 1, sizeof *e->pairs);
     bool ok = (l.looks && e->pairs) || error_no_memory(error);
     e->count = e->pairs ? result->count : 0;
@@ -242,7 +243,7 @@ bool explain(const diff_side *a, const diff_side *b, const diff_result *result, 
 {
     octreel_error why;
     *e = (explanation){0};
-    if (most == 0 || !has_pair_to_explain(a, b, result) || explain_all(a, b, result, most, e, &why))
+    if (most == 0 || !has_difference_to_explain(a, b, result) || explain_all(a, b, result, most, e, &why))
         return true;
     explanation_release(e);
     e->trouble = strdup(why.text);

@@ -29,7 +29,7 @@ static int clamp(int value, int limit)
 }
 
 /* Add the pixels of a box to the mask. Parts of the box outside the frame are ignored. */
-static void add_box(const draw_box *box, void *context)
+static void add_box_to_mask(const draw_box *box, void *context)
 {
     frame_mask *m = context;
     const int left = clamp(box->x, m->width), right = clamp(box->x + box->width, m->width);
@@ -48,7 +48,7 @@ static bool draw_mask(masking *w, frame_mask *m, octreel_error *error)
             return false;
     }
     if (w->layers & TEXT_ALONE)
-        visit_text_boxes(s, add_box, m);
+        visit_text_boxes(s, add_box_to_mask, m);
     return true;
 }
 

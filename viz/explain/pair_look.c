@@ -25,7 +25,7 @@ static bool have_both_texts(const pair_look *l)
 }
 
 /* Return whether the pixels of a frame have the digest that its text chunk states. */
-static bool has_stated_pixels(const diff_frame *frame, const frame_origin *origin)
+static bool has_stated_pixel_digest(const diff_frame *frame, const frame_origin *origin)
 {
     octreel_error ignored;
     image about;
@@ -56,7 +56,7 @@ pair_look pair_examine(const explanation *e, const diff_pair *pair)
             l.faults[i] = FAULT_TEXTS;
         if (l.has_texts[i] && e->recordings)
             l.faults[i] = find_origin_fault(&e->sides[i], &l.origins[i], diff_pair_tick(pair));
-        if (l.has_texts[i] && l.faults[i] == FAULT_NONE && !has_stated_pixels(frames[i], &l.origins[i]))
+        if (l.has_texts[i] && l.faults[i] == FAULT_NONE && !has_stated_pixel_digest(frames[i], &l.origins[i]))
             l.faults[i] = FAULT_PIXELS;
     }
     l.same_scene = have_both_texts(&l) && l.origins[0].scene == l.origins[1].scene;
@@ -68,9 +68,9 @@ static bool has_frame_fault(const pair_look *l)
     return l->faults[0] != FAULT_NONE || l->faults[1] != FAULT_NONE;
 }
 
-static bool is_only_drawing_different(const explanation *e, const pair_look *l)
+static bool is_only_rendering_different(const explanation *e, const pair_look *l)
 {
-    return l->same_scene && !has_frame_fault(l) && !cause_facts_show(&e->cause.view, 0);
+    return l->same_scene && !has_frame_fault(l) && !cause_has_facts_of_tick(&e->cause.view, 0);
 }
 
 /* Print how a frame contradicts its own text chunks or the recording that contains it. */
@@ -121,7 +121,7 @@ void pair_print_rendering(FILE *out, const explanation *e)
 }
 
 /* Print why a recording has no frame of a tick. */
-static void print_missing(FILE *out, const recorded *r, uint64_t tick)
+static void print_why_frame_is_missing(FILE *out, const recorded *r, uint64_t tick)
 {
     const uint64_t last = octree_session_length(&r->replay.session.session);
     if (tick > last)
@@ -136,10 +136,10 @@ static void print_missing(FILE *out, const recorded *r, uint64_t tick)
 }
 
 /* Return whether any known difference is visible in the frame of a tick. */
-static bool differs_at(const explanation *e, const cause_tick *details, uint64_t tick)
+static bool has_visible_difference(const explanation *e, const cause_tick *details, uint64_t tick)
 {
-    return (details && details->facts.count > 0) || cause_facts_show(&e->cause.view, tick) ||
-           cause_facts_show(&e->cause.session, tick);
+    return (details && details->facts.count > 0) || cause_has_facts_of_tick(&e->cause.view, tick) ||
+           cause_has_facts_of_tick(&e->cause.session, tick);
 }
 
 /* Print the cause for two frames whose tick is equal in both sessions: the differences between the sessions. If some
@@ -158,10 +158,11 @@ static void print_same_tick(FILE *out, const explanation *e, const cause_facts *
     cause_print_facts(out, session, true);
 }
 
-static void print_tick(FILE *out, const explanation *e, const cause_tick *details, uint64_t tick)
+static void print_tick_cause(FILE *out, const explanation *e, const cause_tick *details, uint64_t tick)
 {
     const bool facts = details && details->facts.count > 0;
-    cause_facts view = cause_facts_shown(&e->cause.view, tick), session = cause_facts_shown(&e->cause.session, tick);
+    cause_facts view = cause_select_facts_of_tick(&e->cause.view, tick),
+                session = cause_select_facts_of_tick(&e->cause.session, tick);
     fprintf(out, "tick %" PRIu64 ": ", tick);
     if (facts)
         cause_print_facts(out, &details->facts, false);
@@ -188,7 +189,7 @@ static void print_origins(FILE *out, const pair_look *l)
                 a->tick);
 }
 
-/* Return whether the only fault of a faulty frame is that it lacks text chunks. Such a frame may show the right
+/* Return whether no frame has a fault other than missing text chunks. A frame without text chunks may show the right
  * picture, so the difference between the ticks is printed, too. */
 static bool can_show_right_picture(const pair_look *l)
 {
@@ -198,20 +199,20 @@ static bool can_show_right_picture(const pair_look *l)
 
 static void print_cause(FILE *out, const explanation *e, const diff_pair *pair, const pair_look *l)
 {
-    const bool both = pair->a && pair->b, faulty = has_frame_fault(l), drawn = is_only_drawing_different(e, l);
+    const bool both = pair->a && pair->b, faulty = has_frame_fault(l), drawn = is_only_rendering_different(e, l);
     const uint64_t tick = diff_pair_tick(pair);
     const cause_tick *details = cause_find_tick(&e->cause, tick); /* null if the frames are not from recordings */
-    const bool prints_tick =
-        e->recordings && both && !drawn && (!faulty || (can_show_right_picture(l) && differs_at(e, details, tick)));
+    const bool prints_tick = e->recordings && both && !drawn &&
+                             (!faulty || (can_show_right_picture(l) && has_visible_difference(e, details, tick)));
     const bool prints_missing = e->recordings && !both;
     print_faults(out, pair, l);
     fputs(faulty && (prints_tick || prints_missing) ? "; " : "", out);
     if (drawn)
         pair_print_rendering(out, e);
     else if (prints_tick)
-        print_tick(out, e, details, tick);
+        print_tick_cause(out, e, details, tick);
     else if (prints_missing)
-        print_missing(out, &e->sides[pair->a ? 1 : 0], tick);
+        print_why_frame_is_missing(out, &e->sides[pair->a ? 1 : 0], tick);
     else if (have_both_texts(l) && !faulty)
         print_origins(out, l);
     if (e->recordings && l->same_scene && !faulty && !drawn && !have_same_renderer(e))
@@ -227,7 +228,7 @@ bool pair_find_cause(const explanation *e, const diff_pair *pair, const pair_loo
 {
     text_stream s;
     const bool begun = text_stream_begin(&s);
-    cause->only_drawn = is_only_drawing_different(e, l);
+    cause->only_drawn = is_only_rendering_different(e, l);
     if (begun)
         print_cause(s.stream, e, pair, l);
     return (text_stream_end(&s, &cause->text) && begun) || error_no_memory(error);
@@ -237,15 +238,14 @@ bool pair_find_cause(const explanation *e, const diff_pair *pair, const pair_loo
 
 /* Print a key for a pair whose cause is unknown. Pairs in which the same pixels differ by the same amount get the
  * same key. */
-static void print_tally(FILE *out, const diff_pair *pair)
+static void print_tally_key(FILE *out, const diff_pair *pair)
 {
     const image_tally *t = &pair->difference.unlike;
     fprintf(out, "%" PRIu64 " %a %d %d %d %d %d %d %d", t->pixels, t->worst_delta, t->worst_x, t->worst_y,
             t->largest_channel, t->min_x, t->min_y, t->max_x, t->max_y);
 }
 
-/* Print a text that is equal for pairs with the same cause, made of the texts inside of two PNG files. For frames that
- * are not from recordings. */
+/* Print a key made from the text chunks of two PNG files, for frames that are not from recordings. */
 static void print_origins_key(FILE *out, const pair_look *l)
 {
     const frame_origin *a = &l->origins[0], *b = &l->origins[1];
@@ -264,16 +264,16 @@ static bool print_key(FILE *out, const explanation *e, const diff_pair *pair, co
                 pair->about[1].height);
     if (has_frame_fault(l))
         fprintf(out, "faults %d %d, ", (int)l->faults[0], (int)l->faults[1]);
-    if (is_only_drawing_different(e, l))
+    if (is_only_rendering_different(e, l))
         fputs("drawn", out);
     else if (e->recordings && !both)
-        print_missing(out, &e->sides[pair->a ? 1 : 0], diff_pair_tick(pair));
+        print_why_frame_is_missing(out, &e->sides[pair->a ? 1 : 0], diff_pair_tick(pair));
     else if (e->recordings && known && !has_frame_fault(l))
-        fprintf(out, "recordings, %s", cause_origins_at(&e->cause.session.origins, diff_pair_tick(pair)));
+        fprintf(out, "recordings, %s", cause_origins_find_causes(&e->cause.session.origins, diff_pair_tick(pair)));
     else if (have_both_texts(l) && !has_frame_fault(l))
         print_origins_key(out, l);
     else if (pair->finding == FOUND_PIXELS || pair->finding == FOUND_WITHIN)
-        print_tally(out, pair);
+        print_tally_key(out, pair);
     else
         return pair->finding == FOUND_SIZE;
     return true;

@@ -16,15 +16,15 @@ typedef struct pair_look {
     frame_origin origins[2];
     bool has_texts[2]; /* true: the frame has the text chunks that Octreel writes */
     frame_fault faults[2];
-    bool same_scene;
+    bool same_scene; /* true: the text chunks of both frames state the same scene digest */
 } pair_look;
 
 /* Read the text chunks of both frames. If a frame has text chunks, also decode the frame and check the digest of its
  * pixels. Thread-safe. */
 pair_look pair_examine(const explanation *e, const diff_pair *pair);
 
-/* Find the cause of a pair that differs. cause->text is null if neither the recordings nor the
- * texts inside of the PNG files show a cause. */
+/* Find the cause of a pair that differs. cause->text is null if neither the recordings nor the text chunks of the PNG
+ * files show a cause. */
 bool pair_find_cause(const explanation *e, const diff_pair *pair, const pair_look *look, pair_cause *cause,
                      octreel_error *error);
 

@@ -27,7 +27,7 @@ static void add_warning(recorded *r, const char *format, ...)
 /* ---- Opening ------------------------------------------------------------------------------------------------- */
 
 /* Check that the first frame of the recording names the recording's session. */
-static void check_session(recorded *r)
+static void check_session_digest(recorded *r)
 {
     uint64_t tick;
     r->frames_session = r->replay.session_digest;
@@ -44,7 +44,7 @@ bool recorded_open(recorded *r, const diff_side *side, octreel_error *error)
     if (!replay_read(&r->replay, side->path, side->max_ticks, error))
         return false;
     r->view = (cause_view){r->replay.film.view, r->replay.film.every};
-    check_session(r);
+    check_session_digest(r);
     r->reading = line_reader_open(&r->lines, side->path, error);
     return r->reading;
 }
@@ -88,9 +88,9 @@ static bool read_line(recorded *r, uint64_t tick, octreel_error *error)
     return true;
 }
 
-/* Return the values of a line of ticks.jsonl that do not follow from the tick itself. `name` receives the name of
- * the tick's frame; the result points to it. This function does not build the scene. It therefore reads the digest
- * of the scene from the frame or, if the frame has none, from the line. */
+/* Return the values of a line of ticks.jsonl that do not follow from the tick itself. `name` receives the name of the
+ * tick's frame; the result points to `name`. This function does not build the scene. It therefore reads the digest of
+ * the scene from the frame or, if the frame has none, from the line. */
 static tick_extras make_tick_extras(const recorded *r, const octree_tick *tick, char name[FRAME_NAME])
 {
     uint64_t scene = 0;

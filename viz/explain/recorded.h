@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* recorded.h - opens a recording that is to be explained. It reads the session and the view. If other files of the
- * recording do not agree with these, it adds warnings. */
+/* recorded.h - opens a recording that is to be explained. The session and the view are read. Other files of the
+ * recording that do not agree with the session become warnings. */
 #ifndef EXPLAIN_RECORDED_H
 #define EXPLAIN_RECORDED_H
 

@@ -5,16 +5,15 @@
  * which element drew a pixel.
  *
  * The idea: rebuild the scenes of both frames and draw them once more, with element numbers in place of colours
- * (renderer_pick()). For each differing pixel, look up the element in each of the two scenes. The upper of the two
- * elements is the one that caused the difference.
+ * (renderer_find_element_numbers()). For each differing pixel, look up the element in each of the two scenes. The upper
+ * of the two elements is the one that caused the difference.
  *
- * A node may be drawn in only one scene because one of its ancestors is divided only there. Its pixels are then
- * counted for this ancestor, so that one change in the tree is reported once and not once for each descendant. A hash
- * table adds up the pixels of equal elements. The elements are then sorted by their number of pixels. Frames that do
- * not show the scene of their tick are not traced.
+ * A node may be drawn in only one scene because one of its ancestors is divided only there. Its pixels are then counted
+ * for this ancestor, so that one change in the tree is reported once and not once for each descendant. A hash table
+ * adds up the pixels of equal elements. The elements are then sorted by their number of pixels. Frames that do not show
+ * the scene of their tick are not traced.
  *
- * Cost: two drawings, and 8 bytes for each sample of a picture.
- */
+ * Cost: two drawings, and 8 bytes for each sample of a picture. */
 #include "trace.h"
 #include "array.h"
 #include "frame_file.h"
@@ -51,7 +50,7 @@ bool tracer_add_tick(tracer *t, const recorded sides[2], const octree_game *cons
 
 /* Among a node and its ancestors, return the highest changed node, or 0 if none of them is changed. A node is
  * changed if it exists in only one of the two trees, or is a leaf in only one of them. */
-static octree_address changed_node(const octree_game *const games[2], octree_address node)
+static octree_address find_changed_node(const octree_game *const games[2], octree_address node)
 {
     const unsigned depth = octree_address_depth(node);
     octree_node both[2];
@@ -76,7 +75,7 @@ static trace_part find_part_of_element(const scene *s, uint32_t number, const oc
     part.layer = scene_element_head(s, element).style.layer;
     const bool about_node = part.layer == LAYER_NODES || part.layer == LAYER_VISITED || part.layer == LAYER_PRUNED ||
                             part.layer == LAYER_HIT;
-    const octree_address changed = about_node ? changed_node(games, scene_element_head(s, element).id) : 0;
+    const octree_address changed = about_node ? find_changed_node(games, scene_element_head(s, element).id) : 0;
     if (changed)
         part.layer = LAYER_NODES;
     if (changed || part.layer == LAYER_NODES || part.layer == LAYER_POINTS)
@@ -139,12 +138,12 @@ static uint64_t hash_part(const void *part)
     return hash_map_hash_id(&key);
 }
 
-static const hash_map_item_type by_part = {sizeof(trace_part), hash_part, are_parts_equal};
+static const hash_map_item_type part_type = {sizeof(trace_part), hash_part, are_parts_equal};
 
-static bool count_part(tracing *t, const trace_part *part)
+static bool count_pixel_of_part(tracing *t, const trace_part *part)
 {
     trace *made = &t->made;
-    const uint32_t place = hash_map_find(&t->map, &by_part, made->parts, part);
+    const uint32_t place = hash_map_find(&t->map, &part_type, made->parts, part);
     made->pixels++;
     if (place != HASH_MAP_NONE) {
         made->parts[place].pixels++;
@@ -153,7 +152,7 @@ static bool count_part(tracing *t, const trace_part *part)
     if (!array_grow(&made->parts, made->count + 1, &t->room, sizeof *made->parts))
         return false;
     made->parts[made->count++] = *part;
-    return hash_map_add(&t->map, &by_part, made->parts);
+    return hash_map_add(&t->map, &part_type, made->parts);
 }
 
 static int compare_by_pixels(const void *a, const void *b)
@@ -165,7 +164,7 @@ static int compare_by_pixels(const void *a, const void *b)
 }
 
 /* Count, for each part, the pixels that differ and are not ignored. */
-static bool count_parts(tracing *t, const image_tolerance *tolerance)
+static bool count_pixels_of_parts(tracing *t, const image_tolerance *tolerance)
 {
     const image *frames = t->frames;
     for (int y = 0; y < frames[0].height; y++)
@@ -174,7 +173,7 @@ static bool count_parts(tracing *t, const image_tolerance *tolerance)
             if ((a.r == b.r && a.g == b.g && a.b == b.b) || image_is_pixel_ignored(tolerance, frames[0].width, x, y))
                 continue;
             const trace_part part = find_part_at_pixel(t, (size_t)x, (size_t)y);
-            if (!count_part(t, &part))
+            if (!count_pixel_of_part(t, &part))
                 return false;
         }
     if (t->made.count)
@@ -234,7 +233,7 @@ static bool trace_frames(tracer *t, tracing *state, const diff_pair *pair, const
         if (!draw_element_numbers(t, &t->scenes[i], state->numbers[i]))
             return true;
     }
-    const bool ok = pair_tolerance(pair, options, &tolerance) && count_parts(state, &tolerance);
+    const bool ok = pair_tolerance(pair, options, &tolerance) && count_pixels_of_parts(state, &tolerance);
     pair_tolerance_release(&tolerance);
     return ok;
 }

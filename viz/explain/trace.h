@@ -26,13 +26,13 @@ typedef struct trace_part {
 
 /* The parts drawn at the differing pixels of a pair of frames. A zeroed trace has no parts. */
 typedef struct trace {
-    bool made;
+    bool made;         /* true: the pair was traced */
     trace_part *parts; /* each part once, in descending order of pixels; owned */
     size_t count;
     uint64_t pixels; /* the sum of the pixels of all parts */
 } trace;
 
-/* The state while two games are played and their frames are traced. Zeroed, it is the state before the first tick. */
+/* The state while two games are played and their frames are traced. A zeroed tracer is ready for the first tick. */
 typedef struct tracer {
     tick_history histories[2];
     scene scenes[2];

@@ -107,7 +107,7 @@ static bool any_unlike(const octree *a, const octree *b)
 
 static uint64_t count_facts(const cause_facts *facts, const char *where, cause_change change)
 {
-    const cause_group *group = cause_group_of(facts, where, change);
+    const cause_group *group = cause_find_group(facts, where, change);
     return group ? group->found : 0;
 }
 
@@ -290,7 +290,7 @@ static void assert_named(const changed_session *t, uint64_t seed)
     assert_true(text_stream_begin(&s));
     cause_print_headline(s.stream, &c);
     assert_true(text_stream_end(&s, &headline));
-    const cause_group *group = cause_group_of(&c.session, t->where, t->change);
+    const cause_group *group = cause_find_group(&c.session, t->where, t->change);
     if (c.session.count != 1 || !group || group->found != 1 || group->listed[0].tick != t->tick ||
         group->listed[0].id != t->id || strncmp(headline, t->text, strlen(t->text)) != 0)
         fail_msg("seed %" PRIu64 ": %s\nand not %s", seed, headline, t->text);

@@ -117,7 +117,7 @@ static void pixels_of_a_split_belong_to_the_node_that_split(void **state)
     comparison_of made = assert_traced(&a, &b, NULL);
     assert_adds_up(&made);
     const cause_tick *told = cause_find_tick(&made.why.cause, 1);
-    const cause_group *split = cause_group_of(&told->facts, "nodes.split", CAUSE_MORE);
+    const cause_group *split = cause_find_group(&told->facts, "nodes.split", CAUSE_MORE);
     octree_address node;
     assert_non_null(split);
     assert_int_equal(split->found, 1);
