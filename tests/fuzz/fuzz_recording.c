@@ -170,7 +170,7 @@ static void report_all(const diff_side sides[2], const diff_result *result, expl
     check(frame_groups_make(&groups, result, why, false, &error));
     diff_report all = {.a = &sides[0], .b = &sides[1], .result = result, .why = why, .lines = 10, .groups = &groups};
     if (evident && told(evidence_prepare(evidence_folder, &sides[0], &sides[1], &error), &error) &&
-        told(evidence_collect(&shown, evidence_folder, result, &groups, &error), &error)) {
+        told(evidence_write_groups(&shown, evidence_folder, result, &groups, &error), &error)) {
         all.evidence = &shown;
         (void)(told(contact_sheet_write(&all, &error), &error) && told(diff_report_page(&all, &error), &error));
     }

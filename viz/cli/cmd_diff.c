@@ -201,7 +201,7 @@ static int write_reports(const arguments *a, diff_report *all)
     octreel_error error;
     bool ok = true;
     if (folder) {
-        ok = evidence_collect(&e, folder, all->result, all->groups, &error);
+        ok = evidence_write_groups(&e, folder, all->result, all->groups, &error);
         all->evidence = &e;
         ok = ok && contact_sheet_write(all, &error) && diff_report_page(all, &error);
     }

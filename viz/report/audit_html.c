@@ -26,11 +26,11 @@ typedef struct page {
 } page;
 
 /* Set `base` and `has_viewer` of the page. Return false if memory runs out. */
-static bool find_recording(page *p, const char *from)
+static bool find_link_base(page *p, const char *from)
 {
     if (!p->verdict->recording)
         return true;
-    p->base = link_find_folder(from, p->verdict->path);
+    p->base = link_make_relative_path(from, p->verdict->path);
     p->has_viewer = link_has_page(p->verdict->path);
     return p->base;
 }
@@ -49,8 +49,8 @@ static bool begin_frame_link(const page *p, uint64_t tick, const char *before)
     return true;
 }
 
-/* An element that a link to the recording's page selects: `word` is "point" or "foreign", a foreign node; null: none.
- */
+/* An element that a link to the recording's page selects: `word` is "point" or "foreign" (a foreign node); null: no
+ * element is selected. */
 typedef struct link_target {
     const char *word;
     uint64_t id;
@@ -78,10 +78,9 @@ enum { WIDTH = 960, HEIGHT = 150, LEFT = 70, RIGHT = 20, TOP = 12, FOOT = 26 };
 /* A chart of one value of the audit over the ticks: the recall, or the ratio of distances. */
 typedef struct chart {
     const audit_kind *kind;
-    bool ratio; /* true: the value is the ratio of distances; false: the recall */
-    double from, to;
-    double finite; /* the largest value on the finite part of the axis; infinite values are drawn beyond it, at `to`
-                    */
+    bool ratio;          /* true: the value is the ratio of distances; false: the recall */
+    double from, to;     /* the values at the lower and the upper end of the axis */
+    double finite;       /* the largest finite value on the axis; infinite values are drawn at `to` */
     const double *limit; /* null: no limit is drawn */
 } chart;
 
@@ -131,7 +130,7 @@ static double chart_y(const chart *c, double value)
     return HEIGHT - FOOT - share * (HEIGHT - FOOT - TOP);
 }
 
-static void write_scale(const page *p, const chart *c, double value)
+static void write_grid_line(const page *p, const chart *c, double value)
 {
     char number[NUMBER_TEXT];
     const double y = chart_y(c, value);
@@ -140,7 +139,7 @@ static void write_scale(const page *p, const chart *c, double value)
             value > c->finite ? "infinite" : number_format(value, 6, number));
 }
 
-static void write_ticks_scale(const page *p, const chart *c)
+static void write_tick_axis(const page *p, const chart *c)
 {
     const uint64_t first = c->kind->ticks[0].tick, last = c->kind->ticks[c->kind->tick_count - 1].tick;
     fprintf(p->out, "<text x=\"%.1f\" y=\"%d\">tick %" PRIu64 "</text>", chart_x(c, first), HEIGHT - 8, first);
@@ -163,7 +162,7 @@ static const audit_tick *find_worst_tick(const chart *c, size_t point, size_t po
     return worst;
 }
 
-static void write_point(const page *p, const chart *c, const audit_tick *tick)
+static void write_chart_point(const page *p, const chart *c, const audit_tick *tick)
 {
     char text[AUDIT_RATIO_TEXT];
     const bool linked = begin_frame_link(p, tick->tick, "") || begin_viewer_link(p, tick->tick, (link_target){0}, "");
@@ -180,13 +179,13 @@ static void write_chart(const page *p, const audit_kind *kind, bool ratio)
     const size_t points = kind->tick_count < AUDIT_PAGE_POINTS ? kind->tick_count : AUDIT_PAGE_POINTS;
     fprintf(p->out, "<h3>%s, by tick</h3>\n<svg viewBox=\"0 0 %d %d\" role=\"img\" aria-label=\"%s by tick\">\n",
             ratio ? "Ratio of distances" : "Recall", WIDTH, HEIGHT, ratio ? "Ratio of distances" : "Recall");
-    write_scale(p, &c, c.from);
-    write_scale(p, &c, c.finite);
+    write_grid_line(p, &c, c.from);
+    write_grid_line(p, &c, c.finite);
     if (c.to > c.finite)
-        write_scale(p, &c, c.to);
+        write_grid_line(p, &c, c.to);
     if (c.limit)
         fprintf(p->out, "<path class=\"limit\" d=\"M%d %.1fH%d\"/>\n", LEFT, chart_y(&c, *c.limit), WIDTH - RIGHT);
-    write_ticks_scale(p, &c);
+    write_tick_axis(p, &c);
     fputs("<polyline class=\"way\" points=\"", p->out);
     for (size_t i = 0; i < points; i++) {
         const audit_tick *tick = find_worst_tick(&c, i, points);
@@ -194,7 +193,7 @@ static void write_chart(const page *p, const audit_kind *kind, bool ratio)
     }
     fputs("\"/>\n", p->out);
     for (size_t i = 0; i < points; i++)
-        write_point(p, &c, find_worst_tick(&c, i, points));
+        write_chart_point(p, &c, find_worst_tick(&c, i, points));
     fputs("</svg>\n", p->out);
 }
 
@@ -210,14 +209,14 @@ static void write_links(const page *p, uint64_t tick, link_target target)
     fputs(frame || viewer ? ")" : "", p->out);
 }
 
-/* Return the first point that a wrong answer lacks or has too much. */
+/* Return the first missing point of a wrong answer. If no point is missing, return the first extra point. */
 static link_target find_wrong_point(const audit_case *c)
 {
     const octree_point *first = c->made.missing_count ? c->missing : c->made.extra_count ? c->extra : NULL;
     return first ? (link_target){"point", first->id} : (link_target){0};
 }
 
-/* Return the node that is wrong, or the point that no node holds. */
+/* Return the wrong node or, if a point is in no node, this point. */
 static link_target find_wrong_node(const octree_wrong_node *wrong)
 {
     return wrong->kind == OCTREE_NODE_LOST_POINT ? (link_target){"point", wrong->point}
@@ -225,12 +224,12 @@ static link_target find_wrong_node(const octree_wrong_node *wrong)
 }
 
 /* Print a wrong answer: first as a sentence, then as the JSON of its line in ticks.jsonl, which has all digits. */
-static void write_worst(const page *p, const audit_case *c, const octree_query_traits *about)
+static void write_wrong_answer(const page *p, const audit_case *c, const octree_query_traits *about)
 {
     fprintf(p->out, "<li>tick %" PRIu64, c->tick);
     write_links(p, c->tick, find_wrong_point(c));
     fputs(", ", p->out);
-    audit_print_case(p->out, c, about);
+    audit_print_wrong_answer(p->out, c, about);
     fputs("<details><summary>as in ticks.jsonl</summary><pre>", p->out);
     write_escaped(p->out, c->answer, escape_xml_text);
     fputs("</pre></details></li>\n", p->out);
@@ -266,7 +265,7 @@ static void write_kind(const page *p, int of)
         write_chart(p, kind, true);
     fputs(kind->worst_count ? "<h3>The worst</h3>\n<ol>\n" : "", p->out);
     for (size_t i = 0; i < kind->worst_count; i++)
-        write_worst(p, &kind->worst[i], about);
+        write_wrong_answer(p, &kind->worst[i], about);
     fputs(kind->worst_count ? "</ol>\n</section>\n" : "</section>\n", p->out);
 }
 
@@ -276,7 +275,7 @@ static void write_head(const page *p)
 {
     const audit_verdict *v = p->verdict;
     fprintf(p->out, "<h1%s>", audit_passes(v->report) ? "" : " class=\"fails\"");
-    audit_print_all(p->out, v);
+    audit_print_summary(p->out, v);
     fputs("</h1>\n<p>octreel audit of ", p->out);
     write_escaped(p->out, v->path, escape_xml_character);
     fputs("</p>\n", p->out);
@@ -293,7 +292,7 @@ static void write_head(const page *p)
 bool audit_print_page(FILE *out, const audit_verdict *verdict, const char *from)
 {
     page p = {.out = out, .verdict = verdict};
-    if (!find_recording(&p, from))
+    if (!find_link_base(&p, from))
         return false;
     fwrite(audit_page_head, 1, audit_page_head_size, out);
     write_head(&p);

@@ -29,7 +29,7 @@ static void write_case(FILE *out, const audit_verdict *v, int kind, bool passes)
     for (size_t i = 0; kind < OCTREE_QUERY_KINDS && i < v->report->kinds[kind].worst_count; i++) {
         const audit_case *worst = &v->report->kinds[kind].worst[i];
         fprintf(out, "\ntick %" PRIu64 ", ", worst->tick);
-        audit_print_case(out, worst, octree_query_about((octree_query_kind)kind));
+        audit_print_wrong_answer(out, worst, octree_query_about((octree_query_kind)kind));
         putc('\n', out);
         write_escaped(out, worst->answer, escape_xml_text);
     }
@@ -51,7 +51,7 @@ void audit_print_junit(FILE *out, const audit_verdict *v)
     if (report->nodes.given)
         write_case(out, v, OCTREE_QUERY_KINDS, report->nodes.wrong == 0);
     fputs("    <system-out>", out);
-    audit_print_all(out, v);
+    audit_print_summary(out, v);
     audit_print_limits(out, "; allowed: ", &report->limits, "");
     fputs("</system-out>\n", out);
     junit_end(out);

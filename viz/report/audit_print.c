@@ -19,7 +19,7 @@ const char *audit_ratio_text(double ratio, char text[AUDIT_RATIO_TEXT])
 
 /* Print a share, a number from 0 to 1, with six digits. A share just below 1 is printed with as many digits as
  * distinguish it from 1. */
-static const char *share_text(double share, char text[NUMBER_TEXT])
+static const char *format_share(double share, char text[NUMBER_TEXT])
 {
     int digits = 6;
     while (number_format(share, digits, text)[0] == '1' && share < 1)
@@ -58,8 +58,8 @@ static void print_points(FILE *out, const char *what, const octree_point *points
         fprintf(out, " and %zu more", count - printed);
 }
 
-/* A wrong answer may be missing only points on the region's boundary, or have only such extra points. Then print
- * this, and print the member of the query that makes this treatment of the boundary correct. */
+/* If all missing points, or all extra points, lie on the boundary of the query's region, print this fact and the member
+ * of the query that makes the index's treatment of the boundary correct. */
 static void print_boundary(FILE *out, const octree_judgement *made, const char *region)
 {
     static const char *const habits[OCTREE_BOUNDS_KINDS] = {
@@ -80,7 +80,7 @@ static void print_boundary(FILE *out, const octree_judgement *made, const char *
             octree_bounds_name(made->accepting));
 }
 
-void audit_print_case(FILE *out, const audit_case *c, const octree_query_traits *about)
+void audit_print_wrong_answer(FILE *out, const audit_case *c, const octree_query_traits *about)
 {
     char text[AUDIT_RATIO_TEXT];
     fprintf(out, "answers[%zu]: %s", c->place, reason_words(c->made.wrong));
@@ -119,13 +119,13 @@ void audit_print_limits(FILE *out, const char *before, const audit_limits *limit
 }
 
 /* Print whether the audit of this kind of query is within its limits. If no limits are set, print nothing. */
-static void print_if_within(FILE *out, const audit_limits *limits, bool passes)
+static void print_whether_within_limits(FILE *out, const audit_limits *limits, bool passes)
 {
     if (has_limits(limits))
         fprintf(out, ", %s what is allowed", passes ? "within" : "beyond");
 }
 
-void audit_print_all(FILE *out, const audit_verdict *v)
+void audit_print_summary(FILE *out, const audit_verdict *v)
 {
     const audit_report *report = v->report;
     fprintf(out, "%" PRIu64 " answer%s in %" PRIu64 " tick%s", report->asked, plural_ending(report->asked),
@@ -136,7 +136,7 @@ void audit_print_all(FILE *out, const audit_verdict *v)
         fputs(", all right", out);
     if (report->nodes.wrong)
         fprintf(out, ", %" PRIu64 " wrong node%s", report->nodes.wrong, plural_ending(report->nodes.wrong));
-    print_if_within(out, &v->report->limits, audit_passes(report));
+    print_whether_within_limits(out, &v->report->limits, audit_passes(report));
     if (report->nodes.wrong && has_limits(&report->limits))
         fputs("; wrong nodes are never allowed", out);
 }
@@ -147,7 +147,7 @@ void audit_print_kind(FILE *out, const audit_verdict *v, int of)
     const octree_query_traits *about = octree_query_about((octree_query_kind)of);
     char recall[NUMBER_TEXT], ratios[2][AUDIT_RATIO_TEXT];
     fprintf(out, "%s: %" PRIu64 " asked, %" PRIu64 " wrong, recall %s", about->name, kind->asked, kind->wrong,
-            share_text(audit_recall(kind), recall));
+            format_share(audit_recall(kind), recall));
     if (about->neighbors)
         fprintf(out, ", ratio of distances %s at worst, 99th percentile %s",
                 audit_ratio_text(audit_ratio_percentile(kind, 1), ratios[0]),
@@ -156,7 +156,7 @@ void audit_print_kind(FILE *out, const audit_verdict *v, int of)
         fprintf(out, ", %" PRIu64 " missing, %" PRIu64 " extra", kind->missing, kind->extra);
     if (kind->wrong)
         fprintf(out, "; first wrong at tick %" PRIu64, kind->first_wrong);
-    print_if_within(out, &v->report->limits, audit_kind_passes(kind, &v->report->limits));
+    print_whether_within_limits(out, &v->report->limits, audit_kind_passes(kind, &v->report->limits));
     for (int i = OCTREE_WRONG_NONE + 1; i < OCTREE_WRONG_KINDS; i++)
         if (kind->wrong_by_kind[i])
             fprintf(out, "; %" PRIu64 " time%s: %s", kind->wrong_by_kind[i], plural_ending(kind->wrong_by_kind[i]),
@@ -205,7 +205,7 @@ void audit_print_text(FILE *out, const audit_verdict *v)
 {
     write_escaped(out, v->path, escape_nothing);
     fputs(": ", out);
-    audit_print_all(out, v);
+    audit_print_summary(out, v);
     putc('\n', out);
     for (int i = 0; i < OCTREE_QUERY_KINDS; i++) {
         const audit_kind *kind = &v->report->kinds[i];
@@ -216,7 +216,7 @@ void audit_print_text(FILE *out, const audit_verdict *v)
         for (size_t j = 0; j < kind->worst_count; j++) {
             const audit_case *c = &kind->worst[j];
             fprintf(out, "  tick %" PRIu64 ", ", c->tick);
-            audit_print_case(out, c, octree_query_about((octree_query_kind)i));
+            audit_print_wrong_answer(out, c, octree_query_about((octree_query_kind)i));
             fprintf(out, "\n    %s\n", c->answer);
         }
     }

@@ -33,8 +33,8 @@ bool audit_print_page(FILE *out, const audit_verdict *verdict, const char *from)
 
 /* ---- Used only in this folder --------------------------------------------------------------------------------
  *
- * The printed sentences contain no "<" and no "&", so they need no escape in XML and HTML. Only audit_print_case()
- * prints double quotes; its sentence is not for attributes.
+ * The printed sentences contain no "<" and no "&", so they need no escape in XML and HTML. Only
+ * audit_print_wrong_answer() prints double quotes; its sentence is not for attributes.
  */
 
 /* Print a ratio, "1.7" or "infinite", into `text`. Return `text`. */
@@ -42,7 +42,7 @@ bool audit_print_page(FILE *out, const audit_verdict *verdict, const char *from)
 const char *audit_ratio_text(double ratio, char text[AUDIT_RATIO_TEXT]);
 
 /* Print one line without a newline: the result of the whole audit, of one kind of query, or of the nodes. */
-void audit_print_all(FILE *out, const audit_verdict *verdict);
+void audit_print_summary(FILE *out, const audit_verdict *verdict);
 void audit_print_kind(FILE *out, const audit_verdict *verdict, int kind);
 void audit_print_nodes(FILE *out, const audit_nodes *nodes);
 
@@ -57,6 +57,6 @@ void audit_print_wrong_nodes(FILE *out, const audit_nodes *nodes, octree_wrong_n
 /* Print a wrong answer to a query of the kind `about`: the index of the answer in its tick, why the answer is wrong,
  * and its missing and extra points. If other bounds of the query, open or closed, would make the answer right, print
  * these bounds. */
-void audit_print_case(FILE *out, const audit_case *c, const octree_query_traits *about);
+void audit_print_wrong_answer(FILE *out, const audit_case *c, const octree_query_traits *about);
 
 #endif

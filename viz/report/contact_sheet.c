@@ -24,7 +24,7 @@ enum {
     HEAD = GAP + LINE + GAP / 2 + LINE,
     ROW = 2 * LINE + CELL_HEIGHT + 2 * GAP,
     WIDTH = EVIDENCE_PICTURES * (CELL_WIDTH + GAP) + GAP,
-    LETTERS = (WIDTH - 2 * GAP) / 8,
+    LETTERS = (WIDTH - 2 * GAP) / 8, /* number of characters that fit in a line of text */
 };
 
 static const image_color ground = {24, 29, 39}, cell_ground = {14, 17, 24}, text_color = {230, 234, 241},

@@ -49,7 +49,7 @@ static size_t length_of_fitting_stem(const char *stem)
 
 /* "expected", "actual" or "difference" is inserted before the suffix of the frame's name, so different frames get
  * different file names. A name that becomes too long is cut and ends with a digest of the whole name. */
-char *evidence_name(const char *frame, evidence_picture picture)
+char *evidence_file_name(const char *frame, evidence_picture picture)
 {
     const char *file = path_base_name(frame);
     const size_t stem = diff_stem_length(file), size = strlen(frame) + sizeof LONGEST_ENDING;
@@ -64,7 +64,7 @@ char *evidence_name(const char *frame, evidence_picture picture)
     return name;
 }
 
-static bool is_picture_name(const char *name)
+static bool is_evidence_picture_name(const char *name)
 {
     static const char part[] = ".part";
     size_t length = strlen(name);
@@ -79,18 +79,18 @@ static bool is_picture_name(const char *name)
     return false;
 }
 
-bool evidence_is_name(const char *name)
+bool evidence_is_file_name(const char *name)
 {
     static const char *const files[] = {EVIDENCE_PAGE, EVIDENCE_PAGE ".part", CONTACT_SHEET, CONTACT_SHEET ".part"};
     for (size_t i = 0; i < sizeof files / sizeof *files; i++)
         if (strcmp(name, files[i]) == 0)
             return true;
-    return is_picture_name(name);
+    return is_evidence_picture_name(name);
 }
 
 static char *picture_path(const char *folder, const diff_pair *pair, evidence_picture picture)
 {
-    char *name = evidence_name(diff_pair_name(pair), picture), *path = name ? path_join(folder, name) : NULL;
+    char *name = evidence_file_name(diff_pair_name(pair), picture), *path = name ? path_join(folder, name) : NULL;
     free(name);
     return path;
 }
@@ -147,7 +147,7 @@ static bool remove_old_entry(const char *folder, const char *name, bool top, oct
         ok = !clears || remove_old_entries(path, false, error);
         if (clears)
             rmdir(path); /* fails if the folder is not empty */
-    } else if (ok && (top ? evidence_is_name(name) : is_picture_name(name)))
+    } else if (ok && (top ? evidence_is_file_name(name) : is_evidence_picture_name(name)))
         ok = folder_remove_file(folder, name, error);
     free(path);
     return ok;
@@ -188,7 +188,7 @@ bool evidence_prepare(const char *folder, const diff_side *a, const diff_side *b
 
 /* Return whether the file of a frame can be copied. Only regular files and standard input can be copied; all other
  * frames are reported as unreadable. */
-static bool has_file(const diff_frame *frame)
+static bool is_frame_copyable(const diff_frame *frame)
 {
     struct stat status;
     if (!frame || !frame->path)
@@ -199,7 +199,7 @@ static bool has_file(const diff_frame *frame)
 static bool copy_frame(const diff_frame *frame, const diff_pair *pair, evidence_picture picture, const char *folder,
                        unsigned *written, octreel_error *error)
 {
-    if (!has_file(frame))
+    if (!is_frame_copyable(frame))
         return true;
     char *path = picture_path(folder, pair, picture);
     const bool ok =
@@ -263,8 +263,8 @@ static bool draw_difference(const diff_pair *pair, const diff_options *options, 
     return ok;
 }
 
-bool evidence_draw(const diff_pair *pair, const diff_options *options, const char *folder, unsigned *written,
-                   octreel_error *error)
+bool evidence_write_pair(const diff_pair *pair, const diff_options *options, const char *folder, unsigned *written,
+                         octreel_error *error)
 {
     *written = 0;
     if (!copy_frame(pair->a, pair, EVIDENCE_EXPECTED, folder, written, error) ||
@@ -276,14 +276,14 @@ bool evidence_draw(const diff_pair *pair, const diff_options *options, const cha
 
 /* ---- All pairs ----------------------------------------------------------------------------------------------- */
 
-bool evidence_collect(evidence *e, const char *folder, const diff_result *result, const frame_groups *groups,
-                      octreel_error *error)
+bool evidence_write_groups(evidence *e, const char *folder, const diff_result *result, const frame_groups *groups,
+                           octreel_error *error)
 {
     *e = (evidence){.folder = folder, .pictures = calloc(result->count, sizeof *e->pictures)};
     bool ok = e->pictures || error_no_memory(error);
     for (size_t i = 0; ok && i < result->count; i++)
         if (diff_finding_verdict(result->pairs[i].finding) != DIFF_SAME && frame_groups_is_first(groups, i))
-            ok = evidence_draw(&result->pairs[i], &result->options, folder, &e->pictures[i], error);
+            ok = evidence_write_pair(&result->pairs[i], &result->options, folder, &e->pictures[i], error);
     if (!ok)
         evidence_release(e);
     return ok;

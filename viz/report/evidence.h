@@ -26,17 +26,17 @@ typedef enum evidence_picture {
 const char *evidence_word(evidence_picture picture);
 
 /* Return the file name of a frame's picture of evidence, or null if memory runs out. The caller frees the name. */
-char *evidence_name(const char *frame, evidence_picture picture);
+char *evidence_file_name(const char *frame, evidence_picture picture);
 
 /* Return whether a file name is that of an evidence picture, of report.html or of contact.png. The name of an
  * unfinished file, which ends in ".part", counts too. */
-bool evidence_is_name(const char *name);
+bool evidence_is_file_name(const char *name);
 
 /* Write the expected and the actual picture of a pair into a folder, as far as they exist. If both can be read, also
  * write their difference. For each written picture the bit (1 << evidence_picture) is set in *written. Both images
  * are held in memory; the difference is written row by row. */
-bool evidence_draw(const diff_pair *pair, const diff_options *options, const char *folder, unsigned *written,
-                   octreel_error *error);
+bool evidence_write_pair(const diff_pair *pair, const diff_options *options, const char *folder, unsigned *written,
+                         octreel_error *error);
 
 typedef struct evidence {
     const char *folder; /* not owned */
@@ -48,8 +48,8 @@ typedef struct evidence {
 bool evidence_prepare(const char *folder, const diff_side *a, const diff_side *b, octreel_error *error);
 
 /* Write the pictures of the first pair of each differing group. */
-bool evidence_collect(evidence *e, const char *folder, const diff_result *result, const frame_groups *groups,
-                      octreel_error *error);
+bool evidence_write_groups(evidence *e, const char *folder, const diff_result *result, const frame_groups *groups,
+                           octreel_error *error);
 void evidence_release(evidence *e);
 
 /* Return the path of one picture of the i-th pair. The caller frees the path. Return null if the picture was not

@@ -24,7 +24,7 @@ static bool are_frames_of_ticks(const frame_groups *g, const diff_result *result
     return true;
 }
 
-static void print_frame(FILE *out, const diff_pair *pair, bool ticks)
+static void print_frame_name(FILE *out, const diff_pair *pair, bool ticks)
 {
     if (ticks)
         fprintf(out, "%" PRIu64, diff_pair_tick(pair));
@@ -33,7 +33,7 @@ static void print_frame(FILE *out, const diff_pair *pair, bool ticks)
 }
 
 /* Print the names of a group's frames. With `others`, leave out the group's first frame. */
-static void print_frames(FILE *out, const frame_groups *g, const diff_result *result, size_t group, bool others)
+static void print_frame_names(FILE *out, const frame_groups *g, const diff_result *result, size_t group, bool others)
 {
     const bool ticks = are_frames_of_ticks(g, result, group);
     const size_t last = g->groups[group].last, all = g->groups[group].count - others;
@@ -45,11 +45,11 @@ static void print_frames(FILE *out, const frame_groups *g, const diff_result *re
             end++;
         if (end > i) {
             fputs(runs++ ? ", " : "", out);
-            print_frame(out, &result->pairs[i], ticks);
+            print_frame_name(out, &result->pairs[i], ticks);
             if (end - i > 1)
                 fputs(end - i > 2 ? " to " : ", ", out);
             if (end - i > 1)
-                print_frame(out, &result->pairs[end - 1], ticks);
+                print_frame_name(out, &result->pairs[end - 1], ticks);
         }
         shown += end - i;
         end += end == i;
@@ -81,10 +81,10 @@ static bool print_sentences(frame_groups *g, const diff_result *result, const ex
         putc(0, s.stream);
         diff_print_difference(s.stream, &result->pairs[g->groups[i].first]);
         putc(0, s.stream);
-        print_frames(s.stream, g, result, i, false);
+        print_frame_names(s.stream, g, result, i, false);
         putc(0, s.stream);
         if (g->groups[i].count > 1)
-            print_frames(s.stream, g, result, i, true);
+            print_frame_names(s.stream, g, result, i, true);
         putc(0, s.stream);
     }
     if (!text_stream_end(&s, &g->sentences))
@@ -117,7 +117,8 @@ static int compare_by_key(const void *a, const void *b)
     return order ? order : (x->pair > y->pair) - (x->pair < y->pair);
 }
 
-/* Number the groups in the order of their first pairs, and count their pairs. */
+/* Number the groups in the order of their first pairs, and count their pairs. first[i] is the index of the first pair
+ * in the group of pair i, or GROUP_NONE. */
 static void number_groups(frame_groups *g, size_t pairs, const size_t *first)
 {
     for (size_t i = 0; i < pairs; i++) {

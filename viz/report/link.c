@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* link.c - see link.h. */
+/* link.c - computes relative paths, and writes paths as parts of URLs. */
 #include "link.h"
 #include "file.h"
 #include "folder.h"
@@ -61,7 +61,7 @@ static char *absolute_path(const char *path)
     return made;
 }
 
-char *link_find_folder(const char *from, const char *to)
+char *link_make_relative_path(const char *from, const char *to)
 {
     char *here = absolute_path(from), *there = absolute_path(to);
     char *path = here && there ? relative_path(here, there) : NULL;

@@ -141,7 +141,7 @@ static void write_findings(json_writer *w, const diff_report *report)
 }
 
 /* Write the names of all frames of a group. Each listed frame is in exactly one group. */
-void diff_json_group(json_writer *w, const diff_report *report, size_t group)
+void diff_json_group_frames(json_writer *w, const diff_report *report, size_t group)
 {
     const frame_group *g = &report->groups->groups[group];
     json_begin_array_member(w, "frames");
@@ -160,7 +160,7 @@ static void write_groups(json_writer *w, const diff_report *report)
         json_write_text_member(w, "finding", diff_finding_name(report->result->pairs[g->first].finding));
         if (g->cause)
             json_write_text_member(w, "cause", g->cause);
-        diff_json_group(w, report, i);
+        diff_json_group_frames(w, report, i);
         json_write_end_object(w);
     }
     json_write_end_array(w);

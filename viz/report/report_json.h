@@ -14,6 +14,6 @@ void diff_json_summary(json_writer *writer, const diff_report *report);
 void diff_json_finding(json_writer *writer, const diff_report *report, size_t i);
 
 /* Write the names of a group's frames as one member of the current object. */
-void diff_json_group(json_writer *writer, const diff_report *report, size_t group);
+void diff_json_group_frames(json_writer *writer, const diff_report *report, size_t group);
 
 #endif

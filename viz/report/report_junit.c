@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* report_junit.c - writes a comparison as JUnit XML: see report.h. A failure contains lines
+/* report_junit.c - writes a comparison as JUnit XML: see report.h. The output of a failed test case contains a line
  * [[ATTACHMENT|PATH]]. GitLab and Jenkins show the picture at PATH if they find the file. */
 #include "diff_words.h"
 #include "junit.h"
@@ -7,7 +7,8 @@
 
 #include <stdlib.h>
 
-static void write_xml(FILE *out, const char *before, const char *text)
+/* Write `before` unchanged, then `text` with XML escapes. */
+static void write_escaped_xml(FILE *out, const char *before, const char *text)
 {
     fputs(before, out);
     write_escaped(out, text, escape_xml_character);
@@ -21,14 +22,14 @@ static void write_message(FILE *out, const diff_report *report, size_t i)
     const frame_group *group = &report->groups->groups[report->groups->of[i]];
     fputs(diff_verdict_name(diff_finding_verdict(pairs[i].finding)), out);
     if (group->first != i) {
-        write_xml(out, ": like ", diff_pair_name(&pairs[group->first]));
+        write_escaped_xml(out, ": like ", diff_pair_name(&pairs[group->first]));
         return;
     }
-    write_xml(out, ": ", group->difference);
+    write_escaped_xml(out, ": ", group->difference);
     if (group->cause)
-        write_xml(out, ". Cause: ", group->cause);
+        write_escaped_xml(out, ". Cause: ", group->cause);
     if (group->count > 1)
-        write_xml(out, ". Alike: ", group->others);
+        write_escaped_xml(out, ". Alike: ", group->others);
 }
 
 /* Write a failure element. The message is written twice, as attribute and as text, because some readers of JUnit XML
@@ -44,18 +45,18 @@ static void write_failure(FILE *out, const diff_report *report, size_t i)
     fprintf(out, "</%s>\n", element);
 }
 
-static void write_paths(FILE *out, const diff_report *report, size_t i)
+static void write_picture_paths(FILE *out, const diff_report *report, size_t i)
 {
     fputs("      <system-out>", out);
     for (int picture = 0; picture < EVIDENCE_PICTURES; picture++) {
         char *path = evidence_path(report->evidence, report->result, i, (evidence_picture)picture);
         if (path) {
             fprintf(out, "%s: ", evidence_word((evidence_picture)picture));
-            write_xml(out, "", path);
+            write_escaped_xml(out, "", path);
             putc('\n', out);
         }
         if (path && picture == EVIDENCE_DIFFERENCE) {
-            write_xml(out, "[[ATTACHMENT|", path);
+            write_escaped_xml(out, "[[ATTACHMENT|", path);
             fputs("]]\n", out);
         }
         free(path);
@@ -74,12 +75,12 @@ static void write_case(FILE *out, const diff_report *report, size_t i)
     fputs(">\n", out);
     write_failure(out, report, i);
     if (report->evidence && report->evidence->pictures[i])
-        write_paths(out, report, i);
+        write_picture_paths(out, report, i);
     fputs("    </testcase>\n", out);
 }
 
-/* Write the test case for recordings that have no frames. It is the only test case of the report and says whether
- * their ticks are equal. */
+/* Write the test case for recordings that have no frames, the only test case of the report: whether the ticks of the
+ * recordings are equal. */
 static void write_ticks_test_case(FILE *out, const diff_report *report)
 {
     const char *headline = report->why->headline ? report->why->headline : "";
@@ -88,23 +89,23 @@ static void write_ticks_test_case(FILE *out, const diff_report *report)
         fputs("/>\n", out);
         return;
     }
-    write_xml(out, ">\n      <failure type=\"ticks\" message=\"different: ", headline);
-    write_xml(out, "\">different: ", headline);
+    write_escaped_xml(out, ">\n      <failure type=\"ticks\" message=\"different: ", headline);
+    write_escaped_xml(out, "\">different: ", headline);
     fputs("</failure>\n    </testcase>\n", out);
 }
 
 /* Write the system-out element, which concerns all test cases: the verdict, the headline and the tolerance. */
 static void write_summary(FILE *out, const diff_report *report)
 {
-    write_xml(out, "    <system-out>", report->groups->verdict);
+    write_escaped_xml(out, "    <system-out>", report->groups->verdict);
     if (report->why->headline) {
         putc('\n', out);
         write_escaped(out, report->why->headline, escape_xml_text);
     }
-    write_xml(out, "\n", report->groups->tolerance);
+    write_escaped_xml(out, "\n", report->groups->tolerance);
     fputs("\n    </system-out>\n", out);
     if (report->why->trouble) {
-        write_xml(out, "    <system-err>", report->why->trouble);
+        write_escaped_xml(out, "    <system-err>", report->why->trouble);
         fputs("</system-err>\n", out);
     }
 }

@@ -11,7 +11,7 @@ static void write_text(FILE *out, const char *text)
     write_escaped(out, text, escape_markdown_character);
 }
 
-/* Write a name as an HTML code element. Between the backticks of Markdown no character can be escaped. */
+/* Write a name as an HTML code element, because between Markdown's backticks no character can be escaped. */
 static void write_name(FILE *out, const char *name)
 {
     fputs("<code>", out);

@@ -2,9 +2,8 @@
 /* report_page.c - writes report.html into the folder of evidence: see report.h.
  *
  * The facts and the pictures are inserted between the two parts of the embedded page. The facts are lines of JSON: one
- * line for the whole comparison and one for each differing group. The pictures follow. They are copied from disk block
- * by block, so that they are never in memory as a whole.
- */
+ * line for the whole comparison and one for each differing group. The pictures follow. Each picture is copied from disk
+ * block by block, so that no picture is ever in memory as a whole. */
 #include "evidence_page.h"
 #include "frame_file.h"
 #include "link.h"
@@ -31,7 +30,7 @@ typedef struct page {
 } page;
 
 /* Return the index of the first pair of the n-th group on the page. */
-static size_t index_of_first_pair(const page *p, size_t n)
+static size_t first_pair_of_group(const page *p, size_t n)
 {
     return p->report->groups->groups[p->groups[n].group].first;
 }
@@ -45,7 +44,7 @@ static bool is_embedded(const diff_report *report, size_t i, evidence_picture pi
     return (report->evidence->pictures[i] & 1u << picture) && report->result->pairs[i].finding != FOUND_UNREADABLE;
 }
 
-static uint64_t pictures_size(const diff_report *report, size_t i)
+static uint64_t sum_picture_sizes(const diff_report *report, size_t i)
 {
     uint64_t sum = 0;
     for (int picture = 0; picture < EVIDENCE_PICTURES; picture++) {
@@ -71,7 +70,7 @@ static void choose_groups_for_page(page *p)
             p->left_out++;
             continue;
         }
-        const uint64_t size = pictures_size(p->report, g->groups[group].first);
+        const uint64_t size = sum_picture_sizes(p->report, g->groups[group].first);
         p->groups[p->count++] = (page_group){group, size <= room};
         room -= size <= room ? size : 0;
     }
@@ -79,9 +78,9 @@ static void choose_groups_for_page(page *p)
 
 /* ---- Facts --------------------------------------------------------------------------------------------------- */
 
-/* Write the number of differing pixels of each pair. Write null if the pixels were not counted, for example because
- * the pictures have different sizes. */
-static void write_curve(json_writer *w, const diff_result *result)
+/* Write the number of differing pixels of each pair, and the names of the first and the last pair. Write null if the
+ * pixels were not counted, for example because the pictures have different sizes. */
+static void write_pixel_counts(json_writer *w, const diff_result *result)
 {
     json_begin_array_member(w, "pixels");
     for (size_t i = 0; i < result->count; i++) {
@@ -103,7 +102,7 @@ static void write_curve(json_writer *w, const diff_result *result)
 }
 
 /* Write, for each pair, the position of its group on the page, or null if the page does not show its group. */
-static void write_entries(json_writer *w, const page *p)
+static void write_group_positions(json_writer *w, const page *p)
 {
     json_begin_array_member(w, "entries");
     for (size_t i = 0; i < p->report->result->count; i++) {
@@ -125,7 +124,7 @@ static void write_recordings(json_writer *w, const diff_report *report)
     json_begin_object_member(w, "recordings");
     for (int i = 0; i < 2; i++) {
         char *folder = sides[i]->kind == DIFF_RECORDING && link_has_page(sides[i]->path)
-                           ? link_find_folder(report->evidence->folder, sides[i]->path)
+                           ? link_make_relative_path(report->evidence->folder, sides[i]->path)
                            : NULL;
         if (folder)
             json_write_text_member(w, evidence_word(i ? EVIDENCE_ACTUAL : EVIDENCE_EXPECTED), folder);
@@ -134,8 +133,9 @@ static void write_recordings(json_writer *w, const diff_report *report)
     json_write_end_object(w);
 }
 
-/* Write the tick of a frame of a recording, and the first point that the cause of its difference is about. */
-static void write_subject(json_writer *w, const page *p, size_t pair)
+/* Write the tick of a pair of frames and, if the facts about this tick name a point, the id of the first such point.
+ * Write nothing if the frames are not named after a tick. */
+static void write_tick_and_point(json_writer *w, const page *p, size_t pair)
 {
     uint64_t tick;
     if (!frame_parse_name(diff_pair_name(&p->report->result->pairs[pair]), &tick))
@@ -151,7 +151,7 @@ static void write_subject(json_writer *w, const page *p, size_t pair)
     }
 }
 
-static void write_folder_findings(json_writer *w, const page *p)
+static void write_comparison(json_writer *w, const page *p)
 {
     json_write_begin_object(w);
     diff_json_summary(w, p->report);
@@ -160,20 +160,20 @@ static void write_folder_findings(json_writer *w, const page *p)
     json_write_integer_member(w, "different", p->count + p->left_out);
     json_write_integer_member(w, "left_out", p->left_out);
     write_recordings(w, p->report);
-    write_curve(w, p->report->result);
-    write_entries(w, p);
+    write_pixel_counts(w, p->report->result);
+    write_group_positions(w, p);
     json_write_end_object(w);
     json_write_end_line(w);
 }
 
 /* Write the file names of the pictures that are stored in the same folder as the page. */
-static void write_files(json_writer *w, const diff_report *report, size_t i)
+static void write_file_names(json_writer *w, const diff_report *report, size_t i)
 {
     json_begin_object_member(w, "files");
     for (int picture = 0; picture < EVIDENCE_PICTURES; picture++) {
         char *name = NULL;
         if (report->evidence->pictures[i] & 1u << picture)
-            name = evidence_name(diff_pair_name(&report->result->pairs[i]), (evidence_picture)picture);
+            name = evidence_file_name(diff_pair_name(&report->result->pairs[i]), (evidence_picture)picture);
         if (name)
             json_write_text_member(w, evidence_word((evidence_picture)picture), name);
         free(name);
@@ -185,12 +185,12 @@ static void write_group(json_writer *w, const page *p, size_t n)
 {
     const size_t group = p->groups[n].group;
     json_write_begin_object(w);
-    diff_json_finding(w, p->report, index_of_first_pair(p, n));
+    diff_json_finding(w, p->report, first_pair_of_group(p, n));
     json_write_text_member(w, "words", p->report->groups->groups[group].difference);
     json_write_text_member(w, "frames_words", p->report->groups->groups[group].frames);
-    diff_json_group(w, p->report, group);
-    write_files(w, p->report, index_of_first_pair(p, n));
-    write_subject(w, p, index_of_first_pair(p, n));
+    diff_json_group_frames(w, p->report, group);
+    write_file_names(w, p->report, first_pair_of_group(p, n));
+    write_tick_and_point(w, p, first_pair_of_group(p, n));
     json_write_bool_member(w, "embedded", p->groups[n].embedded);
     json_write_end_object(w);
     json_write_end_line(w);
@@ -204,7 +204,7 @@ static bool write_facts(const page *p, octreel_error *error)
     char *text;
     if (text_stream_begin(&s)) {
         json_writer w = {.out = s.stream};
-        write_folder_findings(&w, p);
+        write_comparison(&w, p);
         for (size_t n = 0; n < p->count; n++)
             write_group(&w, p, n);
     }
@@ -225,7 +225,7 @@ static bool write_facts(const page *p, octreel_error *error)
 
 static bool write_picture(const page *p, size_t n, evidence_picture picture, octreel_error *error)
 {
-    char *path = evidence_path(p->report->evidence, p->report->result, index_of_first_pair(p, n), picture);
+    char *path = evidence_path(p->report->evidence, p->report->result, first_pair_of_group(p, n), picture);
     FILE *in = path ? fopen(path, "rb") : NULL;
     if (!in) {
         const int reason = path ? errno : ENOMEM;
@@ -250,7 +250,7 @@ static bool write_pictures(const page *p, octreel_error *error)
     fputs("<template id=\"pictures\">\n", p->out);
     for (size_t n = 0; n < p->count; n++)
         for (int picture = 0; ok && p->groups[n].embedded && picture < EVIDENCE_PICTURES; picture++)
-            if (is_embedded(p->report, index_of_first_pair(p, n), (evidence_picture)picture))
+            if (is_embedded(p->report, first_pair_of_group(p, n), (evidence_picture)picture))
                 ok = write_picture(p, n, (evidence_picture)picture, error);
     fputs("</template>\n", p->out);
     return ok;

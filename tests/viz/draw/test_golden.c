@@ -147,7 +147,7 @@ static void frame_equals_its_reference(void **state)
     assert_non_null(pair);
     if (diff_finding_verdict(pair->finding) == DIFF_SAME)
         return;
-    if (!evidence_draw(pair, &exact, ".", &written, &error))
+    if (!evidence_write_pair(pair, &exact, ".", &written, &error))
         print_error("%s\n", error.text);
     fail_pair(e->gallery, pair);
 }

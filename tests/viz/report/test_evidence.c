@@ -19,7 +19,7 @@ static comparison_of leave_evidence(const char *a, const char *b, const diff_opt
     octreel_error error = {""};
     evidence e;
     if (!evidence_prepare(folder, &made.a, &made.b, &error) ||
-        !evidence_collect(&e, folder, &made.result, group_frames(&made, true), &error))
+        !evidence_write_groups(&e, folder, &made.result, group_frames(&made, true), &error))
         fail_msg("%s", error.text);
     evidence_release(&e);
     return made;
@@ -129,15 +129,15 @@ static void different_frame_names_have_different_file_names(void **state)
         {"menu.png/1", "menu.png/1.actual.png"},
     };
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
-        char *name = evidence_name(names[i][0], EVIDENCE_ACTUAL);
+        char *name = evidence_file_name(names[i][0], EVIDENCE_ACTUAL);
         assert_string_equal(name, names[i][1]);
-        assert_true(evidence_is_name(name));
-        assert_false(evidence_is_name(names[i][0]));
+        assert_true(evidence_is_file_name(name));
+        assert_false(evidence_is_file_name(names[i][0]));
         free(name);
     }
-    assert_true(evidence_is_name("a.difference.png.part"));
-    assert_false(evidence_is_name(".difference.png"));
-    assert_false(evidence_is_name("difference.png"));
+    assert_true(evidence_is_file_name("a.difference.png.part"));
+    assert_false(evidence_is_file_name(".difference.png"));
+    assert_false(evidence_is_file_name("difference.png"));
 }
 
 static void pictures_of_subfolders_lie_in_subfolders(void **state)
@@ -166,7 +166,7 @@ static void links_and_other_evidence_in_the_folder_stay(void **state)
     octreel_error error = {""};
     evidence e;
     assert_true(evidence_prepare(folder.path, &made.a, &made.b, &error));
-    assert_false(evidence_collect(&e, folder.path, &made.result, group_frames(&made, true), &error));
+    assert_false(evidence_write_groups(&e, folder.path, &made.result, group_frames(&made, true), &error));
     assert_contains(error.text, "out/menu: cannot create the folder: a link has this name");
     comparison_release(&made);
     assert_folder_has(elsewhere.path, "9.actual.png");
@@ -249,7 +249,7 @@ static void error_names_a_picture_that_cannot_be_written(void **state)
         assert_true(evidence_prepare(folder.path, &made.a, &made.b, &error));
         const place taken = place_below(folder.path, names[i]); /* by a folder, which nothing is renamed over */
         assert_int_equal(mkdir(taken.path, 0777), 0);
-        assert_false(evidence_collect(&e, folder.path, &made.result, group_frames(&made, true), &error));
+        assert_false(evidence_write_groups(&e, folder.path, &made.result, group_frames(&made, true), &error));
         if (!strstr(error.text, taken.path))
             fail_msg("\"%s\" does not name %s", error.text, taken.path);
         comparison_release(&made);

@@ -60,7 +60,7 @@ static void write_page_of(comparison_of *made, const char *folder, bool each, me
     const frame_groups *groups = group_frames(made, each);
     const diff_report report = {&made->a, &made->b, &made->result, &made->why, &e, LIST_LINES, groups};
     if (!evidence_prepare(folder, &made->a, &made->b, &error) ||
-        !evidence_collect(&e, folder, &made->result, groups, &error))
+        !evidence_write_groups(&e, folder, &made->result, groups, &error))
         fail_msg("%s", error.text);
     if (meddle)
         meddle(folder);

@@ -130,7 +130,7 @@ static void junit_names_the_pictures_of_the_evidence(void **state)
     octreel_error error = {""};
     evidence e;
     assert_true(evidence_prepare(folder.path, &made.a, &made.b, &error) &&
-                evidence_collect(&e, folder.path, &made.result, group_frames(&made, true), &error));
+                evidence_write_groups(&e, folder.path, &made.result, group_frames(&made, true), &error));
     char *xml = report_text(&made, &e, diff_report_junit);
     assert_xml_count(xml, "system-out", 3);
     snprintf(part, sizeof part, "difference: %s/2.difference.png\n[[ATTACHMENT|%s/2.difference.png]]\n", folder.path,
