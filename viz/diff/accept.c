@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* accept.c - compares references with new frames, replaces them, and reports the changes. */
+/* accept.c - compares references with new frames, replaces the references that differ, and reports the changes. */
 #include "accepting.h"
 #include "file_kind.h"
 #include "png_read.h"
@@ -51,7 +51,7 @@ static bool check_options(const accepting *a, octreel_error *error)
 }
 
 /* Return a side without frames, for a reference that does not exist yet. */
-static diff_side empty_side(const char *path, diff_kind kind, bool no_frames)
+static diff_side make_empty_side(const char *path, diff_kind kind, bool no_frames)
 {
     return (diff_side){.path = path, .source = path, .kind = kind, .background = IMAGE_WHITE, .no_frames = no_frames};
 }
@@ -73,7 +73,7 @@ static bool open_sides(accepting *a, octreel_error *error)
     if (a->is_new) {
         const bool baseline = o->note.reason || o->store || o->variant;
         a->reference =
-            empty_side(o->reference, baseline ? DIFF_BASELINE : a->frames.kind, a->frames.no_frames && !baseline);
+            make_empty_side(o->reference, baseline ? DIFF_BASELINE : a->frames.kind, a->frames.no_frames && !baseline);
         return check_new_name(o, a->reference.kind, error);
     }
     if (!diff_side_open(&a->reference, o->reference, &in_reference, error))
@@ -85,7 +85,7 @@ static bool open_sides(accepting *a, octreel_error *error)
             "session again and accept that recording",
             o->reference, o->frames);
     if (a->reference.kind == DIFF_FOLDER && a->reference.count == 0 && a->frames.kind == DIFF_RECORDING)
-        a->reference = empty_side(o->reference, DIFF_RECORDING, a->frames.no_frames);
+        a->reference = make_empty_side(o->reference, DIFF_RECORDING, a->frames.no_frames);
     return true;
 }
 
@@ -109,7 +109,7 @@ static const char *find_frame_with_file_name(const diff_result *result, const ch
     return NULL;
 }
 
-static bool check_names(const accepting *a, octreel_error *error)
+static bool check_listed_names(const accepting *a, octreel_error *error)
 {
     for (size_t i = 0; i < a->options->names->count; i++) {
         const listed_frame *listed = &a->options->names->frames[i];
@@ -136,7 +136,7 @@ static action choose_action(diff_finding finding)
 
 /* Check that a new frame can be read, and compute its digest. If the reference cannot be read, this is no error,
  * because the new frame replaces it. */
-static bool check_frame(const accepting *a, diff_pair *pair, octreel_error *error)
+static bool check_new_frame(const accepting *a, diff_pair *pair, octreel_error *error)
 {
     pair->about[1].kind = IMAGE_DIGEST_NEWEST;
     return digest_picture(pair->b->path, a->reference.background, &pair->about[1], error);
@@ -165,7 +165,7 @@ static bool check_action(const accepting *a, action what, diff_pair *pair, octre
 {
     if (what == REMOVED)
         return check_frame_is_missing(a, pair->a->name, error);
-    return what == KEPT || check_frame(a, pair, error);
+    return what == KEPT || check_new_frame(a, pair, error);
 }
 
 static bool decide_actions(accepting *a, octreel_error *error)
@@ -204,7 +204,7 @@ static bool compare_sides(accepting *a, octreel_error *error)
         exact.background = a->reference.background;
     else
         a->reference.background = exact.background;
-    return diff_run(&a->reference, &a->frames, &exact, &a->result, error) && check_names(a, error) &&
+    return diff_run(&a->reference, &a->frames, &exact, &a->result, error) && check_listed_names(a, error) &&
            decide_actions(a, error) && check_some_references_stay(a, error);
 }
 

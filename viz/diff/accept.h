@@ -26,15 +26,14 @@ typedef struct accept_options {
 
 /* Compare the new frames with the references, then replace the references that differ. References with equal pixels are
  * not written, unless a whole recording is accepted: then all its files are replaced. At the end a summary is printed
- * to `out`, unless `out` is null. Return false with an error. If a side, a new frame or a name is invalid, no file has
- * been changed.
+ * to `out`, unless `out` is null. Return false with an error on failure. If a side, a new frame or a name is invalid,
+ * no file has been changed.
  *
  * Each call locks the folder that holds the reference, so concurrent calls run one after the other. Each new file is
  * first written as NAME.part. Only when all new files are complete are they renamed, so on a full disk the reference is
  * unchanged. With a picture store, the pictures are stored before the baseline is renamed. If the process dies between
  * two renames, each file is either the old file or the new file, and no reference has been removed. Calling accept
- * again completes the change.
- */
+ * again completes the change. */
 bool accept_frames(const accept_options *options, FILE *out, octreel_error *error);
 
 #endif

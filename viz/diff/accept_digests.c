@@ -32,7 +32,7 @@ static bool add_accepted_frame(const accepting *a, diff_side *now, const diff_pa
            (baseline_add_variant(&now->frames[now->count - 1], &digest) || error_no_memory(error));
 }
 
-static bool write_file(const diff_side *now, octreel_error *error)
+static bool write_baseline_file(const diff_side *now, octreel_error *error)
 {
     file_writer file;
     if (!file_writer_open_replacing(&file, now->path, error))
@@ -56,7 +56,7 @@ bool accept_digests(accepting *a, octreel_error *error)
         else if (a->actions[i] == KEPT && pair->a)
             ok = baseline_add_frame(&now, pair->a->name, pair->a->variants, pair->a->variant_count, error);
     }
-    ok = ok && write_file(&now, error);
+    ok = ok && write_baseline_file(&now, error);
     diff_side_release(&now);
     return ok;
 }

@@ -47,7 +47,7 @@ bool accept_check_ended(const diff_side *side, octreel_error *error)
     return ok;
 }
 
-static bool refuse_damaged(const char *folder, octreel_error *error, const char *format, ...)
+static bool report_damaged_recording(const char *folder, octreel_error *error, const char *format, ...)
 {
     char lack[128];
     va_list arguments;
@@ -84,13 +84,13 @@ static bool check_tick_line_count(const char *folder, uint64_t ticks, octreel_er
     if (!count_lines(folder, &lines, error))
         return false;
     return lines == ticks ||
-           refuse_damaged(folder, error, "its ticks.jsonl has %" PRIu64 " line%s for %" PRIu64 " tick%s", lines,
-                          plural_ending(lines), ticks, plural_ending(ticks));
+           report_damaged_recording(folder, error, "its ticks.jsonl has %" PRIu64 " line%s for %" PRIu64 " tick%s",
+                                    lines, plural_ending(lines), ticks, plural_ending(ticks));
 }
 
 static bool check_file(const char *folder, const char *name, octreel_error *error)
 {
-    return folder_contains(folder, name) || refuse_damaged(folder, error, "%s is missing", name);
+    return folder_contains(folder, name) || report_damaged_recording(folder, error, "%s is missing", name);
 }
 
 static bool check_frames(const char *folder, const octree_session *session, uint64_t every, octreel_error *error)

@@ -14,14 +14,14 @@ typedef struct accepting {
     diff_side reference, frames;
     bool is_new; /* true: the reference does not exist yet and is created */
     diff_result result;
-    action *actions; /* actions[i]: the action for pair i */
-    size_t counts[ACTIONS];
+    action *actions;        /* actions[i]: the action for pair i */
+    size_t counts[ACTIONS]; /* counts[x]: the number of pairs with action x */
     FILE *out;
 } accepting;
 
-/* The first function checks that no process is writing a recording. The second checks that the recording is
- * complete, because the reference of each missing frame would be removed. Both functions do nothing for a side that
- * is not a recording. They return false with an error if the check fails. */
+/* accept_check_ended() checks that no process is writing a recording. accept_check_whole() checks that the recording is
+ * complete, because accepting an incomplete one would remove the reference of each missing frame. Both functions do
+ * nothing for a side that is not a recording, and return false with an error if the check fails. */
 bool accept_check_ended(const diff_side *side, octreel_error *error);
 bool accept_check_whole(const diff_side *side, octreel_error *error);
 

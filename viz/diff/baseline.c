@@ -159,7 +159,7 @@ static bool report_bad_line(const diff_side *side, size_t number, octreel_error 
                      side->path, number, 0);
 }
 
-static bool is_side_length(int length)
+static bool is_image_side(int length)
 {
     return length > 0 && length <= IMAGE_MAX_SIDE;
 }
@@ -173,7 +173,7 @@ static bool read_acceptance(diff_side *side, char *line, size_t number, octreel_
         return report_bad_line(side, number, error);
     const size_t size = (size_t)snprintf(written, sizeof written, "%s %s %dx%d ", a.id, a.date, a.width, a.height);
     if (strncmp(line, written, size) != 0 || !is_acceptance_id(a.id) || !baseline_is_date(a.date) ||
-        !is_side_length(a.width) || !is_side_length(a.height))
+        !is_image_side(a.width) || !is_image_side(a.height))
         return report_bad_line(side, number, error);
     char *at = line + size;
     const size_t kind = strcspn(at, " ");
@@ -405,7 +405,7 @@ static bool write_acceptances(FILE *out, const diff_side *side)
 
 /* Return the variant that follows `last` in the order of ids, then digests. With `last` null, return the first
  * variant. After the last variant, return null. */
-static const frame_digest *next_variant(const diff_side *side, const diff_frame *frame, const frame_digest *last)
+static const frame_digest *find_next_variant(const diff_side *side, const diff_frame *frame, const frame_digest *last)
 {
     const frame_digest *next = NULL;
     for (size_t i = 0; i < frame->variant_count; i++) {
@@ -440,7 +440,7 @@ bool baseline_write(FILE *out, const diff_side *side, octreel_error *error)
         return error_no_memory(error);
     for (size_t i = 0; i < side->count; i++) {
         const diff_frame *frame = &side->frames[i];
-        for (const frame_digest *at = NULL; (at = next_variant(side, frame, at));)
+        for (const frame_digest *at = NULL; (at = find_next_variant(side, frame, at));)
             fprintf(out, "%s %016" PRIx64 " %.*s\n", side->acceptances[at->acceptance].id, at->pixels,
                     (int)length_of_written_name(frame->name), frame->name);
     }

@@ -64,7 +64,7 @@ static bool check_baseline(const diff_side *side, bool is_reference, const diff_
                          is_reference
                              ? "add --store DIR, the folder in which octreel accept --store DIR saved the pictures"
                              : "compare the pictures themselves");
-    return same_color(side->background, options->background) ||
+    return is_same_color(side->background, options->background) ||
            error_set(error, "%s: made over another background; add --background %02x%02x%02x", side->path,
                      side->background.r, side->background.g, side->background.b);
 }

@@ -98,7 +98,7 @@ void diff_print_pair(FILE *out, const diff_pair *pair)
     diff_print_difference(out, pair);
 }
 
-/* ---- All of them --------------------------------------------------------------------------------------------- */
+/* ---- All pairs ----------------------------------------------------------------------------------------------- */
 
 bool diff_is_listed(diff_finding finding)
 {
@@ -156,7 +156,7 @@ static void print_item(FILE *out, bool *first, const char *format, ...)
     *first = false;
 }
 
-static bool any_transparent(const diff_result *result)
+static bool has_transparent_pair(const diff_result *result)
 {
     for (size_t i = 0; i < result->count; i++)
         if (result->pairs[i].transparent)
@@ -164,7 +164,8 @@ static bool any_transparent(const diff_result *result)
     return false;
 }
 
-/* Return whether a rectangle lies outside of all frames. Such a rectangle is probably a typing error of the user. */
+/* Return whether a rectangle of ignored pixels lies outside of all frames. Such a rectangle is probably a typing error
+ * of the user. */
 static bool is_outside(const image_rectangle *r, const diff_result *result)
 {
     bool compared = false;
@@ -212,7 +213,7 @@ void diff_print_tolerance(FILE *out, const diff_result *result)
         fputs("compared exactly", out);
     else
         print_unapplied(out, result);
-    if (any_transparent(result))
+    if (has_transparent_pair(result))
         fprintf(out, "; transparent pixels lie over #%02x%02x%02x", options->background.r, options->background.g,
                 options->background.b);
     if (other_spaces)

@@ -24,7 +24,8 @@ static char *make_picture_path(const char *store, const frame_digest *digest)
 }
 
 /* Return whether a file is a picture with this digest. If the file is not such a picture, the error says why. */
-static bool is_picture(const char *path, const frame_digest *digest, image_color background, octreel_error *error)
+static bool is_picture_with_digest(const char *path, const frame_digest *digest, image_color background,
+                                   octreel_error *error)
 {
     frame_digest found = {.kind = digest->kind};
     if (!digest_picture(path, background, &found, error))
@@ -41,7 +42,7 @@ bool picture_store_add(const char *store, const char *picture, const frame_diges
     char *path = make_picture_path(store, digest);
     if (!path)
         return error_no_memory(error);
-    bool ok = access(path, F_OK) == 0 && is_picture(path, digest, background, &ignored);
+    bool ok = access(path, F_OK) == 0 && is_picture_with_digest(path, digest, background, &ignored);
     if (!ok) {
         char *slash = strrchr(path, '/');
         *slash = 0;
@@ -56,7 +57,7 @@ bool picture_store_add(const char *store, const char *picture, const frame_diges
 char *picture_store_find(const char *store, const frame_digest *digest, image_color background, octreel_error *error)
 {
     char *path = make_picture_path(store, digest);
-    if (path ? is_picture(path, digest, background, error) : error_no_memory(error))
+    if (path ? is_picture_with_digest(path, digest, background, error) : error_no_memory(error))
         return path;
     free(path);
     return NULL;

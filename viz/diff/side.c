@@ -24,7 +24,7 @@ const char *diff_kind_name(diff_kind kind)
 }
 
 /* Return the part of a path after the last slash, or "stdin" for standard input. */
-static const char *base_name(const char *path)
+static const char *display_base_name(const char *path)
 {
     return file_is_standard_stream(path) ? "stdin" : path_base_name(path);
 }
@@ -68,7 +68,7 @@ static bool is_folder_left_out(const diff_search *search, const char *folder, co
     return diff_is_evidence_folder(folder);
 }
 
-static bool add_folder(diff_side *side, const diff_search *search, const char *below, octreel_error *error);
+static bool add_frames_of_folder(diff_side *side, const diff_search *search, const char *below, octreel_error *error);
 
 /* Add a frame, or the frames of a subfolder. A frame whose file was removed after its name was read is added, too,
  * and is later reported as unreadable. */
@@ -81,7 +81,7 @@ static bool add_entry(diff_side *side, const diff_search *search, const char *na
     if (ok && !flat && lstat(path, &status) != 0 && errno != ENOENT)
         ok = error_set(error, "%s: %s", path, strerror(errno));
     else if (ok && S_ISDIR(status.st_mode))
-        ok = is_folder_left_out(search, path, &status) || add_folder(side, search, name, error);
+        ok = is_folder_left_out(search, path, &status) || add_frames_of_folder(side, search, name, error);
     else if (ok && is_frame_name(side, name))
         ok = diff_side_add_frame(side, name, (frame_digest){0}, error);
     free(path);
@@ -89,7 +89,7 @@ static bool add_entry(diff_side *side, const diff_search *search, const char *na
 }
 
 /* Add the frames of one folder: the folder of the side if `below` is "", else the subfolder `below`. */
-static bool add_folder(diff_side *side, const diff_search *search, const char *below, octreel_error *error)
+static bool add_frames_of_folder(diff_side *side, const diff_search *search, const char *below, octreel_error *error)
 {
     char *path = *below ? path_join(side->path, below) : strdup(side->path);
     char **names = path ? folder_names(path, error) : NULL;
@@ -110,7 +110,7 @@ static bool read_folder(diff_side *side, const diff_search *search, octreel_erro
 {
     side->kind = folder_contains(side->path, "recording.json") ? DIFF_RECORDING : DIFF_FOLDER;
     side->no_frames = is_without_frames(side);
-    if (!side->no_frames && !add_folder(side, search, "", error))
+    if (!side->no_frames && !add_frames_of_folder(side, search, "", error))
         return false;
     diff_side_sort_frames(side);
     return true;
@@ -121,7 +121,7 @@ static bool read_file(diff_side *side, octreel_error *error)
     switch (file_kind_of_input(side->source)) {
     case KIND_PNG:
         side->kind = DIFF_PICTURE;
-        return diff_side_add_frame(side, base_name(side->source), (frame_digest){0}, error);
+        return diff_side_add_frame(side, display_base_name(side->source), (frame_digest){0}, error);
     case KIND_BASELINE:
         return baseline_read(side, error);
     default:
