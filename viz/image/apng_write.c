@@ -1,15 +1,17 @@
 /* SPDX-License-Identifier: MIT */
 /* apng_write.c - writes the chunks of APNG files; deflate.h compresses the pixels.
  *
- * An APNG is a PNG with more chunks: acTL (the number of frames), before each frame fcTL (its rectangle, its duration
- * and how it is put on the picture before), and fdAT for the pixels of each frame after the first, whose pixels are in
- * IDAT. The chunks fcTL and fdAT are numbered. Specification: W3C, PNG third edition, 11.3.2.
+ * An APNG is a PNG with three more kinds of chunks. acTL holds the number of frames. An fcTL chunk precedes each frame:
+ * it holds the frame's rectangle, its duration and how the frame is drawn onto the previous one. fdAT holds the pixels
+ * of a frame; only the first frame has its pixels in IDAT. The chunks fcTL and fdAT are numbered in one sequence.
+ * Specification: W3C, PNG third edition, 11.3.2.
  *
- * A later frame holds only the rectangle that changed. Inside it a pixel that did not change can be stored in two ways:
- * as it is, so that it may repeat the row above, or as a transparent pixel that leaves the pixel before, so that all
- * such pixels are runs of one value. Which is smaller depends on the picture: a scene of a few moving points against a
- * scene that changes everywhere. Both are tried, and the smaller one is written. Only a palette has a transparent
- * colour to spare; RGB frames are stored as they are. */
+ * A later frame holds only the rectangle that changed. Inside the rectangle, an unchanged pixel can be stored in two
+ * ways. In the plain form it has its own colour, so that it may repeat the row above. In the masked form it is
+ * transparent, so that the pixel of the previous frame stays visible and all unchanged pixels form runs of one value.
+ * It depends on the picture which form is smaller: a few points may move, or the whole scene. Both forms are tried, and
+ * the smaller one is written. The masked form needs a free palette entry for the transparent colour, so RGB frames are
+ * always plain. */
 #include "apng_write.h"
 #include "array.h"
 #include "bytes.h"
@@ -20,10 +22,11 @@
 #include <stdlib.h>
 #include <zlib.h>
 
-/* A fdAT chunk begins with its number. The encoded bytes leave room for it, and IDAT skips it. */
+/* An fdAT chunk begins with its number, which has this many bytes. An encoding begins with room for the number; IDAT is
+ * written without this room. */
 enum { NUMBER_SIZE = 4 };
 
-/* The compressed pixels of a rectangle, behind NUMBER_SIZE bytes. */
+/* The compressed pixels of a rectangle, after NUMBER_SIZE bytes for the number of an fdAT chunk. */
 typedef struct encoding {
     ARRAY(uint8_t) bytes;
     bool lacks_memory;
@@ -38,12 +41,12 @@ struct apng_writer {
     file_writer file;
     int write_error; /* errno of the first write that failed, or 0 */
     apng_description about;
-    size_t pixel;    /* bytes per pixel: 1 or 3 */
-    int transparent; /* the palette index of the transparent colour, or -1 */
-    uint32_t number; /* the number of the next fcTL or fdAT chunk */
-    uint8_t *before; /* the pixels of the last frame; null before the first frame */
-    uint8_t *row;    /* room for a row of palette indices */
-    encoding plain, masked;
+    size_t pixel;           /* bytes per pixel: 1 or 3 */
+    int transparent;        /* the palette index of the transparent colour, or -1 */
+    uint32_t number;        /* the number of the next fcTL or fdAT chunk */
+    uint8_t *before;        /* the pixels of the last frame; null before the first frame */
+    uint8_t *row;           /* room for a row of palette indices */
+    encoding plain, masked; /* the two forms of the current frame */
 };
 
 /* ---- Chunks -------------------------------------------------------------------------------------------------- */
@@ -130,15 +133,15 @@ static void put_frame_data(apng_writer *w, encoding *e)
 
 /* ---- Pixels -------------------------------------------------------------------------------------------------- */
 
-static size_t find_offset(const apng_writer *w, int x, int y)
+static size_t pixel_offset(const apng_writer *w, int x, int y)
 {
     return ((size_t)y * (size_t)w->about.width + (size_t)x) * w->pixel;
 }
 
 /* Extend a rectangle by the changed pixels of a row. */
-static void add_row_changes(const apng_writer *w, const uint8_t *pixels, int y, rectangle *area)
+static void extend_by_row_changes(const apng_writer *w, const uint8_t *pixels, int y, rectangle *area)
 {
-    const uint8_t *now = pixels + find_offset(w, 0, y), *before = w->before + find_offset(w, 0, y);
+    const uint8_t *now = pixels + pixel_offset(w, 0, y), *before = w->before + pixel_offset(w, 0, y);
     const size_t size = (size_t)w->about.width * w->pixel, first = bytes_common_prefix_length(now, before, size);
     size_t last = size;
     if (first == size)
@@ -161,7 +164,7 @@ static rectangle find_changes(const apng_writer *w, const uint8_t *pixels)
     if (!w->before)
         return (rectangle){0, 0, width, height};
     for (int y = 0; y < height; y++)
-        add_row_changes(w, pixels, y, &area);
+        extend_by_row_changes(w, pixels, y, &area);
     return area.bottom > 0 ? area : (rectangle){0, 0, 1, 1};
 }
 
@@ -190,7 +193,7 @@ static bool encode_frame(apng_writer *w, const uint8_t *pixels, const rectangle 
     e->bytes.count = 0;
     append_bytes(e, (const uint8_t[NUMBER_SIZE]){0}, NUMBER_SIZE);
     for (int y = area->top; d && y < area->bottom; y++) {
-        const size_t at = find_offset(w, area->left, y);
+        const size_t at = pixel_offset(w, area->left, y);
         deflater_add_row(d, masked ? mask_row(w, pixels + at, w->before + at, count) : pixels + at);
     }
     if (d)
@@ -201,7 +204,7 @@ static bool encode_frame(apng_writer *w, const uint8_t *pixels, const rectangle 
 
 static bool store_previous_frame(apng_writer *w, const uint8_t *pixels)
 {
-    const size_t size = find_offset(w, 0, w->about.height);
+    const size_t size = pixel_offset(w, 0, w->about.height);
     if (!w->before)
         w->before = malloc(size);
     if (w->before)

@@ -5,11 +5,11 @@
 
 #include "image.h"
 
-/* How long a frame can be shown at most, in units of 1 / rate seconds. */
+/* The longest time for which one frame can be shown, in units of 1 / rate seconds. */
 #define APNG_LONGEST 65535
 
 typedef struct apng_description {
-    int width, height; /* of every frame, 1 to IMAGE_MAX_SIDE */
+    int width, height; /* the size of every frame, each side 1 to IMAGE_MAX_SIDE */
     /* not null: a frame has one valid palette index per pixel; null: a frame has r, g, b per pixel */
     const image_palette *palette;
     uint32_t frames; /* the number of frames that will be added, at least 1 */
@@ -18,8 +18,9 @@ typedef struct apng_description {
 
 typedef struct apng_writer apng_writer;
 
-/* Open a file that repeats for ever. A player without support for APNG shows the first frame. `path` must outlive the
- * writer. Returns null and sets *error on failure. Memory: two frames, and the compressed bytes of a frame. */
+/* Open a file for an animation that repeats for ever. A player without support for APNG shows the first frame. `path`
+ * must outlive the writer. Returns null and sets *error on failure. Memory: two frames, and the compressed bytes of a
+ * frame. */
 apng_writer *apng_writer_open(const char *path, const apng_description *about, octreel_error *error);
 
 /* Append a frame, which is shown for `shown` units, 1 to APNG_LONGEST. Only the smallest rectangle with all changed
@@ -27,7 +28,7 @@ apng_writer *apng_writer_open(const char *path, const apng_description *about, o
  * writer must then be discarded. */
 bool apng_writer_add(apng_writer *w, const uint8_t *pixels, uint16_t shown, octreel_error *error);
 
-/* Complete the file after the last frame. It appears at its path by a rename. Returns false and sets *error on
+/* Complete the file after the last frame. The file appears at its path by a rename. Returns false and sets *error on
  * failure. Frees the writer in both cases. */
 bool apng_writer_close(apng_writer *w, octreel_error *error);
 

@@ -32,7 +32,8 @@ static void add_color(color_table *table, const uint8_t *rgb)
     palette->colors[palette->count++] = (image_color){rgb[0], rgb[1], rgb[2]};
 }
 
-/* Neighbours mostly have the same colour, so only changes are looked up. */
+/* Returns whether pixel i has the colour of the pixel before. Neighbouring pixels mostly do, so only the others are
+ * looked up in the table. */
 static bool repeats_pixel_before(const uint8_t *rgb, size_t i)
 {
     return i > 0 && memcmp(rgb + 3 * i, rgb + 3 * i - 3, 3) == 0;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* color_table.h - collects the colours of several pictures in one palette, and turns RGB pixels into its indices. */
+/* color_table.h - collects the colours of several pictures in one palette, and turns RGB pixels into indices of this
+ * palette. */
 #ifndef IMAGE_COLOR_TABLE_H
 #define IMAGE_COLOR_TABLE_H
 

@@ -55,11 +55,11 @@ enum {
 
 struct deflater {
     size_t stride, rows, pixel;
-    size_t kept; /* the number of bytes that slide_window() keeps: the history that repeats may refer to */
-    size_t room; /* size of the window in bytes */
-    size_t end;  /* number of bytes in the window */
-    size_t at;   /* index in the window of the first byte that is not encoded yet */
-    bool begun;
+    size_t kept;           /* the number of bytes that slide_window() keeps: the history that repeats may refer to */
+    size_t room;           /* size of the window in bytes */
+    size_t end;            /* number of bytes in the window */
+    size_t at;             /* index in the window of the first byte that is not encoded yet */
+    bool begun;            /* true: the first row was added */
     bool above;            /* true: the distance to the row above is within deflate's largest distance */
     size_t block;          /* index in the window of the current block's first byte */
     bool block_whole;      /* true: all bytes of the current block are still in the window */
@@ -198,7 +198,8 @@ typedef struct repeat {
     int64_t gain; /* estimated number of bits that the repeat saves; a repeat is used only if this is positive */
 } repeat;
 
-/* Replace *best by the repeat at position `at` with this distance if that saves more. `cost`: its estimated size. */
+/* Replace *best by the repeat at position `at` with this distance if this repeat saves more bits. `cost` is its
+ * estimated size in bits. */
 static inline void improve_repeat(const deflater *d, size_t at, size_t distance, int64_t cost, repeat *best)
 {
     const uint8_t *bytes = d->window + at;

@@ -169,6 +169,7 @@ static void append_code_lengths(header *h, const uint8_t *lengths, size_t count)
 static const uint8_t precode_order[PRECODE_SYMBOLS] = {16, 17, 18, 0, 8,  7, 9,  6, 10, 5,
                                                        11, 4,  12, 3, 13, 2, 14, 1, 15};
 
+/* Returns the number of symbols without the unused symbols at the end, but at least `least`. */
 static size_t count_used_symbols(const uint8_t *lengths, size_t count, size_t least)
 {
     while (count > least && lengths[count - 1] == 0)

@@ -80,8 +80,8 @@ static image_color pixel_color(const image *of, const uint8_t *own, size_t at)
 static image_color mean_color(const image *of, const uint8_t *own, size_t corner, int side)
 {
     const unsigned count = (unsigned)(side * side);
-    unsigned sums[3] = {count / 2, count / 2,
-                        count / 2}; /* half of the divisor `count`, so that the division rounds to nearest */
+    /* the sums begin with half of the divisor `count`, so that the divisions round to nearest */
+    unsigned sums[3] = {count / 2, count / 2, count / 2};
     for (int y = 0; y < side; y++) {
         for (int x = 0; x < side; x++) {
             const image_color color = pixel_color(of, own, corner + (size_t)y * (size_t)of->width + (size_t)x);

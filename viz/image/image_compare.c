@@ -295,7 +295,7 @@ static void count_span(image_comparison *c, const rows *r, int x, int y, int cou
         read_samples(r->a, n + (size_t)i, some, c->difference.channel_range, a);
         read_samples(r->b, n + (size_t)i, some, c->difference.channel_range, b);
         for (int j = 0; j < some; j++)
-            if (!samples_equal(&a[j], &b[j])) /* the indices differ, but they may have the same colour */
+            if (!are_samples_equal(&a[j], &b[j])) /* the indices differ, but they may have the same colour */
                 count_pixel(c, r, x + i + j, y, &a[j], &b[j]);
     }
 }
@@ -372,7 +372,7 @@ static uint8_t interpolate(int from, int to, int part, int whole)
     return (uint8_t)(from + (to - from) * part / whole);
 }
 
-static image_color difference_color(int i)
+static image_color heat_color(int i)
 {
     const int half = HEATS / 2, which = i < half ? 0 : 1, part = i - which * half;
     const image_color *from = &HEAT_COLORS[which], *to = from + 1;
@@ -390,7 +390,7 @@ image_palette image_make_difference_palette(void)
     palette.colors[FORGIVEN] = FORGIVEN_COLOR;
     palette.colors[OUTSIDE] = OUTSIDE_COLOR;
     for (int i = 0; i < HEATS; i++)
-        palette.colors[HEAT + i] = difference_color(i);
+        palette.colors[HEAT + i] = heat_color(i);
     return palette;
 }
 
@@ -420,8 +420,9 @@ void image_draw_difference_row(const image *a, const image *b, const image_toler
         pixel_samples p, q;
         read_samples(a, (size_t)y * (size_t)a->width + (size_t)x, 1, range, &p);
         read_samples(b, (size_t)y * (size_t)b->width + (size_t)x, 1, range, &q);
-        row[x] = samples_equal(&p, &q) ? grey_index(&p, range)
-                                       : difference_index(&r, tolerance, x, y, squared_color_distance(&p, &q, range));
+        row[x] = are_samples_equal(&p, &q)
+                     ? grey_index(&p, range)
+                     : difference_index(&r, tolerance, x, y, squared_color_distance(&p, &q, range));
     }
     memset(row + common, OUTSIDE, (size_t)(longest - common));
 }

@@ -169,7 +169,7 @@ typedef struct row_groups {
     uint64_t sum, of_group[IMAGE_MAX_SIDE / GROUP];
 } row_groups;
 
-static inline void set_group_sum(row_groups *g, size_t group, uint64_t sum)
+static inline void set_group_number(row_groups *g, size_t group, uint64_t sum)
 {
     const uint64_t digest = octree_digest_word((uint64_t)group, sum);
     g->sum += digest - g->of_group[group];
@@ -178,7 +178,7 @@ static inline void set_group_sum(row_groups *g, size_t group, uint64_t sum)
 
 enum { BLOCK = 8 }; /* the number of groups that are compared together with the groups above them */
 
-static inline bool block_differs(const uint8_t *row, const uint8_t *above)
+static inline bool is_block_changed(const uint8_t *row, const uint8_t *above)
 {
     uint64_t differ = 0;
     for (int i = 0; i < BLOCK; i++)
@@ -194,7 +194,7 @@ static size_t list_changed_groups(uint16_t *changed, const uint8_t *row, const u
     size_t count = 0;
     for (size_t i = 0; i < groups; i += BLOCK) {
         const size_t end = i + BLOCK < groups ? i + BLOCK : groups;
-        if (end == i + BLOCK && !block_differs(row + GROUP * i, above + GROUP * i))
+        if (end == i + BLOCK && !is_block_changed(row + GROUP * i, above + GROUP * i))
             continue;
         for (size_t k = i; k < end; k++) {
             changed[count] = (uint16_t)k;
@@ -213,7 +213,7 @@ static void update_index_groups(const digest_state *d, row_groups *g, const uint
     const size_t count = above ? list_changed_groups(changed, row, above, groups) : groups;
     for (size_t n = 0; n < count; n++) {
         const size_t i = above ? changed[n] : n;
-        set_group_sum(g, i, sum_index_hashes(d, bytes_load_word(row + GROUP * i)));
+        set_group_number(g, i, sum_index_hashes(d, bytes_load_word(row + GROUP * i)));
     }
 }
 
@@ -230,7 +230,7 @@ static void digest_rows(digest_state *d, const image *rows)
         for (size_t i = whole; i < groups; i++) {
             const size_t at = i * GROUP * step, count = width - i * GROUP < GROUP ? width - i * GROUP : GROUP;
             if (!above || memcmp(row + at, above + at, count * step) != 0)
-                set_group_sum(&g, i, sum_group_hashes(d, rows, row + at, count));
+                set_group_number(&g, i, sum_group_hashes(d, rows, row + at, count));
         }
         d->digest = octree_digest_word(d->digest, g.sum);
     }
