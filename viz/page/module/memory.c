@@ -3,8 +3,8 @@
  *
  * The page returns to an earlier state of the game by copying the memory back. But the memory of WebAssembly never
  * shrinks, and the sbrk() of wasi-libc assumes that all of it is in use. So each return to an earlier state would leak
- * all memory that was allocated since that state. Here the end of the used memory is part of the state and is restored
- * with it, and the memory behind this end is used again. */
+ * all memory that was allocated since that state. Here the end of the used memory is part of the state. Returning to a
+ * state restores this end, and the memory behind it is used again. */
 #include <stddef.h>
 #include <stdint.h>
 #include <unistd.h>

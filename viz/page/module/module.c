@@ -32,14 +32,14 @@
 
 typedef struct web {
     session_file session;
-    point_block points; /* the title and the marked node of a cloud; points and values are those of the session */
+    point_block points; /* the title and the marked node of a cloud; the session owns the points and the values */
     tree_subject cloud;
     playback playback;
     bool open, drawn;       /* true: the playback is open; true: the current tick is drawn */
     bool has_fitted_scale;  /* true: the point scale was fitted to the points, not given in the view */
     int size[2];            /* width and height of the view, which are those of its recording, in pixels */
     unsigned summed_layers; /* the heat layers whose sums over all ticks are collected, as bits of view_layer */
-    char *room, *text;
+    char *room, *text;      /* the input buffer; the output text, null if the output is the error */
     size_t room_size, text_size;
     uint32_t *rgba; /* the picture, 4 bytes per pixel: R, G, B, A */
     octreel_error error;
@@ -84,8 +84,8 @@ static bool report_error_text(void)
     return false;
 }
 
-/* Make the output of `write` the text that web_text() returns. Returns false if it fails; web_text() then returns the
- * error. */
+/* Make the output of `write` the text that web_text() returns. Returns false if `write` fails or memory runs out;
+ * web_text() then returns the error. */
 static bool set_text(bool (*write)(FILE *out))
 {
     text_stream s;
@@ -118,8 +118,8 @@ static void close_game_and_picture(void)
     page.open = page.drawn = page.has_fitted_scale = false;
 }
 
-/* Give the session the points of a block. */
-static bool take_points(const char *block, size_t size)
+/* Replace the points and values of the session with those of a block. */
+static bool set_session_points(const char *block, size_t size)
 {
     session_file *s = &page.session;
     if (!point_block_read(block, size, &page.points, &page.error))
@@ -135,7 +135,7 @@ static bool take_points(const char *block, size_t size)
 
 /* Open a session and play its tick 0. The input buffer holds `session` bytes of a session.json, followed by `recording`
  * bytes of a recording.json and `points` bytes of a block of points (point_block.h), 0 if session.json has the points.
- * `cloud`: the session is a cloud. A session that is already open is closed first. */
+ * `cloud` is true if the session shows a point cloud. A session that is already open is closed first. */
 bool web_open(size_t session, size_t recording, size_t points, bool cloud)
 {
     view v;
@@ -143,7 +143,7 @@ bool web_open(size_t session, size_t recording, size_t points, bool cloud)
     close_game_and_picture();
     if (!recording_parse("the view", page.room + session, recording, &v, &every, &page.error) ||
         !session_parse("the session", "", page.room, session, &page.session, &page.error) ||
-        (points > 0 && !take_points(page.room + session + recording, points)))
+        (points > 0 && !set_session_points(page.room + session + recording, points)))
         return report_error_text();
     free(page.room);
     page.room = NULL;
@@ -159,8 +159,8 @@ bool web_open(size_t session, size_t recording, size_t points, bool cloud)
     return page.open || report_error_text();
 }
 
-/* Give a view the size of the recording, with the column of text in the picture. */
-static void suit_recording(view *v)
+/* Give a view the size of the recording, and put the column of text into the picture. */
+static void set_recorded_size(view *v)
 {
     v->width = page.size[0];
     v->height = page.size[1];
@@ -177,7 +177,7 @@ bool web_step(int key)
     const view drawn = p->view;
     page.drawn = false;
     /* A tick's history depends on the view: play every tick with the view of the recording. */
-    suit_recording(&p->view);
+    set_recorded_size(&p->view);
     p->view.layers |= page.summed_layers;
     const bool done = key ? playback_play_input(p, &input, &page.error) : playback_advance(p, &page.error);
     p->view = drawn;
@@ -215,7 +215,7 @@ bool web_facts(void)
 
 /* ---- The picture -------------------------------------------------------------------------------------------- */
 
-/* Fit a view to the points of tick 0. Opening the session again does the same. */
+/* Fit a view to the points of tick 0, as opening the session does. */
 static bool fit_to_start(view *v)
 {
     octree_game *start;
@@ -242,8 +242,8 @@ static bool fit_view(view *v)
     return picture_fit_view(v, octree_game_tree(page.playback.game), &page.session.values, &page.error);
 }
 
-/* Set the view to that of a recording.json, whose `recording` bytes are in the input buffer. The picture
- * keeps its size until the next drawing. */
+/* Set the view. The input buffer holds `recording` bytes of a recording.json with the view. The picture keeps its size
+ * until the next drawing. */
 bool web_view(size_t recording)
 {
     view v, *now = &page.playback.view;
@@ -263,8 +263,8 @@ bool web_view(size_t recording)
     return true;
 }
 
-/* Returns true if the view shows a heat layer whose sums were not collected since tick 0. The page must then open the
- * session again with this view. */
+/* Returns true if the view shows a heat layer whose sums have not been collected from tick 0 on. The page must then
+ * open the session again with this view. */
 bool web_lacks_sums(void)
 {
     return page.playback.view.layers & VIEW_HEAT_LAYERS & ~page.summed_layers;
@@ -320,7 +320,7 @@ static const uint32_t *draw_view(const view *v)
 const uint32_t *web_draw(void)
 {
     view v = page.playback.view;
-    suit_recording(&v);
+    set_recorded_size(&v);
     return draw_view(&v);
 }
 
@@ -404,8 +404,9 @@ bool web_camera(void)
     return set_text(write_camera);
 }
 
-/* Project positions in the world onto the drawn picture. The input buffer holds three doubles for each position. They
- * are replaced by two doubles for each position: its pixel, or NaN twice if the position is behind the camera. */
+/* Project positions in the world onto the drawn picture. The input buffer holds three doubles for each position. The
+ * function overwrites them with two doubles for each position: its pixel, or NaN twice if the position is behind the
+ * camera. */
 void web_project(size_t count)
 {
     double *numbers = (double *)(void *)page.room;
@@ -419,6 +420,7 @@ void web_project(size_t count)
 
 /* ---- Questions ---------------------------------------------------------------------------------------------- */
 
+/* The parameters of web_pick(), for write_pick(). */
 static struct {
     int x, y, radius;
 } picked;
@@ -475,17 +477,17 @@ const double *web_point(double id)
     return octree_game_find(page.playback.game, (uint64_t)id, &found) ? found.position : NULL;
 }
 
-static bool write_named(FILE *out)
+static bool write_named_element(FILE *out)
 {
     return pick_print_named(out, page.room, &page.playback, &page.error);
 }
 
-/* Make web_text() return a node or a point of the current tick as JSON. The input buffer holds `size` bytes of its name
- * (see pick_print_named() in pick.h). */
+/* Make web_text() return a node or a point of the current tick as JSON. The input buffer holds the `size` bytes of the
+ * element's name (see pick_print_named() in pick.h). */
 bool web_describe(size_t size)
 {
     page.room[size] = 0;
-    return set_text(write_named);
+    return set_text(write_named_element);
 }
 
 /* ---- The player's key presses ---------------------------------------------------------------------------------- */

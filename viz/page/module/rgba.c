@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* rgba.c - see rgba.h.
+/* rgba.c - converts the pixels of a frame to the format of an HTML canvas.
  *
  * The conversion takes a large part of a frame's time. Each pixel is therefore written as one 32-bit word, and palette
  * indices are looked up in a table. Most of a picture is background, the index 0: eight such pixels need no look-up. */

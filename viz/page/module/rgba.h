@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* rgba.h - the pixels of a frame as a canvas takes them. */
+/* rgba.h - converts the pixels of a frame to the format of an HTML canvas. */
 #ifndef PAGE_RGBA_H
 #define PAGE_RGBA_H
 

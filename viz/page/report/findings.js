@@ -36,7 +36,8 @@ class Findings {
     }
 }
 
-/* The differences that count as a finding. If none were counted, as in frames of different sizes, all differences. */
+/* The tally of the counted differences. If the finding has none, as for frames of different sizes, the tally of all
+ * differences. */
 function tallyOf(finding)
 {
     return finding.counted?.pixels > 0 ? finding.counted : finding.unlike ?? {pixels: 0};
@@ -67,8 +68,8 @@ function shortWords(finding)
 /* Capitalize a text, unless it starts with the file name of a picture. */
 const capital = text => /^[^;]*\.png /i.test(text) ? text : text.charAt(0).toUpperCase() + text.slice(1);
 
-/* The headline of a finding: its cause or, if the cause is unknown, the amount of difference. Only the part before the
- * first semicolon. */
+/* The headline of a finding: its cause or, if the cause is unknown, the amount of difference. It ends at the first
+ * semicolon. */
 function headlineOf(finding)
 {
     return capital((finding.cause ?? finding.words).split("; ")[0]);

@@ -12,7 +12,7 @@ const ADDRESS_DELAY = 200;
 /* The parts of an address that need the module, in the order in which they are applied. */
 const PARTS_OF_MODULE = ["view", "keys", "ask", "select"];
 
-/* Write text as the value of an address. Characters that are readable and allowed stay as they are. */
+/* Encode a text as a value in an address. Characters that are readable and allowed in an address stay as they are. */
 const encoded = text => encodeURIComponent(text).replace(/%(20|2C|3A|2F|3D)/g, code => code === "%20" ? "+" : decodeURIComponent(code));
 
 function readQuery(text)
@@ -67,7 +67,7 @@ class Address {
         this.report();
     }
 
-    /* Do something that an address asks for. If it fails, its error is reported. */
+    /* Run an action that the address requests. If the action fails, its error is reported. */
     async attempt(act)
     {
         try {
@@ -77,7 +77,7 @@ class Address {
         }
     }
 
-    /* Take the value of a part that waits for the module. */
+    /* Return the value of a part that waits for the module, and forget the part. */
     take(name)
     {
         const value = this.pending[name] ?? "";

@@ -95,7 +95,7 @@ class Measure {
         this.show();
     }
 
-    /* Take the point at a clicked pixel as an end. */
+    /* Make the point at a clicked pixel an end of the measured line. */
     add({elements})
     {
         const found = elements.find(({point}) => point)?.point;

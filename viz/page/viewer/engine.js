@@ -89,7 +89,7 @@ class Engine {
         return parts.map(part => part.length);
     }
 
-    /* Open a session. Many points are a block of bytes. */
+    /* Open a session. `points` is the block of the points of a cloud or of a large session, otherwise empty. */
     open(session, view, points = NO_POINTS)
     {
         this.textAfter(this.wasm.web_open(...this.writeInput(session, JSON.stringify(view), points), isCloud(points)));

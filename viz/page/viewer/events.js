@@ -3,7 +3,7 @@
  * only their ticks are parsed, so the list of 100,000 ticks is as fast as a short one. */
 "use strict";
 
-const ROW = 26;   /* the height of a row in CSS pixels; a browser shows at least 600,000 rows of it */
+const ROW = 26;   /* the height of a row in CSS pixels; a browser shows at least 600,000 rows of this height */
 const BEYOND = 4; /* rows that are made beyond those in sight, so that scrolling shows no gap */
 
 class EventList {
@@ -26,7 +26,8 @@ class EventList {
         })).observe(this.root);
     }
 
-    /* Show another recording, other events (bits; 0: all but moved), or the same after ticks were added. */
+    /* Show another recording, other events, or the same recording after ticks were added to it. `bits` are the listed
+     * events; 0: all except "moved". */
     show(recording, bits)
     {
         this.recording = recording;
@@ -96,7 +97,7 @@ class EventList {
         return row;
     }
 
-    /* The sentences of a tick's events that are listed, each with its sign. */
+    /* The sentences about the listed events of a tick, each with the sign of its event. */
     tell(number)
     {
         const wanted = this.bits || ~MOVED, tick = this.recording.tick(number);

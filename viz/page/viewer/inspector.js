@@ -117,7 +117,8 @@ const distanceOf = (a, b) => Math.hypot(...a.map((at, i) => at - b[i]));
 
 /* ---- Queries ----------------------------------------------------------------------------------------------------- */
 
-/* The found points: neighbours have their positions and distances; of other points the page knows them if it plays. */
+/* The found points. The answer itself holds the positions and distances of neighbours. The page knows the positions of
+ * other points only if it plays the session. */
 function showHits({neighbors, id, position, distance, ids, target, center}, look)
 {
     const points = neighbors ?? ids ?? (id === undefined || id === null ? [] : [{id, position, distance}]);
@@ -238,7 +239,7 @@ function tellTick(tick, look)
 
 /* ---- Elements ---------------------------------------------------------------------------------------------------- */
 
-/* The name of the element that a pick or Engine.describe() describes: what select() takes. */
+/* The name of the element that a pick or Engine.describe() describes, in the form that select() takes. */
 function elementName({point, node, foreign_node: foreign, query})
 {
     return point ? `point ${point.id}` : node ? `node ${node.path}` : foreign ? `foreign ${foreign.id}`
@@ -365,7 +366,7 @@ class Inspector {
         return engine?.tick === this.tick?.tick ? engine : undefined;
     }
 
-    /* What is known about the tick beside its line (see sentences.js). */
+    /* What is known about the tick in addition to its line of ticks.jsonl (see sentences.js). */
     get look()
     {
         const {engine} = this;
@@ -373,8 +374,8 @@ class Inspector {
                 at: id => engine?.point(id), node: path => engine?.describe(`node ${path}`)};
     }
 
-    /* Show the facts of a tick: at once if the sheet is open. Otherwise when the tick stays for a while, because making
-     * the elements takes up to 2 ms, which playing needs. */
+    /* Show the facts of a tick. If the sheet is open, they are shown at once, otherwise only when the tick stays for
+     * SHOW_DELAY, because making the elements takes up to 2 ms, which playing needs. */
     show(tick)
     {
         this.tick = tick;
@@ -395,8 +396,8 @@ class Inspector {
         this.showRaw();
     }
 
-    /* The tick in sentences. If another program wrote the tick's line, with members that sentences cannot be made of, the
-     * line's members are shown as rows. */
+    /* The tick in sentences. If no sentences can be made of the tick's line, because another program wrote it, its
+     * members are shown as rows. */
     tell(tick)
     {
         try {

@@ -204,7 +204,7 @@ class Interaction {
         } catch (error) {
             this.showStatus(error.message);
         }
-        this.showing = undefined; /* at once: show() must not wait for a loop that has ended */
+        this.showing = undefined; /* set without another await: show() must not wait for a loop that has ended */
     }
 
     /* Show the first view of the recorded ticks again. */

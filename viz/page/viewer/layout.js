@@ -83,8 +83,8 @@ function rowElement({title, text, sign, name, detail = "", value, name_color, co
     return row;
 }
 
-/* Show the rows of the column of text. A rule that follows a rule or is last, and an empty line, are left out. The
- * caption stands below the picture. */
+/* Show the rows of the column of text. Empty lines are left out, and so is a rule that follows another rule or is the
+ * last row. The caption stands below the picture. */
 function showRows(all)
 {
     const rows = all.filter(({caption}) => caption === undefined), {caption} = all.find(row => row.caption) ?? {};

@@ -11,10 +11,10 @@ const PICK_RADIUS = 5;       /* CSS pixels */
 const MARK_RADIUS = 9;       /* CSS pixels */
 const KEY_STEP = 16;         /* pixels of the picture: a key turns the camera as much as dragging by this distance */
 const SMOOTH = 10;           /* ms for a picture; if it takes longer, a moving view is drawn with fewer pixels */
-const SLOW = 50;             /* ms; if two such pictures take longer, the next one is drawn with still fewer */
-const COARSE = 0.5;          /* the scale of the picture then, at first */
-const COARSEST = 0.25;       /* the least scale */
-const COARSER = 0.7;         /* the factor between scales */
+const SLOW = 50;             /* ms; if two pictures with fewer pixels take longer, the next has still fewer */
+const COARSE = 0.5;          /* the first scale of a picture with fewer pixels; see glide() */
+const COARSEST = 0.25;       /* the smallest scale */
+const COARSER = 0.7;         /* the factor from one scale to the next smaller one */
 const REST = 100;            /* ms after which a view that moved is drawn with all pixels */
 const SUITED_HEIGHT = 720;   /* lines and letters of the picture look as in a frame of this height, in CSS pixels */
 const MOST_SIDE = 16384;     /* the longest side of a picture in samples (VIEW_MAX_SIDE in scene/view.h) */
@@ -79,7 +79,7 @@ class Live {
         return this.canvas.isConnected;
     }
 
-    /* Draw no more. The last picture stays until another one takes the stage. */
+    /* Stop drawing. The last picture stays on the stage until another one replaces it. */
     end()
     {
         this.observer.disconnect();
@@ -105,7 +105,7 @@ class Live {
     /* Draw the picture at the next animation frame, so that several changes make only one picture. */
     draw()
     {
-        this.stale = true; /* until drawNow(), which may come first */
+        this.stale = true; /* drawNow() clears this, perhaps before the animation frame */
         this.waiting ??= new Promise(done => requestAnimationFrame(() => {
             this.waiting = undefined;
             if (this.stale)
@@ -143,8 +143,8 @@ class Live {
         }
     }
 
-    /* Choose the scale of a moving view by the ms that the last pictures took. One slow picture alone changes nothing:
-     * the first of a new size has to get memory. */
+    /* Choose the scale of a moving view by the ms that the last pictures took. One slow picture alone changes nothing,
+     * because the first picture of a new size is slow: it needs new memory. */
     adapt(cost)
     {
         const least = Math.min(cost, this.coarseCost ?? 0);

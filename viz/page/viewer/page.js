@@ -323,7 +323,7 @@ function isHandled(event)
     if (event.key === "Escape")
         return false;
     if (event.target.id === "stage" && document.body.classList.contains("exact"))
-        return event.key.startsWith("Arrow"); /* they scroll a frame that is larger than the window */
+        return event.key.startsWith("Arrow"); /* arrow keys scroll a frame that is larger than the window */
     if (!control || control.type === "range")
         return false;
     return control.matches("input, select, dialog") || [" ", "Enter"].includes(event.key);

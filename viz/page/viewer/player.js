@@ -182,7 +182,7 @@ class Player {
     /* Go back to tick 0 of the session itself, without the user's key presses and with a view. */
     restart(view)
     {
-        if (this.isCloud) { /* opening it once more would take seconds */
+        if (this.isCloud) { /* opening the cloud once more would take seconds */
             if (this.states.list.length > 0)
                 this.replay();
             this.engine.look(view);

@@ -3,7 +3,7 @@
  * the current tick. */
 "use strict";
 
-const FEWEST_TICKS = 10; /* the lanes zoom in until they show so few ticks */
+const FEWEST_TICKS = 10; /* the lanes zoom in until they show only this many ticks */
 
 /* Half the width of the slider's thumb in CSS pixels; the lanes are inset by it, so that they line up with the
  * slider. */
@@ -36,7 +36,7 @@ class Scale {
         return THUMB + (this.to > this.from ? (tick - this.from) / (this.to - this.from) * this.width : 0);
     }
 
-    /* The place in ticks at a position: a number with a fraction. */
+    /* The tick at a horizontal position, as a number with a fraction. */
     place(x)
     {
         return this.from + clamp((x - THUMB) / this.width || 0, 0, 1) * (this.to - this.from);

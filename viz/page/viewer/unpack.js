@@ -25,7 +25,7 @@ function unpack(letters)
 {
     const gzip = new DecompressionStream("gzip"), writer = gzip.writable.getWriter();
     for (const done of [writer.write(unpackLetters(letters)), writer.close()])
-        done.catch(() => {}); /* who awaits the Response gets the error */
+        done.catch(() => {}); /* the code that awaits the Response gets the error */
     return new Response(gzip.readable);
 }
 
@@ -49,7 +49,7 @@ async function addParts()
     }
     const parts = [["styles", "style"], ["scripts", "script"]].map(([id, name]) => [name, unpack(lettersOf(id)).text()]);
     if (typeof WebAssembly === "object")
-        (compiled = compileText(lettersOf("module"))).catch(() => {}); /* who awaits it gets the error */
+        (compiled = compileText(lettersOf("module"))).catch(() => {}); /* the awaiting code gets the error */
     if (lettersOf("points"))
         (unpackedPoints = unpack(lettersOf("points")).arrayBuffer()).catch(() => {});
     for (const [name, text] of parts) {
