@@ -25,15 +25,15 @@ void brute_scatter(brute *all, uint64_t *random, size_t count, uint64_t reach, u
 /* Add `count` points of a distribution within a box, numbered from 0. */
 void brute_sample(brute *all, octree_sample_kind kind, uint64_t seed, const octree_box *box, size_t count);
 
-/* A new tree under OCTREE_GROW with the same points; no pair may occur twice. */
+/* Returns a new tree under OCTREE_GROW with the same points; no pair (position, id) may occur twice. */
 octree *brute_tree(const brute *all, octree_box world, size_t capacity, size_t depth);
 
-/* Remove a pair. False if it is not stored. The order of the other points changes. */
+/* Remove a pair (position, id). False if the pair is not stored. The order of the other points changes. */
 bool brute_remove(brute *all, const double position[3], uint64_t id);
 
 bool brute_contains(const brute *all, const double position[3], uint64_t id);
 
-/* The lowest id at exactly these coordinates. */
+/* Find the lowest id at exactly these coordinates. False if no point is there. */
 bool brute_find(const brute *all, const double position[3], uint64_t *id);
 
 /* Add the points in a closed box to `found`. */

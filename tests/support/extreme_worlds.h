@@ -8,7 +8,8 @@
 #include <float.h>
 #include <math.h>
 
-/* Row 1 of the extremes, and worlds whose planes round. */
+/* The bounds of each world, the same on every axis: simple worlds, worlds at the limits of doubles, and worlds whose
+ * splitting planes must be rounded. */
 static const double world_axes[][2] = {
     {-1000, 1000},      {0, 1},           {-DBL_MAX, DBL_MAX},  {-1e200, 1e200},   {5e-324, 1e-310},
     {1e15, 1e15 + 1},   {0.1, 0.3},       {-0.1, 1e15},         {-5e-324, 5e-324}, {0, 5e-324},
@@ -32,7 +33,7 @@ static inline octree_address address_of(uint32_t x, uint32_t y, uint32_t z, unsi
     return address;
 }
 
-/* The box of the cell k on every axis. */
+/* The box of the cell with the integer coordinates (k, k, k) at a depth, in a world of world_axes. */
 static inline octree_box cell(size_t row, uint32_t k, unsigned depth)
 {
     octree_box world = world_of(row);

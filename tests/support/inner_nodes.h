@@ -7,7 +7,7 @@
 
 enum { INNER_NODES_AT_MOST = 40000 };
 
-/* In pre-order. */
+/* The inner nodes of a tree, in pre-order. */
 typedef struct inner_nodes {
     octree_address addresses[INNER_NODES_AT_MOST];
     size_t count;

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* paper.h - Algorithms 1 to 7 of "3D Spatial Partitioning and Collision Detection using Octrees", as printed.
  *
- * Recursive, eight child pointers, the paper's names. Printing is left out. A point's id is carried along so that a
- * test can see whose point is meant; like the paper, nothing here ever compares it.
- */
+ * The code is recursive, has eight child pointers for each node, and uses the paper's names. Printing is left out. Each
+ * point also has an id, so that a test can identify the point; as in the paper, no algorithm compares ids. */
 #ifndef PAPER_H
 #define PAPER_H
 
@@ -39,7 +38,7 @@ bool deletePoint(const paper_octree *octree, paper_node *node, const octree_poin
 /* Algorithm 3. The leaf that holds a point with these coordinates, or null. */
 const paper_node *searchPoint(const paper_node *node, const octree_point *point);
 
-/* Algorithm 4. The points go to `fp`. */
+/* Algorithm 4. Adds the points to `fp`, and their number to *count. */
 void rangeQuery(const paper_node *node, const double min[3], const double max[3], size_t *count, brute *fp);
 
 /* Algorithm 5. */

@@ -13,7 +13,7 @@
 #define RANDOM_SESSION_EDITS 80
 #define RANDOM_SESSION_QUERIES 40
 
-/* A session and the arrays it borrows: it must stay where it was made. */
+/* A session and the arrays that the session points into. The structure must not be moved. */
 typedef struct random_session {
     octree_session session;
     octree_game_body bodies[RANDOM_SESSION_BODIES];

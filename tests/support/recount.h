@@ -2,8 +2,7 @@
 /* recount.h - recounts the nodes that the queries of a tick visited: a walk over all nodes compares their boxes.
  *
  * The comparisons use doubles. They are correct for boxes and balls whose faces and squares are exact, as with small
- * dyadic coordinates, and for those that are not close to planes.
- */
+ * dyadic coordinates, and for all boxes and balls whose faces are not close to the planes of nodes. */
 #ifndef RECOUNT_H
 #define RECOUNT_H
 
@@ -17,7 +16,7 @@ typedef struct recount {
     size_t leaf_count, leaf_room;
 } recount;
 
-/* An empty one is {0}. */
+/* An empty recount is {0}. */
 void recount_free(recount *all);
 
 /* Add the nodes that intersect a box or a ball; returns the cost of the query. */

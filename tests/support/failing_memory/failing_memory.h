@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* failing_memory.h - the n-th allocation of a test fails.
+/* failing_memory.h - lets the n-th allocation of a test fail.
  *
  * The linker redirects the allocations of the programs test_*_memory.c to this file (see tests/CMakeLists.txt): those
  * of the tests and of viz, but not those of libraries. */

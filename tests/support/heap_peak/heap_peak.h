@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* heap_peak.h - measures the peak of heap memory in a test that links octreel_heap_peak. It replaces malloc, calloc,
- * realloc and free of the program; with glibc and without sanitizers, also those of shared libraries. */
+/* heap_peak.h - measures the peak of heap memory in a test that links octreel_heap_peak. The library replaces malloc,
+ * calloc, realloc and free in the program and, with glibc and without sanitizers, also in shared libraries. */
 #ifndef HEAP_PEAK_H
 #define HEAP_PEAK_H
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* exact_oracle.h - exact squared distances as GMP integers: the oracle for near ties and extreme scales.
  *
- * Every finite double is a whole multiple of 2^-1074; scaled by that, sums and squares are exact.
- */
+ * Every finite double is a whole multiple of 2^-1074. In this unit doubles are integers, so sums and squares are
+ * exact. */
 #ifndef EXACT_ORACLE_H
 #define EXACT_ORACLE_H
 

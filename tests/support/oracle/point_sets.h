@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* point_sets.h - points that move, and queries about them, of the kinds at which indexes go wrong. */
+/* point_sets.h - sets of points, and queries about them, of kinds at which indexes often give wrong answers. */
 #ifndef POINT_SETS_H
 #define POINT_SETS_H
 
@@ -7,7 +7,7 @@
 
 typedef struct point_set {
     const char *name, *about;
-    bool in_floats; /* squares of its distances are floats */
+    bool in_floats; /* true: the squares of its distances are exact as floats */
     size_t least, most;
     octree_box world;
     void (*place)(uint64_t *random, double at[3]);
@@ -16,7 +16,7 @@ typedef struct point_set {
 #define POINT_SETS 8
 extern const point_set point_sets[POINT_SETS];
 
-/* So many points with the ids 0, 1, 2 ...; returns their number. */
+/* Make a random number of points, set->least to set->most, with the ids 0, 1, 2 ... Returns the number. */
 #define POINT_SET_MOST 300
 size_t point_set_fill(const point_set *set, uint64_t *random, octree_point *points);
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* quick_oracle.h - the decisions of exact_oracle.h, a hundred times faster. It computes with long doubles of 64 bits
- * and a wide exponent, bounds their rounding errors, and calls exact_oracle.h if the bound does not decide. It shares
- * no code with the library. */
+/* quick_oracle.h - makes the decisions of exact_oracle.h a hundred times faster. The functions compute with long
+ * doubles of 64 bits and a wide exponent, bound their rounding errors, and call exact_oracle.h if the bound does not
+ * decide. They share no code with the library. */
 #ifndef QUICK_ORACLE_H
 #define QUICK_ORACLE_H
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* truth.h - whether an answer is right, by looking at every point with real numbers: it owes nothing to the library. */
+/* truth.h - decides whether an answer is right by comparing all points with real numbers. It shares no code with the
+ * library. */
 #ifndef TRUTH_H
 #define TRUTH_H
 
@@ -9,8 +10,8 @@
 
 typedef enum truth { TRUTH_RIGHT, TRUTH_WRONG, TRUTH_OPEN } truth;
 
-/* Judge query->answer by all points, which have the ids 0, 1, 2 ... OPEN: within a hair of what epsilon allows, where
- * octree_judgement does not accuse. There are at most TRUTH_POINTS points. */
+/* Judge query->answer by all points, which have the ids 0, 1, 2 ... TRUTH_OPEN: the answer exceeds what epsilon allows
+ * by so little that octree_judgement does not call it wrong. There are at most TRUTH_POINTS points. */
 #define TRUTH_POINTS 1024
 truth truth_of(const octree_query *query, const octree_point *points, size_t count);
 

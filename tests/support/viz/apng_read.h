@@ -9,7 +9,7 @@
 
 /* One frame as a player shows it. */
 typedef struct apng_frame {
-    uint8_t *rgb;                 /* of the whole picture */
+    uint8_t *rgb;                 /* the pixels of the whole picture */
     unsigned shown, rate;         /* the frame's duration is shown / rate seconds */
     int left, top, width, height; /* the rectangle that is stored */
     bool over;                    /* transparent pixels leave the pixels of the frame before */

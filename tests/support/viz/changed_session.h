@@ -17,7 +17,7 @@ typedef struct changed_session {
     octree_edit edits[RANDOM_SESSION_EDITS + 1];
     const char *where; /* the expected fact: where the change is, and how */
     cause_change change;
-    uint64_t tick, id; /* or CAUSE_NO_TICK, CAUSE_NO_ID */
+    uint64_t tick, id; /* of the expected fact; or CAUSE_NO_TICK, CAUSE_NO_ID */
     char text[640];    /* the expected beginning of the headline */
 } changed_session;
 
@@ -25,11 +25,11 @@ typedef struct changed_session {
 typedef bool session_change(changed_session *t, uint64_t tick, uint64_t *state);
 bool try_change(changed_session *t, uint64_t seed, session_change *change);
 
-session_change move_by_one_step; /* an edit: some point, as far as the player steps */
-session_change add_one_point;    /* by an edit */
+session_change move_by_one_step; /* add an edit that moves a point by the length of the player's step */
+session_change add_one_point;    /* add an edit that inserts a point */
 session_change change_capacity;
 session_change change_step;
-session_change change_kind;     /* of the player, with a step and a start that not both kinds read */
+session_change change_kind;     /* change the kind of the player; not both kinds use the step and the start */
 session_change change_velocity; /* of a point at the start */
 session_change change_number_of_shapes;
 session_change change_shape;

@@ -49,10 +49,11 @@ void listing_release(listing *names);
 /* Copy the files of a folder into a new one. */
 void copy_folder(const char *from, const char *to);
 
-/* Both files hold the same bytes. */
+/* The test fails unless both files hold the same bytes. */
 void assert_same_files(const char *a, const char *b);
 
-/* Both folders hold the same names and the same bytes; those of the file `except` (may be null) may differ. */
+/* The test fails unless both folders hold the same names and the same bytes. The bytes of the file `except` (may be
+ * null) may differ. */
 void assert_same_folders(const char *a, const char *b, const char *except);
 
 #endif

@@ -32,10 +32,11 @@ typedef struct golden_play {
     octree_game *game;
 } golden_play;
 
-/* Whether the frame shows a tick of a session; two frames show a single tree, or a broken one. */
+/* Whether the frame shows a tick of a session. Two frames show a tree without a session: "asked", and "broken" with a
+ * broken tree. */
 bool golden_is_played(const golden_frame *frame);
 
-/* Tick 0 of its session; the caller destroys the game. */
+/* Open the session of a frame at tick 0. The caller destroys the game. */
 bool golden_open(const golden_frame *frame, golden_play *play, octreel_error *error);
 
 /* Compose the scene of a frame; the caller releases *s, also on failure. */

@@ -27,7 +27,7 @@ void release_twins(image_twins *twins);
 void assert_written(const image *image, const char *path);
 image assert_read(const char *path);
 
-/* The same as 8-bit RGB, however the file stores it. */
+/* Read a file like assert_read(), and convert the picture to 8-bit RGB. */
 image assert_read_rgb(const char *path);
 
 /* An error must be one sentence: the path, then a reason that contains `reason`. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* las_files.h - LAS files for tests, put together by the tables of the specification: LAS 1.0 to 1.5, point formats 0
- * to 10. */
+/* las_files.h - LAS files for tests, built from the tables of the specification: LAS 1.0 to 1.5, point formats 0 to
+ * 10. */
 #ifndef LAS_FILES_H
 #define LAS_FILES_H
 
@@ -14,10 +14,10 @@ extern const unsigned las_header_sizes[LAS_VERSIONS], las_record_sizes[LAS_FORMA
 typedef struct las {
     unsigned minor, format;
     unsigned records_before; /* bytes between the header and the points */
-    unsigned extra;          /* bytes of each record that the format does not have */
+    unsigned extra;          /* number of bytes that each record has in addition to its format */
     double scale[3], offset[3];
     int32_t points[2][3];
-    uint64_t count; /* that the header has; 0: the two */
+    uint64_t count; /* number of points in the header; 0: the two points */
 } las;
 
 /* A file of two_points. Not every coordinate is a multiple of 0.01, so the scales of the header matter. */

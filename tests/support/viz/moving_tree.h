@@ -15,7 +15,7 @@ typedef struct moving_tree {
     size_t count;
     octree_query queries[OCTREE_QUERY_KINDS];
     octree_shape shapes[OCTREE_SHAPE_KINDS];
-    octree_foreign_node nodes[3]; /* of an index of its own: a root and two leaves */
+    octree_foreign_node nodes[3]; /* of a foreign index: a root and two leaves */
     uint64_t listed[MOVING_TREE_MOST], met[3];
     octree_foreign_tree foreign;
     octreel_tick_info about;

@@ -14,7 +14,7 @@ double naive_delta(const double a[3], const double b[3]);
 /* Whether pixelmatch would call the pixel anti-aliased, in either image. */
 bool naive_antialiased(const image *a, const image *b, int x, int y);
 
-/* The same counts and places as image_compare_within(). */
+/* Compare two images. Must return the same counts and places as image_compare_within(). */
 image_difference naive_compare(const image *a, const image *b, const image_tolerance *tolerance);
 
 /* The test fails unless two differences are equal; worst_delta may differ by rounding. */

@@ -8,7 +8,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* A file's bytes, or those of one being made. */
+/* The bytes of a file that was loaded or is being built. */
 typedef struct png_bytes {
     uint8_t data[1 << 16];
     size_t size;
@@ -34,7 +34,7 @@ typedef struct png_chunk {
     size_t next;
 } png_chunk;
 
-/* The chunk at an offset; the test fails when it is not whole or its CRC is wrong. The first one is at 8. */
+/* The chunk at an offset; the test fails if the chunk is not whole or its CRC is wrong. The first chunk is at 8. */
 png_chunk png_chunk_at(const png_bytes *file, size_t at);
 
 /* The first chunk of a type; the test fails when there is none. */

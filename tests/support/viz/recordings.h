@@ -20,7 +20,7 @@ octree_session short_session(const char *keys);
 /* The same options for the ticks [first, last). */
 film_options chunk_of(film_options options, uint64_t first, uint64_t last);
 
-/* Options that stop after `*ticks` ticks; that counts down. */
+/* Options that stop filming after `*ticks` ticks; *ticks is counted down. */
 film_options stopped_after(film_options options, uint64_t *ticks);
 
 /* The path of a frame. */

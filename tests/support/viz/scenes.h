@@ -19,8 +19,8 @@ scene empty_scene(const view *v, const octree_box *world);
  * each kind, and a wrong answer of a foreign index: it shows every layer. */
 octree_session session_with_all_layers(void);
 
-/* The default session with every coordinate and length times `scale`, then moved by `offset`. It must stay where it
- * was made. */
+/* The default session with every coordinate and length multiplied by `scale`, then moved by `offset`. The structure
+ * must not be moved. */
 #define SCALED_SESSION_ROOM 16
 typedef struct scaled_session {
     octree_session session;
@@ -30,20 +30,20 @@ typedef struct scaled_session {
 
 void scale_session(scaled_session *made, double scale, double offset);
 
-/* Play the session's next tick; the test fails when that fails. */
+/* Play the session's next tick; the test fails if the tick cannot be played. */
 void play_tick(octree_game *game);
 
-/* Fill a scene with a game's tick, or the test fails; without heat, and with it. */
+/* Fill a scene with a game's tick, without or with heat. The test fails if the scene cannot be built. */
 void build_tick(scene *s, const view *v, const octree_game *game);
 void build_hot_tick(scene *s, const view *v, const octree_game *game, const heat *h);
 
-/* Fill a scene with a tree alone, or the test fails. */
+/* Fill a scene with a tree and no game. The test fails if the scene cannot be built. */
 void build_tree(scene *s, const view *v, const octree *tree, const char *title);
 
 /* Tick 30 of the default session, with all layers and options. */
 scene busy_scene(int width, int height, view_camera camera);
 
-/* The pixel of a position that is before the camera. */
+/* Find the pixel of a position that is in front of the camera. */
 void pixel_of(const scene *s, const double position[3], double pixel[2]);
 
 #endif

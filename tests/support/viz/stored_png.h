@@ -8,13 +8,13 @@
 
 /* A way of storing pixels. */
 typedef struct png_storage {
-    int color_type, depth; /* libpng's */
+    int color_type, depth; /* as in libpng */
     bool interlaced;
-    bool keyed;  /* with a tRNS chunk */
-    bool narrow; /* of 16 bits a sample, which 8 would hold */
+    bool keyed;  /* true: with a tRNS chunk */
+    bool narrow; /* true: samples of 16 bits, whose values 8 bits could hold */
 } png_storage;
 
-/* All of them. */
+/* All ways of storing pixels. */
 enum { PNG_STORAGES = 64 };
 png_storage png_storage_at(int i);
 

@@ -19,7 +19,7 @@ int temp_folder_remove(void **state);
 /* "<folder>/<name>", valid until the next call. */
 const char *temp_file(temp_folder *folder, const char *name);
 
-/* The number of files and folders in it. */
+/* The number of files and folders in the folder. */
 int temp_folder_count(const temp_folder *folder);
 
 #endif

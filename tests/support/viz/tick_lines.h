@@ -16,10 +16,10 @@ json_t *json_member(const json_t *object, const char *name);
 /* The test fails unless the object has exactly the members in `names`, which are separated by blanks. */
 void assert_members(const json_t *object, const char *names);
 
-/* A whole number. */
+/* The test fails unless the value is this whole number. */
 void assert_whole_number(const json_t *value, uint64_t expected);
 
-/* A digest, as files have it. */
+/* The test fails unless the value is the text of this digest, as in files. */
 void assert_digest(const json_t *value, uint64_t expected);
 
 /* The test fails unless the line has all facts of the tick, and the counts of the tree's nodes. The member "frame" is

@@ -14,8 +14,8 @@ typedef struct workflow {
     const char *actions; /* the folder of this project's actions */
     json_t *values;      /* the value of each expression, by a name such as "inputs.frames" */
     json_t *used;        /* the steps that use actions of other projects: {"uses": .., "with": {..}} */
-    char *out;           /* all that steps wrote to stdout */
-    char *err;           /* and to stderr */
+    char *out;           /* all text that steps wrote to stdout */
+    char *err;           /* all text that steps wrote to stderr */
     unsigned steps;      /* number of steps that ran */
 } workflow;
 
