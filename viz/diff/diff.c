@@ -36,7 +36,7 @@ void diff_release(diff_result *result)
 
 /* ---- Pairing ------------------------------------------------------------------------------------------------ */
 
-static bool same_color(image_color a, image_color b)
+static bool is_same_color(image_color a, image_color b)
 {
     return a.r == b.r && a.g == b.g && a.b == b.b;
 }

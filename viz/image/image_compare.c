@@ -84,7 +84,7 @@ static bool have_equal_rgb_bytes(const image *a, const image *b, size_t n, int c
            memcmp(read_rgb_bytes(a, n, count, room[0]), read_rgb_bytes(b, n, count, room[1]), 3 * (size_t)count) == 0;
 }
 
-static bool samples_equal(const pixel_samples *a, const pixel_samples *b)
+static bool are_samples_equal(const pixel_samples *a, const pixel_samples *b)
 {
     return a->of[0] == b->of[0] && a->of[1] == b->of[1] && a->of[2] == b->of[2];
 }
