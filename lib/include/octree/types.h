@@ -56,6 +56,14 @@ typedef struct octree_point {
     uint64_t id;
 } octree_point;
 
+/* A body: a closed box with the caller's 64-bit id (bodies.h). Its box spans the real numbers position - half to
+ * position + half, which are not rounded. */
+typedef struct octree_body {
+    double position[3]; /* the centre of the box */
+    double half[3];     /* the half extents of the box on the three axes: finite, >= 0 */
+    uint64_t id;
+} octree_body;
+
 /* The greatest depth of a node; the root has depth 0. An address has three bits for each of its 21 octants and a
  * leading 1 bit, so it fits into 64 bits. */
 #define OCTREE_MAX_DEPTH 21

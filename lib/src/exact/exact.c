@@ -102,6 +102,24 @@ int exact_sign(exact_sum *sum)
     return carry < 0 ? -1 : any;
 }
 
+double exact_round(exact_sum *sum)
+{
+    const int sign = exact_sign(sum);
+    for (int i = sum->first; sign < 0 && i < sum->end; i++)
+        sum->digits[i] = -sum->digits[i];
+    if (sign < 0) /* carry again, now with a positive sum */
+        exact_sign(sum);
+    int top = sum->end - 1;
+    while (top >= sum->first && sum->digits[top] == 0)
+        top--;
+    /* The three highest digits have at least 65 significant bits. Their parts are scaled separately, because the value
+     * of a digit alone may be beyond the range of doubles. */
+    double value = 0;
+    for (int i = top; i >= sum->first && i > top - 3; i--)
+        value += ldexp((double)sum->digits[i], 32 * (i - top));
+    return sign < 0 ? -ldexp(value, 32 * top - 2 * 1074) : ldexp(value, 32 * top - 2 * 1074);
+}
+
 int exact_sign_of_sum(const double terms[], int count)
 {
     exact_sum sum;
