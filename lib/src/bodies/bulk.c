@@ -1,0 +1,432 @@
+/* SPDX-License-Identifier: MIT */
+/* bulk.c - changes of many bodies in one call.
+ *
+ * The rows are changed one by one, in the caller's order; so each body gets the status that a single call would give.
+ * The resulting changes of the trees are collected, and each level makes its changes in one bulk call of octree.h. If
+ * this call fails, it has changed nothing in its tree, and the rows of this level's bodies are restored.
+ *
+ * A move that changes the level of a body is made alone, after the collected changes.
+ *
+ * Cost: that of the bulk calls, and one cache miss in the hash table for each body.
+ */
+#include "../exact/float_mode.h"
+#include "../exact/point.h"
+#include "../query/search.h"
+#include "set.h"
+
+enum { PREFETCH_AHEAD = 8 };
+
+/* A change of a tree that is collected, but not made yet. */
+typedef struct pending {
+    size_t index;      /* the index of the body in the caller's arrays */
+    octree_point from; /* the point that is inserted, removed or moved; its id is the row */
+    octree_body old;   /* the body before a move */
+    unsigned level;
+} pending;
+
+typedef octree_status bulk_change(octree *tree, const octree_point *points, const double (*to)[3], size_t count);
+
+typedef struct bulk {
+    octree_bodies *set;
+    pending *items;
+    size_t count, room;
+    octree_point *points; /* the points of one level, for its bulk call */
+    double (*to)[3];
+    const octree_body *from, *moved; /* the caller's arrays; `moved` is null unless bodies are moved */
+    octree_status *statuses;         /* may be null */
+    octree_status failure;           /* the first status of a bulk call that is not OK */
+    size_t changed;
+} bulk;
+
+static void set_status(bulk *b, size_t index, octree_status status)
+{
+    if (b->statuses)
+        b->statuses[index] = status;
+    b->changed += status == OCTREE_OK;
+}
+
+static bool begin_bulk(bulk *b, size_t count)
+{
+    arena *memory = &b->set->memory;
+    b->room = count;
+    b->items = count <= SIZE_MAX / sizeof *b->items ? arena_allocate(memory, (count + 1) * sizeof *b->items) : NULL;
+    b->points = b->items ? arena_allocate(memory, (count + 1) * sizeof *b->points) : NULL;
+    b->to = b->points && b->moved ? arena_allocate(memory, (count + 1) * sizeof *b->to) : NULL;
+    return b->points && (b->to || !b->moved);
+}
+
+static void end_bulk(bulk *b)
+{
+    arena *memory = &b->set->memory;
+    arena_free(memory, b->items, (b->room + 1) * sizeof *b->items);
+    arena_free(memory, b->points, (b->room + 1) * sizeof *b->points);
+    arena_free(memory, b->to, (b->room + 1) * sizeof *b->to);
+}
+
+static void collect(bulk *b, size_t index, uint32_t row, const octree_body *old, unsigned level)
+{
+    pending *p = &b->items[b->count++];
+    *p = (pending){.index = index, .old = *old, .level = level, .from.id = row};
+    memcpy(p->from.position, old->position, sizeof p->from.position);
+}
+
+/* Gather the collected changes of a level. Returns their number. */
+static size_t gather_level(bulk *b, unsigned level)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < b->count; i++) {
+        if (b->items[i].level != level)
+            continue;
+        b->points[count] = b->items[i].from;
+        if (b->moved)
+            memcpy(b->to[count], b->moved[b->items[i].index].position, sizeof b->to[count]);
+        count++;
+    }
+    return count;
+}
+
+/* Make the collected changes of all levels. `finish` is called for each change, in the caller's order if it was made,
+ * and in the reverse order if it was not. */
+static void make_changes(bulk *b, bulk_change *change, void (*finish)(bulk *b, const pending *p, bool made))
+{
+    for (unsigned level = 0; level < OCTREE_BODY_LEVELS && b->count > 0; level++) {
+        const size_t count = gather_level(b, level);
+        if (count == 0)
+            continue;
+        octree_status status = create_level(b->set, level);
+        if (status == OCTREE_OK)
+            status = change(b->set->levels[level].tree, b->points, (const double(*)[3])b->to, count);
+        for (size_t i = 0; i < b->count; i++) {
+            const pending *p = &b->items[status == OCTREE_OK ? i : b->count - 1 - i];
+            if (p->level != level)
+                continue;
+            finish(b, p, status == OCTREE_OK);
+            set_status(b, p->index, status);
+        }
+        b->failure = b->failure == OCTREE_OK ? status : b->failure;
+    }
+    b->count = 0;
+}
+
+/* Check the arguments that all bulk calls share. */
+static octree_status check_bulk(const octree_bodies *set, const octree_body *bodies, size_t count, size_t *changed)
+{
+    if (changed)
+        *changed = 0;
+    const octree_status status = check_set_change(set);
+    if (status != OCTREE_OK)
+        return status;
+    return count > ROWS_AT_MOST ? OCTREE_TOO_MANY : count > 0 && !bodies ? OCTREE_NULL_ARGUMENT : OCTREE_OK;
+}
+
+static octree_status finish_bulk(bulk *b, size_t *changed)
+{
+    end_bulk(b);
+    if (changed)
+        *changed = b->changed;
+    return b->failure;
+}
+
+static void prefetch_row_of(const bulk *b, size_t index, size_t count)
+{
+    if (index + PREFETCH_AHEAD < count)
+        rows_prefetch(&b->set->rows, &b->from[index + PREFETCH_AHEAD]);
+}
+
+/* ---- Insert ------------------------------------------------------------------------------------------------- */
+
+static octree_status insert_points(octree *tree, const octree_point *points, const double (*to)[3], size_t count)
+{
+    (void)to;
+    return octree_insert_many(tree, points, count, NULL, NULL);
+}
+
+static void finish_insertion(bulk *b, const pending *p, bool made)
+{
+    if (made)
+        change_reach(b->set, p->level, p->old.half, 1);
+    else
+        rows_remove(&b->set->rows, (uint32_t)p->from.id);
+}
+
+static void add_row(bulk *b, size_t index)
+{
+    const octree_body *body = &b->from[index];
+    octree_status status = check_body(b->set, body);
+    if (status == OCTREE_OK && rows_find(&b->set->rows, body) != ROW_NONE)
+        status = OCTREE_DUPLICATE;
+    if (status == OCTREE_OK)
+        collect(b, index, rows_add(&b->set->rows, body), body, find_level(b->set, body->half));
+    else
+        set_status(b, index, status);
+}
+
+/* The least number of bodies that are sorted before they are added. */
+enum { LEAST_SORTED = 1024 };
+
+/* The order in which rows are added: that of the cells of a grid, so that the bodies of a leaf are close together in
+ * memory. Null indices: the order of the caller, for few bodies or if memory is short. Only the speed depends on it. */
+typedef struct row_order {
+    uint32_t *indices; /* followed by the cells of the bodies, and by the ends of the cells */
+    size_t size;       /* in bytes */
+} row_order;
+
+/* Counting sort. Bodies of one cell keep their order; so, of two equal bodies, the first is added. Bodies whose cell is
+ * not certain come last. */
+static void sort_by_cells(const octree_bodies *set, const octree_body *added, size_t count, unsigned depth,
+                          uint32_t *indices)
+{
+    uint32_t *cells = indices + count, *ends = cells + count;
+    const uint32_t last = UINT32_C(1) << 3 * depth;
+    memset(ends, 0, (last + 2) * sizeof *ends);
+    compute_grid_cells(anchor_of(set)->axes, depth, added->position, sizeof *added / sizeof(double), count, cells);
+    for (size_t i = 0; i < count; i++) {
+        cells[i] = cells[i] < last ? cells[i] : last;
+        ends[cells[i] + 1]++;
+    }
+    for (uint32_t i = 1; i < last + 2; i++)
+        ends[i] += ends[i - 1];
+    for (size_t i = 0; i < count; i++)
+        indices[ends[cells[i]]++] = (uint32_t)i;
+}
+
+static row_order make_order(octree_bodies *set, const octree_body *added, size_t count)
+{
+    row_order order = {NULL, 0};
+    unsigned depth = 1;
+    if (count < LEAST_SORTED)
+        return order;
+    while (depth < GRID_DEEPEST && (size_t)1 << 3 * (depth + 1) <= count)
+        depth++;
+    order.size = (2 * count + ((size_t)1 << 3 * depth) + 2) * sizeof *order.indices;
+    order.indices = arena_allocate(&set->memory, order.size);
+    if (order.indices)
+        sort_by_cells(set, added, count, depth, order.indices);
+    return order;
+}
+
+static void free_order(octree_bodies *set, const row_order *order)
+{
+    arena_free(&set->memory, order->indices, order->size);
+}
+
+octree_status octree_bodies_insert_many(octree_bodies *bodies, const octree_body *added, size_t count,
+                                        octree_status *statuses, size_t *changed)
+{
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_bodies_insert_many, bodies, added, count, statuses, changed);
+    octree_status status = check_bulk(bodies, added, count, changed);
+    if (status == OCTREE_OK)
+        status = rows_reserve(&bodies->rows, count);
+    if (status != OCTREE_OK)
+        return status;
+    bulk b = {.set = bodies, .from = added, .statuses = statuses};
+    if (!begin_bulk(&b, count)) {
+        end_bulk(&b);
+        return OCTREE_NO_MEMORY;
+    }
+    row_order order = make_order(bodies, added, count);
+    for (size_t i = 0; i < count; i++) {
+        if (order.indices && i + PREFETCH_AHEAD < count)
+            prefetch_memory(&added[order.indices[i + PREFETCH_AHEAD]]);
+        add_row(&b, order.indices ? order.indices[i] : i);
+    }
+    free_order(bodies, &order);
+    make_changes(&b, insert_points, finish_insertion);
+    return finish_bulk(&b, changed);
+}
+
+/* ---- Remove ------------------------------------------------------------------------------------------------- */
+
+static octree_status remove_points(octree *tree, const octree_point *points, const double (*to)[3], size_t count)
+{
+    (void)to;
+    return octree_remove_many(tree, points, count, NULL, NULL);
+}
+
+static void finish_removal(bulk *b, const pending *p, bool made)
+{
+    if (!made) {
+        rows_show(&b->set->rows, (uint32_t)p->from.id);
+        return;
+    }
+    change_reach(b->set, p->level, p->old.half, -1);
+    rows_free(&b->set->rows, (uint32_t)p->from.id);
+}
+
+static void hide_row(bulk *b, size_t index)
+{
+    const octree_body *body = &b->from[index];
+    const octree_status status = check_body(b->set, body);
+    const uint32_t row = status == OCTREE_OK ? rows_find(&b->set->rows, body) : ROW_NONE;
+    if (row == ROW_NONE) {
+        set_status(b, index, status == OCTREE_OK ? OCTREE_NOT_FOUND : status);
+        return;
+    }
+    collect(b, index, row, row_at(&b->set->rows, row), find_level(b->set, body->half));
+    rows_hide(&b->set->rows, row);
+}
+
+octree_status octree_bodies_remove_many(octree_bodies *bodies, const octree_body *removed, size_t count,
+                                        octree_status *statuses, size_t *changed)
+{
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_bodies_remove_many, bodies, removed, count, statuses, changed);
+    const octree_status status = check_bulk(bodies, removed, count, changed);
+    if (status != OCTREE_OK)
+        return status;
+    bulk b = {.set = bodies, .from = removed, .statuses = statuses};
+    if (!begin_bulk(&b, count)) {
+        end_bulk(&b);
+        return OCTREE_NO_MEMORY;
+    }
+    for (size_t i = 0; i < count; i++) {
+        prefetch_row_of(&b, i, count);
+        hide_row(&b, i);
+    }
+    make_changes(&b, remove_points, finish_removal);
+    return finish_bulk(&b, changed);
+}
+
+/* ---- Move --------------------------------------------------------------------------------------------------- */
+
+static octree_status move_points(octree *tree, const octree_point *points, const double (*to)[3], size_t count)
+{
+    return octree_move_many(tree, points, to, count, NULL, NULL);
+}
+
+static void finish_move(bulk *b, const pending *p, bool made)
+{
+    if (!made) {
+        rows_replace(&b->set->rows, (uint32_t)p->from.id, &p->old);
+        return;
+    }
+    if (is_same_position(p->old.half, b->moved[p->index].half))
+        return;
+    change_reach(b->set, p->level, p->old.half, -1);
+    change_reach(b->set, p->level, b->moved[p->index].half, 1);
+}
+
+static octree_status check_move(const bulk *b, size_t index, uint32_t *row)
+{
+    octree_status status = check_body(b->set, &b->from[index]);
+    if (status == OCTREE_OK)
+        status = check_body(b->set, &b->moved[index]);
+    if (status != OCTREE_OK)
+        return status;
+    *row = rows_find(&b->set->rows, &b->from[index]);
+    if (*row == ROW_NONE)
+        return OCTREE_NOT_FOUND;
+    const uint32_t other = rows_find(&b->set->rows, &b->moved[index]);
+    return other == ROW_NONE || other == *row ? OCTREE_OK : OCTREE_DUPLICATE;
+}
+
+static void move_row(bulk *b, size_t index)
+{
+    uint32_t row;
+    const octree_body *moved = &b->moved[index];
+    const octree_status status = check_move(b, index, &row);
+    if (status != OCTREE_OK) {
+        set_status(b, index, status);
+        return;
+    }
+    const unsigned level = find_level(b->set, moved->half);
+    if (level == find_level(b->set, b->from[index].half)) {
+        collect(b, index, row, row_at(&b->set->rows, row), level);
+        rows_replace(&b->set->rows, row, moved);
+        return;
+    }
+    make_changes(b, move_points, finish_move);
+    set_status(b, index, octree_bodies_move(b->set, &b->from[index], moved));
+}
+
+octree_status octree_bodies_move_many(octree_bodies *bodies, const octree_body *from, const octree_body *to,
+                                      size_t count, octree_status *statuses, size_t *changed)
+{
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_bodies_move_many, bodies, from, to, count, statuses, changed);
+    const octree_status status = check_bulk(bodies, from, count, changed);
+    if (status != OCTREE_OK)
+        return status;
+    if (count > 0 && !to)
+        return OCTREE_NULL_ARGUMENT;
+    bulk b = {.set = bodies, .from = from, .moved = to, .statuses = statuses};
+    if (!begin_bulk(&b, count)) {
+        end_bulk(&b);
+        return OCTREE_NO_MEMORY;
+    }
+    for (size_t i = 0; i < count; i++) {
+        prefetch_row_of(&b, i, count);
+        move_row(&b, i);
+    }
+    make_changes(&b, move_points, finish_move);
+    return finish_bulk(&b, changed);
+}
+
+/* ---- Replace and compact ------------------------------------------------------------------------------------ */
+
+/* Exchange the contents of two sets. Each list of rows keeps the pointer to the arena of its set. */
+static void swap_sets(octree_bodies *a, octree_bodies *b)
+{
+    const octree_bodies kept = *a;
+    *a = *b;
+    *b = kept;
+    a->rows.memory = &a->memory;
+    b->rows.memory = &b->memory;
+}
+
+/* Replace the contents of a set by bodies, unless memory runs out. */
+static octree_status rebuild_set(octree_bodies *set, const octree_body *bodies, size_t count, octree_status *statuses,
+                                 size_t *changed)
+{
+    octree_bodies *other;
+    octree_status status = octree_bodies_create(&set->def, &other);
+    if (status != OCTREE_OK)
+        return status;
+    const unsigned begun = begin_callbacks(anchor_of(set)); /* an executor of the new set must not change this set */
+    status = octree_bodies_insert_many(other, bodies, count, statuses, changed);
+    end_callbacks(begun);
+    if (status == OCTREE_OK)
+        swap_sets(set, other);
+    octree_bodies_destroy(other);
+    return status;
+}
+
+octree_status octree_bodies_replace_all(octree_bodies *bodies, const octree_body *added, size_t count,
+                                        octree_status *statuses, size_t *changed)
+{
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_bodies_replace_all, bodies, added, count, statuses, changed);
+    const octree_status status = check_bulk(bodies, added, count, changed);
+    return status == OCTREE_OK ? rebuild_set(bodies, added, count, statuses, changed) : status;
+}
+
+/* The bodies of a set in the order of the leaves. */
+typedef struct gathering {
+    const octree_bodies *set;
+    octree_body *bodies;
+    size_t count;
+} gathering;
+
+static octree_walk_order gather_leaf(const octree_node *node, void *context)
+{
+    gathering *g = context;
+    for (size_t i = 0; node->leaf && i < node->count; i++)
+        g->bodies[g->count++] = *row_at(&g->set->rows, (size_t)node->points[i].id);
+    return OCTREE_WALK_ON;
+}
+
+octree_status octree_bodies_compact(octree_bodies *bodies)
+{
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_bodies_compact, bodies);
+    octree_status status = check_set_change(bodies);
+    if (status != OCTREE_OK)
+        return status;
+    arena memory = {.allocator = bodies->memory.allocator};
+    const size_t size = ((size_t)bodies->rows.count + 1) * sizeof(octree_body);
+    gathering g = {bodies, arena_allocate(&memory, size), 0};
+    if (!g.bodies)
+        return OCTREE_NO_MEMORY;
+    for (unsigned i = 0; i < OCTREE_BODY_LEVELS; i++)
+        if (bodies->levels[i].tree)
+            octree_walk(bodies->levels[i].tree, gather_leaf, &g);
+    status = rebuild_set(bodies, g.bodies, g.count, NULL, NULL);
+    arena_free(&memory, g.bodies, size);
+    return status;
+}

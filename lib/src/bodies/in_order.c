@@ -1,0 +1,384 @@
+/* SPDX-License-Identifier: MIT */
+/* in_order.c - searches that return the first k bodies in an order: octree_bodies_nearest() and octree_bodies_cast().
+ *
+ * Both searches are one algorithm (branch and bound, Roussopoulos et al. 1995). Each body has a key: the squared
+ * distance of its box, or the time at which a ray enters it. The key of a node's bounding body (level.c) is a lower
+ * bound of the keys of the node's bodies. A descent visits the children of a node in the order of these bounds, and
+ * skips a node if its bound is above the k-th best key so far. The k best bodies are a heap with the worst on top.
+ *
+ * Keys are doubles with an error bound. A node is skipped only if the bound says so in spite of the errors. Two bodies
+ * are compared exactly if their keys are within their errors.
+ */
+#include "shape.h"
+#include "visit.h"
+
+/* A key: the real value is within `error` of `value`. */
+typedef struct key {
+    double value, error;
+} key;
+
+typedef struct ordered_search {
+    const octree_bodies *set;
+    /* Compute lower bounds of the keys of the bodies in the eight octants of a cell, and of the bodies of this level
+     * whose position is given. HUGE_VAL: no such body counts. */
+    void (*bound)(const struct ordered_search *s, const cell_halves *h, double bounds[8]);
+    double (*bound_at)(const struct ordered_search *s, const double position[3]);
+    /* Compute the key of a body. Returns false if the body does not count. */
+    bool (*measure)(const struct ordered_search *s, const octree_body *body, key *k);
+    /* Returns the sign of the key of `a` minus that of `b`, in real numbers. */
+    int (*compare)(const struct ordered_search *s, const octree_body *a, const octree_body *b);
+    double (*finish)(const struct ordered_search *s, const octree_body *body); /* Returns octree_hit.at. */
+    const double *target;                                                      /* nearest */
+    double radius, scale;
+    cast cast;            /* cast */
+    const double *center; /* the target of OCTREE_SKIP_COINCIDENT; null: there is none */
+    body_call accept;
+    octree_hit *hits; /* a heap; hits[0] has the greatest key. The key is octree_hit.at */
+    size_t count, k;
+    double limit;  /* no body whose key is certainly greater than this is among the first k */
+    double shrink; /* a node is skipped if its bound exceeds this factor times `limit` */
+    const level *level;
+    meter meter;
+} ordered_search;
+
+/* ---- Lower bounds of keys ----------------------------------------------------------------------------------- */
+
+static void bound_distances(const ordered_search *s, const cell_halves *h, double bounds[8])
+{
+    double gaps[3][2];
+    for (int i = 0; i < 3; i++)
+        for (int half = 0; half < 2; half++)
+            gaps[i][half] = bound_gap(s->target[i], h->center[i][half], h->outer[i][half]) * s->scale;
+    for (unsigned o = 0; o < 8; o++)
+        bounds[o] = bound_square(gaps[0][o >> 2], gaps[1][o >> 1 & 1], gaps[2][o & 1]);
+}
+
+static double bound_distance_at(const ordered_search *s, const double position[3])
+{
+    double gaps[3];
+    for (int i = 0; i < 3; i++)
+        gaps[i] = bound_gap(s->target[i], position[i], s->level->reach[i]) * s->scale;
+    return bound_square(gaps[0], gaps[1], gaps[2]);
+}
+
+static double begin_of_span(const time_span *span)
+{
+    return is_span_empty(span) ? HUGE_VAL : span->enter;
+}
+
+static void bound_times(const ordered_search *s, const cell_halves *h, double bounds[8])
+{
+    time_span spans[3][2];
+    for (int i = 0; i < 3; i++)
+        for (int half = 0; half < 2; half++) {
+            spans[i][half] = (time_span){0, s->cast.length};
+            narrow_span(&spans[i][half], &s->cast, i, h->center[i][half], h->outer[i][half]);
+        }
+    for (unsigned o = 0; o < 8; o++) {
+        const time_span *x = &spans[0][o >> 2], *y = &spans[1][o >> 1 & 1], *z = &spans[2][o & 1];
+        const time_span all = {larger(larger(x->enter, y->enter), z->enter),
+                               -larger(larger(-x->leave, -y->leave), -z->leave)};
+        bounds[o] = begin_of_span(&all);
+    }
+}
+
+static double bound_time_at(const ordered_search *s, const double position[3])
+{
+    time_span span = {0, s->cast.length};
+    for (int i = 0; i < 3; i++)
+        narrow_span(&span, &s->cast, i, position[i], s->level->reach[i]);
+    return begin_of_span(&span);
+}
+
+/* ---- Keys --------------------------------------------------------------------------------------------------- */
+
+static bool measure_distance(const ordered_search *s, const octree_body *body, key *k)
+{
+    const body_square square = body_measure(body, s->target, s->scale);
+    *k = (key){square.value, square.error};
+    return s->radius > DBL_MAX || body_meets_ball(body, s->target, s->radius);
+}
+
+static int compare_distances(const ordered_search *s, const octree_body *a, const octree_body *b)
+{
+    return body_compare_distances(a, b, s->target);
+}
+
+static double finish_distance(const ordered_search *s, const octree_body *body)
+{
+    return body_distance(body, s->target);
+}
+
+static bool measure_time(const ordered_search *s, const octree_body *body, key *k)
+{
+    cast_time first;
+    const bool touches = cast_touches(&s->cast, body, &first);
+    *k = (key){first.value, first.error};
+    return touches;
+}
+
+static int compare_first_times(const ordered_search *s, const octree_body *a, const octree_body *b)
+{
+    return cast_compare(&s->cast, a, b);
+}
+
+static double finish_time(const ordered_search *s, const octree_body *body)
+{
+    return cast_first_time(&s->cast, body);
+}
+
+/* ---- The heap of the best bodies ---------------------------------------------------------------------------- */
+
+/* Compare two bodies by key, then by id, position and half extents. NaN and infinite errors decide nothing. */
+static int compare_hits(const ordered_search *s, const octree_body *a, const octree_body *b)
+{
+    key x, y;
+    s->measure(s, a, &x);
+    s->measure(s, b, &y);
+    if (fabs(x.value - y.value) > x.error + y.error)
+        return x.value < y.value ? -1 : 1;
+    const int order = s->compare(s, a, b);
+    return order ? order : octree_compare_bodies(a, b);
+}
+
+static void swap_hits(octree_hit *a, octree_hit *b)
+{
+    const octree_hit kept = *a;
+    *a = *b;
+    *b = kept;
+}
+
+static void sift_up(ordered_search *s, size_t at)
+{
+    for (; at > 0 && compare_hits(s, &s->hits[at].body, &s->hits[(at - 1) / 2].body) > 0; at = (at - 1) / 2)
+        swap_hits(&s->hits[at], &s->hits[(at - 1) / 2]);
+}
+
+static void sift_down(const ordered_search *s, size_t count)
+{
+    octree_hit *heap = s->hits;
+    for (size_t at = 0, child; (child = 2 * at + 1) < count; at = child) {
+        if (child + 1 < count && compare_hits(s, &heap[child].body, &heap[child + 1].body) < 0)
+            child++;
+        if (compare_hits(s, &heap[at].body, &heap[child].body) >= 0)
+            return;
+        swap_hits(&heap[at], &heap[child]);
+    }
+}
+
+static void update_limit(ordered_search *s)
+{
+    key worst;
+    s->measure(s, &s->hits[0].body, &worst);
+    const double limit = worst.value + worst.error;
+    s->limit = limit == limit ? limit : HUGE_VAL;
+}
+
+/* Add a body that counts and whose key may be among the first k. */
+static void offer_body(ordered_search *s, const octree_body *body)
+{
+    if (s->count == s->k && compare_hits(s, body, &s->hits[0].body) >= 0)
+        return;
+    if (!call_with_body(&s->accept, body))
+        return;
+    if (s->count < s->k) {
+        s->hits[s->count].body = *body;
+        sift_up(s, s->count++);
+    } else {
+        s->hits[0].body = *body;
+        sift_down(s, s->count);
+    }
+    if (s->count == s->k)
+        update_limit(s);
+}
+
+/* Sort the heap: the worst of the remaining bodies moves to the end. */
+static void sort_hits(ordered_search *s)
+{
+    for (size_t left = s->count; left > 1; left--) {
+        swap_hits(&s->hits[0], &s->hits[left - 1]);
+        sift_down(s, left - 1);
+    }
+    for (size_t i = 0; i < s->count; i++)
+        s->hits[i].at = s->finish(s, &s->hits[i].body);
+}
+
+/* ---- The descent -------------------------------------------------------------------------------------------- */
+
+static bool is_too_far(const ordered_search *s, double bound)
+{
+    return bound > s->limit * s->shrink || bound > DBL_MAX;
+}
+
+static void scan_leaf(ordered_search *s, const node *leaf)
+{
+    const octree_point *points = leaf_points(leaf);
+    s->meter.count.leaves++;
+    s->meter.count.points += leaf->count;
+    for (uint32_t i = 0; i < leaf->count; i++) {
+        octree_body scratch;
+        key k;
+        if (is_too_far(s, s->bound_at(s, points[i].position)))
+            continue;
+        const octree_body *body = load_body(s->set, &points[i], &scratch);
+        if (s->measure(s, body, &k) && !(k.value - k.error > s->limit) && !is_skipped(s->meter.how, body, s->center))
+            offer_body(s, body);
+    }
+}
+
+/* A child of a node, with the lower bound of the keys of its bodies. */
+typedef struct branch {
+    double bound;
+    unsigned octant;
+} branch;
+
+/* Store the children whose bodies may count in an array, sorted by their bounds. Returns their number. */
+static unsigned sort_children(ordered_search *s, const node *n, const cell_halves *h, octree_address address,
+                              branch branches[8])
+{
+    double bounds[8];
+    unsigned count = 0, pruned = 0;
+    s->bound(s, h, bounds);
+    for (unsigned left = n->octants; left; left &= left - 1) {
+        const unsigned octant = bits_lowest(left);
+        const double bound = bounds[octant];
+        if (is_too_far(s, bound)) {
+            pruned |= 1u << octant;
+            continue;
+        }
+        prefetch_memory(look_up_child(n, octant)->below);
+        unsigned at = count++;
+        for (; at > 0 && branches[at - 1].bound > bound; at--)
+            branches[at] = branches[at - 1];
+        branches[at] = (branch){bound, octant};
+    }
+    meter_record_pruned(&s->meter, address, pruned);
+    return count;
+}
+
+/* Search a node whose cell is `c`. `h` has the halves of this cell, or of a leaf's parent. */
+static void descend(ordered_search *s, const node *n, cell c, const cell_halves *h, octree_address address)
+{
+    meter_record_visited(&s->meter, address);
+    if (n->octants == 0) {
+        scan_leaf(s, n);
+        return;
+    }
+    branch branches[8];
+    cell_halves below;
+    const unsigned count = sort_children(s, n, h, address, branches);
+    for (unsigned i = 0; i < count; i++) {
+        const unsigned octant = branches[i].octant;
+        const node *child = look_up_child(n, octant);
+        if (is_too_far(s, branches[i].bound)) {
+            meter_record_pruned(&s->meter, address, 1u << octant);
+            continue;
+        }
+        if (child->octants)
+            divide_octant(s->level, h, octant, cell_child(c, octant), &below);
+        descend(s, child, cell_child(c, octant), &below, address << 3 | octant);
+    }
+}
+
+static void search_level(ordered_search *s, const level *l)
+{
+    cell_halves halves;
+    s->level = l;
+    divide_root_cell(l, &halves);
+    descend(s, &l->tree->root, root_cell(), &halves, OCTREE_ROOT);
+}
+
+static void search_in_order(ordered_search *s, size_t *count)
+{
+    const unsigned begun = begin_callbacks(anchor_of(s->set));
+    for (unsigned i = 0; i < OCTREE_BODY_LEVELS && s->k > 0; i++)
+        if (octree_count(s->set->levels[i].tree) > 0)
+            search_level(s, &s->set->levels[i]);
+    end_callbacks(begun);
+    sort_hits(s);
+    *count = s->count;
+    meter_add_to_cost(&s->meter);
+}
+
+/* ---- Public functions --------------------------------------------------------------------------------------- */
+
+/* Check what both searches share. */
+static octree_status check_ordered_search(const octree_bodies *set, const octree_search *how, size_t k,
+                                          const octree_hit *hits)
+{
+    if (!set || (k > 0 && !hits))
+        return OCTREE_NULL_ARGUMENT;
+    return check_search_options(how);
+}
+
+octree_status octree_bodies_nearest(const octree_bodies *bodies, const double target[3], size_t k, double radius,
+                                    const octree_search *how, octree_body_visitor accept, void *context,
+                                    octree_hit *hits, size_t *count)
+{
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_bodies_nearest, bodies, target, k, radius, CALLER_SEARCH(how), accept,
+                           context, hits, count);
+    if (!target || !count)
+        return OCTREE_NULL_ARGUMENT;
+    *count = 0;
+    const octree_search search = search_or_default(how);
+    octree_status status = check_ordered_search(bodies, &search, k, hits);
+    if (status == OCTREE_OK)
+        status = check_finite_position(target);
+    if (status == OCTREE_OK)
+        status = radius == HUGE_VAL ? OCTREE_OK : check_length(radius);
+    if (status != OCTREE_OK)
+        return status;
+    ordered_search s = {.set = bodies,
+                        .bound = bound_distances,
+                        .bound_at = bound_distance_at,
+                        .measure = measure_distance,
+                        .compare = compare_distances,
+                        .finish = finish_distance,
+                        .target = target,
+                        .radius = radius,
+                        .center = target,
+                        .accept = {accept, context},
+                        .hits = hits,
+                        .k = k,
+                        .limit = HUGE_VAL,
+                        .meter.how = &search};
+    s.scale = anchor_of(bodies)->scale;
+    const double factor = 1 + search.epsilon;
+    s.shrink = search.epsilon > 0 ? (1 + 0x1p-50) / (factor * factor) : 1;
+    search_in_order(&s, count);
+    return OCTREE_OK;
+}
+
+octree_status octree_bodies_cast(const octree_bodies *bodies, const octree_region *ray, size_t k,
+                                 const octree_search *how, octree_body_visitor accept, void *context, octree_hit *hits,
+                                 size_t *count)
+{
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_bodies_cast, bodies, ray, k, CALLER_SEARCH(how), accept, context, hits,
+                           count);
+    if (!count)
+        return OCTREE_NULL_ARGUMENT;
+    *count = 0;
+    const octree_search search = search_or_default(how);
+    octree_status status = check_ordered_search(bodies, &search, k, hits);
+    if (status == OCTREE_OK)
+        status = octree_region_check(ray);
+    if (status == OCTREE_OK && ray->kind != OCTREE_REGION_RAY && ray->kind != OCTREE_REGION_SWEPT)
+        status = OCTREE_BAD_OPTION;
+    if (status != OCTREE_OK)
+        return status;
+    ordered_search s = {.set = bodies,
+                        .bound = bound_times,
+                        .bound_at = bound_time_at,
+                        .measure = measure_time,
+                        .compare = compare_first_times,
+                        .finish = finish_time,
+                        .accept = {accept, context},
+                        .hits = hits,
+                        .k = k,
+                        .limit = HUGE_VAL,
+                        .shrink = 1,
+                        .meter.how = &search};
+    s.cast = shape_make(ray).cast;
+    search_in_order(&s, count);
+    return OCTREE_OK;
+}

@@ -1,0 +1,90 @@
+/* SPDX-License-Identifier: MIT */
+/* level.c - the levels of a set: which body belongs to which level, and how far the bodies of a level reach.
+ *
+ * Problem: a search among positions must be extended by the half extents of the bodies. Extended by the largest body of
+ * all, it visits far too many bodies. Half extents kept in each node help only if large bodies are rare: in a scene
+ * whose sizes span three decades, each leaf has one.
+ *
+ * Idea: bodies whose sizes differ by less than a factor of 16 form a level, a tree of its own (Ulrich 2000 calls one
+ * tree with a level of cells for each size a loose octree). A level extends a search by its own `reach`, an upper bound
+ * of its half extents, axis by axis, so that thin plates are extended little across. The bound must not depend on the
+ * history of the set, so that costs and traces are reproducible: a level counts its half extents in buckets, and the
+ * reach is the upper end of the highest bucket in use.
+ *
+ * Cost: a query descends once in each level in use. A change updates three counters.
+ */
+#include "set.h"
+#include "../query/search.h"
+
+/* A level spans four binary exponents, each divided into four buckets. */
+enum { LEVEL_EXPONENTS = 4, BUCKET_SHIFT = 50, BUCKETS_OF_EXPONENT = 4 };
+
+static int get_exponent(double value) /* of a value >= 0; its sign bit may be set if it is 0 */
+{
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    return (int)(bits >> 52 & 0x7ff);
+}
+
+unsigned find_level(const octree_bodies *set, const double half[3])
+{
+    const double largest = larger(larger(half[0], half[1]), half[2]);
+    const int below = set->largest - get_exponent(largest);
+    const int number = below < 0 ? 0 : below / LEVEL_EXPONENTS;
+    return number < OCTREE_BODY_LEVELS ? (unsigned)number : OCTREE_BODY_LEVELS - 1;
+}
+
+octree_status create_level(octree_bodies *set, unsigned number)
+{
+    level *l = &set->levels[number];
+    return l->tree ? OCTREE_OK : octree_create(&set->def, &l->tree);
+}
+
+/* ---- The reach ---------------------------------------------------------------------------------------------- */
+
+/* Returns the number that all half extents of a bucket share: their exponent and the two highest bits of the mantissa,
+ * for the highest bucket of a level. */
+static int64_t number_of_top_bucket(const octree_bodies *set, unsigned number)
+{
+    return (int64_t)(set->largest - LEVEL_EXPONENTS * (int)number + 1) * BUCKETS_OF_EXPONENT - 1;
+}
+
+static int find_bucket(int64_t top, double half)
+{
+    uint64_t bits;
+    memcpy(&bits, &half, sizeof bits);
+    const int64_t bucket = REACH_BUCKETS - 1 + (int64_t)(bits >> BUCKET_SHIFT) - top;
+    return bucket < 0 ? 0 : bucket >= REACH_BUCKETS ? REACH_BUCKETS - 1 : (int)bucket;
+}
+
+/* Returns the upper end of a bucket. The highest bucket of level 0 has no upper end. */
+static double end_of_bucket(const octree_bodies *set, unsigned number, int bucket)
+{
+    const int64_t end = number_of_top_bucket(set, number) + bucket - (REACH_BUCKETS - 1) + 1;
+    const uint64_t bits = (uint64_t)(end > 0 ? end : 0) << BUCKET_SHIFT;
+    double value;
+    memcpy(&value, &bits, sizeof value);
+    return (number == 0 && bucket == REACH_BUCKETS - 1) || value > DBL_MAX ? DBL_MAX : value;
+}
+
+static void update_reach(octree_bodies *set, unsigned number, int axis)
+{
+    level *l = &set->levels[number];
+    int highest = REACH_BUCKETS - 1;
+    while (highest >= 0 && l->buckets[axis][highest] == 0)
+        highest--;
+    l->reach[axis] = highest < 0 ? 0 : end_of_bucket(set, number, highest);
+}
+
+void change_reach(octree_bodies *set, unsigned number, const double half[3], int change)
+{
+    const int64_t top = number_of_top_bucket(set, number);
+    for (int i = 0; i < 3; i++) {
+        if (half[i] == 0)
+            continue;
+        uint32_t *count = &set->levels[number].buckets[i][find_bucket(top, half[i])];
+        *count += (uint32_t)change;
+        if (*count <= 1) /* the bucket has become empty, or is used for the first time */
+            update_reach(set, number, i);
+    }
+}

@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: MIT */
+/* rows.h - the storage of the bodies of a set: an array of rows with a hash table. Private.
+ *
+ * A body keeps the index of its row until it is removed. The trees of the levels hold this index as the id of a point.
+ */
+#ifndef OCTREE_ROWS_H
+#define OCTREE_ROWS_H
+
+#include "../tree/pool.h"
+#include "octree/bodies.h"
+
+#define ROWS_IN_CHUNK 1024
+#define ROW_NONE UINT32_MAX
+#define ROWS_AT_MOST (UINT32_C(3) << 30) /* so that the hash table has fewer than 2^32 slots */
+
+typedef struct rows {
+    arena *memory;
+    list chunks;    /* octree_body *: arrays of ROWS_IN_CHUNK bodies, which never move */
+    uint32_t end;   /* all rows in use have an index below this number */
+    uint32_t free;  /* the first free row, whose id is the index of the next free row; or ROW_NONE */
+    uint32_t count; /* the number of bodies */
+    /* the hash table, with linear probing */
+    struct row_slot *slots;
+    uint32_t slot_count;
+} rows;
+
+void rows_init(rows *r, arena *memory);
+void rows_release(rows *r);
+
+static inline octree_body *row_at(const rows *r, size_t index)
+{
+    return ((octree_body **)r->chunks.items)[index / ROWS_IN_CHUNK] + index % ROWS_IN_CHUNK;
+}
+
+/* Make room for `count` more bodies, so that as many calls of rows_add() cannot fail. Returns NO_MEMORY or TOO_MANY. */
+octree_status rows_reserve(rows *r, size_t count);
+
+/* Returns the index of the row of a body, or ROW_NONE. */
+uint32_t rows_find(const rows *r, const octree_body *body);
+
+/* Add a body that is not stored yet. There is room for it. Returns the index of its row. */
+uint32_t rows_add(rows *r, const octree_body *body);
+
+/* Remove the body of a row: rows_hide() and rows_free() in one. rows_hide() removes a body from the hash table only,
+ * and rows_show() restores it; rows_free() frees the row of a hidden body. */
+void rows_remove(rows *r, uint32_t index);
+void rows_hide(rows *r, uint32_t index);
+void rows_show(rows *r, uint32_t index);
+void rows_free(rows *r, uint32_t index);
+
+/* Replace the body of a row by a body that is not stored yet. */
+void rows_replace(rows *r, uint32_t index, const octree_body *body);
+
+/* Start loading the slot of the hash table that rows_find() reads first. */
+void rows_prefetch(const rows *r, const octree_body *body);
+
+/* Returns a digest of a body. -0.0 and +0.0 give the same digest. */
+uint64_t digest_body(const octree_body *body);
+
+/* Returns whether two bodies have the same position, half extents and id. */
+bool is_same_body(const octree_body *a, const octree_body *b);
+
+#endif

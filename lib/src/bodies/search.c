@@ -1,0 +1,130 @@
+/* SPDX-License-Identifier: MIT */
+/* search.c - the bodies that match a region: octree_bodies_search().
+ *
+ * Each level is searched by the traversal of region.h. Three tests decide, from cheap to exact. By integer keys: cells
+ * that do not meet the box around the region, extended by the level's reach, are pruned. By the region's own bounds:
+ * octants whose bodies cannot meet the region are pruned, and nodes whose bodies certainly match are taken whole. For
+ * the bodies of the remaining leaves, an exact test.
+ *
+ * A node can be taken whole if the region contains its cell: each body contains its own position. If only contained
+ * bodies match, the region must contain the box around all bodies of the cell instead.
+ */
+#include "../exact/exact.h"
+#include "shape.h"
+#include "visit.h"
+
+typedef struct body_search {
+    box_shape around; /* the first member, because box_shape_enter() casts the region's shape to a box_shape */
+    octree_box box;   /* the box of `around`: the bounds of the region, extended by the reach */
+    shape shape;
+    const octree_bodies *set;
+    const level *level;
+    bool contained;
+    bool by_keys;                         /* the keys alone decide about nodes */
+    cell_halves halves[OCTREE_MAX_DEPTH]; /* of the current cell at each depth */
+    const octree_search *how;
+    body_call call;
+    bool stopped; /* the visitor stopped the search */
+} body_search;
+
+static bool is_match(const body_search *s, const octree_body *body)
+{
+    return s->contained ? shape_contains(&s->shape, body) : shape_meets(&s->shape, body);
+}
+
+/* ---- Nodes -------------------------------------------------------------------------------------------------- */
+
+static octant_masks enter_cell(void *shape, const octree *tree, unsigned depth, unsigned octant)
+{
+    body_search *s = shape;
+    const octant_masks masks = box_shape_enter(&s->around, tree, depth, octant);
+    if (s->by_keys)
+        return masks;
+    const int32_t *low = s->around.low[depth];
+    const cell c = {{(uint32_t)low[0], (uint32_t)low[1], (uint32_t)low[2]}, depth};
+    if (depth == 0)
+        divide_root_cell(s->level, &s->halves[0]);
+    else
+        divide_octant(s->level, &s->halves[depth - 1], octant, c, &s->halves[depth]);
+    return shape_relate(&s->shape, &s->halves[depth], masks.meets, s->contained);
+}
+
+/* ---- Leaves ------------------------------------------------------------------------------------------------- */
+
+static uint64_t scan_bodies(const void *shape, const octree_point *points, unsigned count)
+{
+    const body_search *s = shape;
+    uint64_t found = 0;
+    const uint64_t near = box_shape_scan(&s->around, points, count);
+    for (uint64_t left = s->set->points ? 0 : near; left; left &= left - 1)
+        prefetch_memory(row_at(&s->set->rows, (size_t)points[bits_lowest(left)].id));
+    for (uint64_t left = near; left; left &= left - 1) {
+        const unsigned i = bits_lowest(left);
+        octree_body scratch;
+        found |= (uint64_t)is_match(s, load_body(s->set, &points[i], &scratch)) << i;
+    }
+    return found;
+}
+
+/* An octree_point_visitor. */
+static bool visit_body(const octree_point *point, void *context)
+{
+    body_search *s = context;
+    octree_body scratch;
+    const octree_body *body = load_body(s->set, point, &scratch);
+    s->stopped = !is_skipped(s->how, body, NULL) && !call_with_body(&s->call, body);
+    return !s->stopped;
+}
+
+/* ---- Levels ------------------------------------------------------------------------------------------------- */
+
+static octree_box extend_box(const octree_box *box, const double reach[3])
+{
+    octree_box extended;
+    for (int i = 0; i < 3; i++) {
+        extended.min[i] = box->min[i] >= -DBL_MAX ? exact_add_down(box->min[i], -reach[i]) : box->min[i];
+        extended.max[i] = box->max[i] <= DBL_MAX ? exact_add_up(box->max[i], reach[i]) : box->max[i];
+    }
+    return extended;
+}
+
+static void search_level(body_search *s, const level *l, const octree_box *bounds)
+{
+    s->level = l;
+    s->box = s->contained ? *bounds : extend_box(bounds, l->reach);
+    s->by_keys = s->shape.region->kind == OCTREE_REGION_BOX && !s->contained;
+    s->around = box_shape_make(l->tree, &s->box, s->by_keys ? bounds : &s->box);
+    region r = {l->tree, s, enter_cell, scan_bodies, visit_body, s, .meter.how = s->how};
+    octant_masks root = box_shape_root(&s->around, l->tree);
+    if (!s->by_keys)
+        root.inside = 0;
+    region_search(&r, root);
+}
+
+octree_status octree_bodies_search(const octree_bodies *bodies, const octree_region *region, const octree_search *how,
+                                   octree_body_visitor visit, void *context)
+{
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_bodies_search, bodies, region, CALLER_SEARCH(how), visit, context);
+    if (!bodies || !visit)
+        return OCTREE_NULL_ARGUMENT;
+    const octree_search search = search_or_default(how);
+    octree_status status = octree_region_check(region);
+    if (status == OCTREE_OK)
+        status = check_search_options(&search);
+    if (status != OCTREE_OK)
+        return status;
+    body_search s;
+    s.set = bodies;
+    s.shape = shape_make(region);
+    s.contained = region->contained && region->kind <= OCTREE_REGION_HALF_SPACES;
+    s.how = &search;
+    s.call = (body_call){visit, context};
+    s.stopped = false;
+    const octree_box bounds = shape_bounds(&s.shape);
+    const unsigned begun = begin_callbacks(anchor_of(bodies));
+    for (unsigned i = 0; i < OCTREE_BODY_LEVELS && !s.stopped; i++)
+        if (octree_count(bodies->levels[i].tree) > 0)
+            search_level(&s, &bodies->levels[i], &bounds);
+    end_callbacks(begun);
+    return OCTREE_OK;
+}

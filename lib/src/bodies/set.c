@@ -1,0 +1,399 @@
+/* SPDX-License-Identifier: MIT */
+/* set.c - creates sets of bodies, and inserts, removes and moves single bodies. */
+#include "set.h"
+#include "../exact/float_mode.h"
+#include "../query/search.h"
+#include "octree/digest.h"
+
+#include <stdlib.h>
+
+/* ---- Create ------------------------------------------------------------------------------------------------- */
+
+octree_def octree_bodies_def_default(void)
+{
+    octree_def def = octree_def_default();
+    def.leaf_capacity = 32;
+    return def;
+}
+
+/* Returns the biased exponent of half the world's largest extent. Halves are subtracted, because the extent may be
+ * beyond the range of doubles. */
+static int find_largest_exponent(const octree_box *world)
+{
+    double largest = 0;
+    for (int i = 0; i < 3; i++)
+        largest = larger(largest, world->max[i] / 2 - world->min[i] / 2);
+    uint64_t bits;
+    memcpy(&bits, &largest, sizeof bits);
+    return (int)(bits >> 52);
+}
+
+static octree_status create_set(const octree_allocator *allocator, octree_bodies **bodies)
+{
+    arena memory = {.allocator = *allocator};
+    octree_bodies *made = arena_allocate(&memory, sizeof *made);
+    if (!made)
+        return OCTREE_NO_MEMORY;
+    memset(made, 0, sizeof *made);
+    made->memory = memory;
+    rows_init(&made->rows, &made->memory);
+    *bodies = made;
+    return OCTREE_OK;
+}
+
+octree_status octree_bodies_create(const octree_def *def, octree_bodies **bodies)
+{
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_bodies_create, def, bodies);
+    octree *anchor;
+    if (!bodies)
+        return OCTREE_NULL_ARGUMENT;
+    *bodies = NULL;
+    if (def && def->full_leaf == OCTREE_REFUSE)
+        return OCTREE_BAD_OPTION;
+    octree_status status = octree_create(def, &anchor);
+    if (status != OCTREE_OK)
+        return status;
+    const octree_def clamped = octree_definition(anchor);
+    status = create_set(&clamped.allocator, bodies);
+    if (status != OCTREE_OK) {
+        octree_destroy(anchor);
+        return status;
+    }
+    (*bodies)->def = *def;
+    (*bodies)->def.allocator = clamped.allocator;
+    (*bodies)->largest = find_largest_exponent(&def->world);
+    (*bodies)->levels[OCTREE_BODY_LEVELS - 1].tree = anchor;
+    return OCTREE_OK;
+}
+
+octree_status octree_bodies_of_points(const octree *tree, const double half[3], octree_bodies **bodies)
+{
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_bodies_of_points, tree, half, bodies);
+    if (!bodies)
+        return OCTREE_NULL_ARGUMENT;
+    *bodies = NULL;
+    if (!tree || !half)
+        return OCTREE_NULL_ARGUMENT;
+    octree_status status = OCTREE_OK;
+    for (int i = 0; i < 3 && status == OCTREE_OK; i++)
+        status = check_length(half[i]);
+    if (status == OCTREE_OK)
+        status = create_set(&tree->def.allocator, bodies);
+    if (status != OCTREE_OK)
+        return status;
+    (*bodies)->def = tree->def;
+    (*bodies)->points = tree;
+    level *l = &(*bodies)->levels[OCTREE_BODY_LEVELS - 1];
+    l->tree = (octree *)(uintptr_t)tree; /* never changed: changes of the set are refused */
+    for (int i = 0; i < 3; i++)
+        (*bodies)->point_half[i] = l->reach[i] = half[i];
+    return OCTREE_OK;
+}
+
+octree_status check_set_change(const octree_bodies *set)
+{
+    if (!set)
+        return OCTREE_NULL_ARGUMENT;
+    return set->points ? OCTREE_BAD_OPTION : is_running_callback(anchor_of(set)) ? OCTREE_BUSY : OCTREE_OK;
+}
+
+octree_status octree_bodies_clear(octree_bodies *bodies)
+{
+    const octree_status status = check_set_change(bodies);
+    for (unsigned i = 0; status == OCTREE_OK && i < OCTREE_BODY_LEVELS; i++) {
+        level *l = &bodies->levels[i];
+        if (l->tree)
+            octree_clear(l->tree);
+        *l = (level){.tree = l->tree};
+    }
+    if (status == OCTREE_OK)
+        rows_release(&bodies->rows);
+    return status;
+}
+
+void octree_bodies_destroy(octree_bodies *bodies)
+{
+    if (!bodies || is_running_callback(anchor_of(bodies)))
+        return;
+    for (unsigned i = 0; !bodies->points && i < OCTREE_BODY_LEVELS; i++)
+        octree_destroy(bodies->levels[i].tree);
+    rows_release(&bodies->rows);
+    arena memory = bodies->memory;
+    arena_free(&memory, bodies, sizeof *bodies);
+}
+
+/* ---- Change a single body ----------------------------------------------------------------------------------- */
+
+octree_status check_body(const octree_bodies *set, const octree_body *body)
+{
+    if (!body)
+        return OCTREE_NULL_ARGUMENT;
+    octree_status status = check_position(anchor_of(set), body->position);
+    for (int i = 0; i < 3 && status == OCTREE_OK; i++)
+        status = check_length(body->half[i]);
+    return status;
+}
+
+static octree_status check_change_of_body(const octree_bodies *set, const octree_body *body)
+{
+    const octree_status status = check_set_change(set);
+    return status == OCTREE_OK ? check_body(set, body) : status;
+}
+
+/* The row is written before the tree is changed. If the change of the tree fails, the row is removed again, which needs
+ * no memory. */
+octree_status octree_bodies_insert(octree_bodies *bodies, const octree_body *body)
+{
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_bodies_insert, bodies, body);
+    octree_status status = check_change_of_body(bodies, body);
+    if (status != OCTREE_OK)
+        return status;
+    const octree_body added = *body;
+    const unsigned number = find_level(bodies, added.half);
+    rows_prefetch(&bodies->rows, &added);
+    status = create_level(bodies, number);
+    if (status == OCTREE_OK)
+        status = rows_reserve(&bodies->rows, 1);
+    if (status != OCTREE_OK)
+        return status;
+    if (rows_find(&bodies->rows, &added) != ROW_NONE)
+        return OCTREE_DUPLICATE;
+    const uint32_t row = rows_add(&bodies->rows, &added);
+    status = octree_insert(bodies->levels[number].tree, added.position, row);
+    if (status == OCTREE_OK)
+        change_reach(bodies, number, added.half, 1);
+    else
+        rows_remove(&bodies->rows, row);
+    return status;
+}
+
+octree_status octree_bodies_remove(octree_bodies *bodies, const octree_body *body)
+{
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_bodies_remove, bodies, body);
+    octree_status status = check_change_of_body(bodies, body);
+    if (status != OCTREE_OK)
+        return status;
+    const octree_body removed = *body;
+    const unsigned number = find_level(bodies, removed.half);
+    const uint32_t row = rows_find(&bodies->rows, &removed);
+    if (row == ROW_NONE)
+        return OCTREE_NOT_FOUND;
+    status = octree_remove(bodies->levels[number].tree, removed.position, row);
+    if (status == OCTREE_OK) {
+        change_reach(bodies, number, removed.half, -1);
+        rows_remove(&bodies->rows, row);
+    }
+    return status;
+}
+
+/* Move the point of a body from one level to another. If the removal fails, the insertion is undone: the merge that
+ * this needs finds the blocks that the split has just freed. */
+static octree_status change_level(octree_bodies *set, const octree_body *from, const octree_body *to, uint32_t row)
+{
+    level *old = &set->levels[find_level(set, from->half)], *new = &set->levels[find_level(set, to->half)];
+    if (old == new)
+        return octree_move(old->tree, from->position, row, to->position);
+    octree_status status = create_level(set, (unsigned)(new - set->levels));
+    if (status == OCTREE_OK)
+        status = octree_insert(new->tree, to->position, row);
+    if (status != OCTREE_OK)
+        return status;
+    status = octree_remove(old->tree, from->position, row);
+    if (status != OCTREE_OK)
+        octree_remove(new->tree, to->position, row);
+    return status;
+}
+
+octree_status octree_bodies_move(octree_bodies *bodies, const octree_body *from, const octree_body *to)
+{
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_bodies_move, bodies, from, to);
+    octree_status status = check_change_of_body(bodies, from);
+    if (status == OCTREE_OK)
+        status = check_body(bodies, to);
+    if (status != OCTREE_OK)
+        return status;
+    const octree_body old = *from, moved = *to;
+    const uint32_t row = rows_find(&bodies->rows, &old), other = rows_find(&bodies->rows, &moved);
+    if (row == ROW_NONE)
+        return OCTREE_NOT_FOUND;
+    if (other != ROW_NONE && other != row)
+        return OCTREE_DUPLICATE;
+    status = change_level(bodies, &old, &moved, row);
+    if (status != OCTREE_OK)
+        return status;
+    if (!is_same_position(old.half, moved.half)) {
+        change_reach(bodies, find_level(bodies, old.half), old.half, -1);
+        change_reach(bodies, find_level(bodies, moved.half), moved.half, 1);
+    }
+    rows_replace(&bodies->rows, row, &moved);
+    return OCTREE_OK;
+}
+
+/* ---- Read --------------------------------------------------------------------------------------------------- */
+
+size_t octree_bodies_count(const octree_bodies *bodies)
+{
+    return !bodies ? 0 : bodies->points ? octree_count(bodies->points) : bodies->rows.count;
+}
+
+octree_def octree_bodies_definition(const octree_bodies *bodies)
+{
+    return octree_definition(bodies ? anchor_of(bodies) : NULL);
+}
+
+bool octree_bodies_contain(const octree_bodies *bodies, const octree_body *body)
+{
+    RETURN_IN_DEFAULT_MODE(bool, octree_bodies_contain, bodies, body);
+    if (!bodies || !body || check_body(bodies, body) != OCTREE_OK)
+        return false;
+    if (bodies->points)
+        return is_same_position(bodies->point_half, body->half) &&
+               octree_contains(bodies->points, body->position, body->id);
+    return rows_find(&bodies->rows, body) != ROW_NONE;
+}
+
+const octree *octree_bodies_level(const octree_bodies *bodies, unsigned level, double reach[3])
+{
+    if (!bodies || level >= OCTREE_BODY_LEVELS)
+        return NULL;
+    if (reach)
+        memcpy(reach, bodies->levels[level].reach, sizeof bodies->levels[level].reach);
+    return bodies->levels[level].tree;
+}
+
+void octree_bodies_at(const octree_bodies *bodies, const octree_point *point, octree_body *body)
+{
+    octree_body scratch;
+    *body = *load_body(bodies, point, &scratch);
+}
+
+static bool compute_memory(const octree *tree, size_t *bytes)
+{
+    octree_stats stats;
+    if (tree && octree_statistics(tree, &stats) == OCTREE_OK)
+        *bytes += stats.memory;
+    return true;
+}
+
+size_t octree_bodies_memory(const octree_bodies *bodies)
+{
+    size_t bytes = bodies ? bodies->memory.bytes : 0;
+    for (unsigned i = 0; bodies && !bodies->points && i < OCTREE_BODY_LEVELS; i++)
+        compute_memory(bodies->levels[i].tree, &bytes);
+    return bytes;
+}
+
+/* An octree_node_visitor: add the digests of the bodies of a leaf. */
+typedef struct summation {
+    const octree_bodies *set;
+    uint64_t sum;
+} summation;
+
+static octree_walk_order add_leaf_digests(const octree_node *node, void *context)
+{
+    summation *s = context;
+    octree_body scratch;
+    for (size_t i = 0; node->leaf && i < node->count; i++)
+        s->sum += digest_body(load_body(s->set, &node->points[i], &scratch));
+    return OCTREE_WALK_ON;
+}
+
+uint64_t octree_bodies_digest(const octree_bodies *bodies)
+{
+    RETURN_IN_DEFAULT_MODE(uint64_t, octree_bodies_digest, bodies);
+    if (!bodies)
+        return 0;
+    summation s = {bodies, 0};
+    for (unsigned i = 0; i < OCTREE_BODY_LEVELS; i++)
+        if (bodies->levels[i].tree)
+            octree_walk(bodies->levels[i].tree, add_leaf_digests, &s);
+    uint64_t digest = octree_digest_word(OCTREE_DIGEST_START, s.sum);
+    digest = octree_digest_word(digest, bodies->def.leaf_capacity);
+    digest = octree_digest_word(digest, bodies->def.max_depth);
+    for (int i = 0; i < 3; i++) {
+        digest = octree_digest_double(digest, bodies->def.world.min[i]);
+        digest = octree_digest_double(digest, bodies->def.world.max[i]);
+    }
+    return digest;
+}
+
+/* ---- Check -------------------------------------------------------------------------------------------------- */
+
+typedef struct inspection {
+    octree_bodies *set; /* its levels are compared with `counted`, which has the same bodies */
+    octree_bodies *counted;
+    unsigned number;
+    const char *violation;
+} inspection;
+
+static const char *check_row(inspection *s, const octree_point *point)
+{
+    if (point->id >= s->set->rows.end)
+        return "a point of a level has no row";
+    const octree_body *body = row_at(&s->set->rows, (size_t)point->id);
+    if (!is_same_position(body->position, point->position))
+        return "a row has another position than its point";
+    if (find_level(s->set, body->half) != s->number)
+        return "a body is in the wrong level";
+    if (rows_find(&s->set->rows, body) != point->id)
+        return "the hash table does not find a body";
+    change_reach(s->counted, s->number, body->half, 1);
+    return NULL;
+}
+
+static octree_walk_order check_rows_of_leaf(const octree_node *node, void *context)
+{
+    inspection *s = context;
+    for (size_t i = 0; node->leaf && !s->violation && i < node->count; i++)
+        s->violation = check_row(s, &node->points[i]);
+    return s->violation ? OCTREE_WALK_STOP : OCTREE_WALK_ON;
+}
+
+/* Count the buckets of all levels again, in a set on the stack that has no bodies. */
+static const char *check_rows(const octree_bodies *set)
+{
+    octree_bodies counted = {.largest = set->largest};
+    size_t count = 0;
+    inspection s = {(octree_bodies *)(uintptr_t)set, &counted, 0, NULL};
+    for (; s.number < OCTREE_BODY_LEVELS && !s.violation; s.number++) {
+        const level *l = &set->levels[s.number];
+        count += octree_count(l->tree);
+        if (l->tree)
+            octree_walk(l->tree, check_rows_of_leaf, &s);
+        if (!s.violation && memcmp(l->buckets, counted.levels[s.number].buckets, sizeof l->buckets) != 0)
+            s.violation = "the counters of a level's reach are wrong";
+    }
+    return s.violation                ? s.violation
+           : count == set->rows.count ? NULL
+                                      : "the levels do not add up to the number of rows";
+}
+
+const char *octree_bodies_check(const octree_bodies *bodies)
+{
+    RETURN_IN_DEFAULT_MODE(const char *, octree_bodies_check, bodies);
+    if (!bodies)
+        return NULL;
+    for (unsigned i = 0; i < OCTREE_BODY_LEVELS; i++) {
+        const char *violation = bodies->levels[i].tree ? octree_check(bodies->levels[i].tree, NULL) : NULL;
+        if (violation)
+            return violation;
+    }
+    return bodies->points ? NULL : check_rows(bodies);
+}
+
+static int compare_doubles(const double a[3], const double b[3])
+{
+    for (int i = 0; i < 3; i++)
+        if (a[i] != b[i])
+            return a[i] < b[i] ? -1 : 1;
+    return 0;
+}
+
+int octree_compare_bodies(const void *a, const void *b)
+{
+    const octree_body *x = a, *y = b;
+    if (x->id != y->id)
+        return x->id < y->id ? -1 : 1;
+    const int order = compare_doubles(x->position, y->position);
+    return order ? order : compare_doubles(x->half, y->half);
+}

@@ -1,0 +1,64 @@
+/* SPDX-License-Identifier: MIT */
+/* set.h - a set of bodies: its levels and its rows. Private. */
+#ifndef OCTREE_SET_H
+#define OCTREE_SET_H
+
+#include "rows.h"
+#include "../tree/tree.h"
+
+/* A bucket counts the half extents between two values whose ratio is at most 1.25. */
+enum { REACH_BUCKETS = 32 };
+
+/* The bodies of similar size. The largest half extents of two bodies differ by a factor below 16; only the bodies of
+ * the first level may be larger than that, and those of the last level smaller. */
+typedef struct level {
+    octree *tree; /* the positions of the bodies; the id of a point is the index of a row. Null: never used */
+    /* on each axis, the number of half extents in each bucket; half extents of 0 are not counted */
+    uint32_t buckets[3][REACH_BUCKETS];
+    double reach[3]; /* an upper bound of the half extents on each axis, a function of `buckets` */
+} level;
+
+struct octree_bodies {
+    arena memory;
+    octree_def def;
+    int largest; /* the binary exponent, biased, of the half extents with which level 0 begins */
+    level levels[OCTREE_BODY_LEVELS];
+    rows rows;
+    /* only in a set made by octree_bodies_of_points(): the caller's tree, which is also the tree of the last level */
+    const octree *points;
+    double point_half[3]; /* only then: the half extents of all bodies */
+};
+
+/* The tree under which the set is listed while its callbacks run; see visits.h. */
+static inline const octree *anchor_of(const octree_bodies *set)
+{
+    return set->levels[OCTREE_BODY_LEVELS - 1].tree;
+}
+
+/* Returns the level of a body with these half extents. */
+unsigned find_level(const octree_bodies *set, const double half[3]);
+
+/* Create the tree of a level if it has none. Returns OK or NO_MEMORY. */
+octree_status create_level(octree_bodies *set, unsigned number);
+
+/* Add the half extents of a body to the reach of its level (change = 1), or remove them (change = -1). */
+void change_reach(octree_bodies *set, unsigned number, const double half[3], int change);
+
+/* Check the numbers of a body. Returns OK, NULL_ARGUMENT, NOT_FINITE, OUTSIDE or BAD_SIZE. */
+octree_status check_body(const octree_bodies *set, const octree_body *body);
+
+/* Check whether a set can be changed. Returns OK, NULL_ARGUMENT, BAD_OPTION (it shows points) or BUSY. */
+octree_status check_set_change(const octree_bodies *set);
+
+/* Returns the body of a point of a level: its row, or `scratch`, which is filled. */
+static inline const octree_body *load_body(const octree_bodies *set, const octree_point *point, octree_body *scratch)
+{
+    if (!set->points)
+        return row_at(&set->rows, (size_t)point->id);
+    memcpy(scratch->position, point->position, sizeof scratch->position);
+    memcpy(scratch->half, set->point_half, sizeof scratch->half);
+    scratch->id = point->id;
+    return scratch;
+}
+
+#endif

@@ -1,0 +1,332 @@
+/* SPDX-License-Identifier: MIT */
+/* shape.c - the tests of bodies and cells against a region: one row of functions for each kind of region.
+ *
+ * A kind has four functions. Two decide about a body, exactly. One returns a box around the region. One relates the
+ * eight octants of a cell to the region, in doubles: it must not exclude an octant, or call it inside, unless this is
+ * certain.
+ */
+#include "shape.h"
+
+/* ---- Boxes and balls ---------------------------------------------------------------------------------------- */
+
+static bool meets_box(const shape *s, const octree_body *body)
+{
+    return body_meets_box(body, &s->region->box);
+}
+
+static bool is_in_box(const shape *s, const octree_body *body)
+{
+    return body_is_in_box(body, &s->region->box);
+}
+
+static octree_box bounds_of_box(const shape *s)
+{
+    return s->region->box;
+}
+
+/* Whether all points within `half` of a centre are in an interval. */
+static bool is_half_within(double center, double half, double low, double high)
+{
+    const double error = (fabs(center) + half) * 0x1p-50;
+    return (center - half) - error >= low && (center + half) + error <= high;
+}
+
+/* The keys of the traversal have excluded octants already. */
+static octant_masks relate_box(const shape *s, const cell_halves *h, unsigned octants, bool contained)
+{
+    unsigned inside = 0xff;
+    for (int i = 0; i < 3; i++)
+        for (int half = 0; half < 2; half++)
+            if (!is_half_within(h->center[i][half], contained ? h->outer[i][half] : h->inner[i][half],
+                                s->region->box.min[i], s->region->box.max[i]))
+                inside &= ~(unsigned)octants_beside[i][half];
+    return (octant_masks){(uint8_t)octants, (uint8_t)inside};
+}
+
+static bool meets_ball(const shape *s, const octree_body *body)
+{
+    return body_meets_ball(body, s->region->center, s->region->radius);
+}
+
+static bool is_in_ball(const shape *s, const octree_body *body)
+{
+    return body_is_in_ball(body, s->region->center, s->region->radius);
+}
+
+static octree_box bounds_of_ball(const shape *s)
+{
+    octree_box bounds;
+    for (int i = 0; i < 3; i++) {
+        bounds.min[i] = exact_add_down(s->region->center[i], -s->region->radius);
+        bounds.max[i] = exact_add_up(s->region->center[i], s->region->radius);
+    }
+    return bounds;
+}
+
+/* Squares are computed without a scale. If the radius is so small or large that they underflow or overflow, no octant
+ * is excluded or inside. */
+static octant_masks relate_ball(const shape *s, const cell_halves *h, unsigned octants, bool contained)
+{
+    double near[3][2], far[3][2];
+    const double square = s->region->radius * s->region->radius;
+    const double above = square * (1 + 0x1p-50) + 0x1p-1000, below = square * (1 - 0x1p-40) - 0x1p-900;
+    unsigned meets = 0, inside = 0;
+    for (int i = 0; i < 3; i++)
+        for (int half = 0; half < 2; half++) {
+            const double center = h->center[i][half];
+            near[i][half] = bound_gap(s->region->center[i], center, h->outer[i][half]);
+            far[i][half] = fabs(s->region->center[i] - center) + (contained ? h->outer[i][half] : h->inner[i][half]);
+        }
+    for (unsigned left = octants; left; left &= left - 1) {
+        const unsigned o = bits_lowest(left), x = o >> 2, y = o >> 1 & 1, z = o & 1;
+        const double farthest = (far[0][x] * far[0][x] + far[1][y] * far[1][y]) + far[2][z] * far[2][z];
+        meets |= mask_if(!(bound_square(near[0][x], near[1][y], near[2][z]) > above), 1u << o);
+        inside |= mask_if(farthest < below, 1u << o);
+    }
+    return (octant_masks){(uint8_t)meets, (uint8_t)inside};
+}
+
+/* ---- Half-spaces -------------------------------------------------------------------------------------------- */
+
+static bool meets_half_spaces(const shape *s, const octree_body *body)
+{
+    for (size_t i = 0; i < s->region->half_space_count; i++)
+        if (!body_meets_half_space(body, s->region->half_spaces[i].normal, s->region->half_spaces[i].offset))
+            return false;
+    return true;
+}
+
+static bool is_in_half_spaces(const shape *s, const octree_body *body)
+{
+    for (size_t i = 0; i < s->region->half_space_count; i++)
+        if (!body_is_in_half_space(body, s->region->half_spaces[i].normal, s->region->half_spaces[i].offset))
+            return false;
+    return true;
+}
+
+static octree_box bounds_of_half_spaces(const shape *s)
+{
+    (void)s;
+    return (octree_box){{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, {HUGE_VAL, HUGE_VAL, HUGE_VAL}};
+}
+
+/* The products of a half-space with the halves of a cell. */
+typedef struct half_products {
+    double middle[3][2]; /* normal * center */
+    double inner[3][2];  /* |normal| * the half extent whose points must be inside */
+    double outer[3][2];
+    double error; /* more than the error of any sum of these products and the offset */
+} half_products;
+
+static half_products multiply_halves(const octree_half_space *space, const cell_halves *h, bool contained)
+{
+    half_products p;
+    double size = fabs(space->offset);
+    for (int i = 0; i < 3; i++) {
+        double largest = 0;
+        for (int half = 0; half < 2; half++) {
+            p.middle[i][half] = space->normal[i] * h->center[i][half];
+            p.outer[i][half] = fabs(space->normal[i]) * h->outer[i][half];
+            p.inner[i][half] = contained ? p.outer[i][half] : fabs(space->normal[i]) * h->inner[i][half];
+            largest = larger(largest, fabs(p.middle[i][half]) + p.outer[i][half]);
+        }
+        size += largest;
+    }
+    p.error = size * 0x1p-48 + 0x1p-1000;
+    return p;
+}
+
+/* Sums that are NaN or infinite exclude nothing: then the error is infinite or NaN, too. */
+static octant_masks relate_half_space(const octree_half_space *space, const cell_halves *h, unsigned octants,
+                                      bool contained)
+{
+    const half_products p = multiply_halves(space, h, contained);
+    unsigned misses = 0, inside = 0;
+    for (unsigned left = octants; left; left &= left - 1) {
+        const unsigned o = bits_lowest(left), x = o >> 2, y = o >> 1 & 1, z = o & 1;
+        const double middle = ((p.middle[0][x] + p.middle[1][y]) + p.middle[2][z]) - space->offset;
+        misses |= mask_if(middle - ((p.outer[0][x] + p.outer[1][y]) + p.outer[2][z]) > p.error, 1u << o);
+        inside |= mask_if(middle + ((p.inner[0][x] + p.inner[1][y]) + p.inner[2][z]) < -p.error, 1u << o);
+    }
+    return (octant_masks){(uint8_t)(octants & ~misses), (uint8_t)inside};
+}
+
+static octant_masks relate_half_spaces(const shape *s, const cell_halves *h, unsigned octants, bool contained)
+{
+    octant_masks all = {(uint8_t)octants, 0xff};
+    for (size_t i = 0; i < s->region->half_space_count && all.meets; i++) {
+        const octant_masks masks = relate_half_space(&s->region->half_spaces[i], h, all.meets, contained);
+        all.meets = masks.meets;
+        all.inside &= masks.inside;
+    }
+    return all;
+}
+
+/* ---- Rays and moving boxes ---------------------------------------------------------------------------------- */
+
+static bool meets_cast(const shape *s, const octree_body *body)
+{
+    cast_time first;
+    return cast_touches(&s->cast, body, &first);
+}
+
+static bool is_in_cast(const shape *s, const octree_body *body)
+{
+    (void)s, (void)body;
+    return false;
+}
+
+static octant_masks relate_cast(const shape *s, const cell_halves *h, unsigned octants, bool contained)
+{
+    time_span spans[3][2];
+    unsigned meets = 0;
+    (void)contained;
+    for (int i = 0; i < 3; i++)
+        for (int half = 0; half < 2; half++) {
+            spans[i][half] = (time_span){0, s->cast.length};
+            narrow_span(&spans[i][half], &s->cast, i, h->center[i][half], h->outer[i][half]);
+        }
+    for (unsigned left = octants; left; left &= left - 1) {
+        const unsigned o = bits_lowest(left);
+        const time_span *x = &spans[0][o >> 2], *y = &spans[1][o >> 1 & 1], *z = &spans[2][o & 1];
+        const time_span all = {larger(larger(x->enter, y->enter), z->enter),
+                               -larger(larger(-x->leave, -y->leave), -z->leave)};
+        meets |= mask_if(!is_span_empty(&all), 1u << o);
+    }
+    return (octant_masks){(uint8_t)meets, 0};
+}
+
+/* The end of the motion is rounded outwards: its error is below 4 * 2^-53 of the terms. */
+static octree_box bounds_of_cast(const shape *s)
+{
+    const cast *c = &s->cast;
+    octree_box bounds;
+    for (int i = 0; i < 3; i++) {
+        const double way = c->sign[i] == 0 ? 0 : c->sign[i] * (c->speed[i] * c->length);
+        const double end = c->origin[i] + way, error = (fabs(c->origin[i]) + fabs(way)) * 0x1p-50 + 0x1p-1000;
+        const double low = way < 0 ? end - error : c->origin[i], high = way > 0 ? end + error : c->origin[i];
+        bounds.min[i] = low < -DBL_MAX ? low : exact_add_down(low, -c->half[i]);
+        bounds.max[i] = high > DBL_MAX ? high : exact_add_up(high, c->half[i]);
+    }
+    return bounds;
+}
+
+/* ---- The table ---------------------------------------------------------------------------------------------- */
+
+typedef struct shape_kind {
+    bool (*meets)(const shape *s, const octree_body *body);
+    bool (*contains)(const shape *s, const octree_body *body);
+    octree_box (*bounds)(const shape *s);
+    octant_masks (*relate)(const shape *s, const cell_halves *h, unsigned octants, bool contained);
+} shape_kind;
+
+static const shape_kind kinds[OCTREE_REGION_KINDS] = {
+    [OCTREE_REGION_BOX] = {meets_box, is_in_box, bounds_of_box, relate_box},
+    [OCTREE_REGION_BALL] = {meets_ball, is_in_ball, bounds_of_ball, relate_ball},
+    [OCTREE_REGION_HALF_SPACES] = {meets_half_spaces, is_in_half_spaces, bounds_of_half_spaces, relate_half_spaces},
+    [OCTREE_REGION_SWEPT] = {meets_cast, is_in_cast, bounds_of_cast, relate_cast},
+    [OCTREE_REGION_RAY] = {meets_cast, is_in_cast, bounds_of_cast, relate_cast},
+};
+
+shape shape_make(const octree_region *region)
+{
+    shape s = {.region = region};
+    if (region->kind == OCTREE_REGION_RAY)
+        s.cast = cast_make_ray(region->origin, region->direction, region->length, region->half);
+    if (region->kind == OCTREE_REGION_SWEPT)
+        s.cast = cast_make_sweep(region->from, region->to, region->half);
+    return s;
+}
+
+bool shape_meets(const shape *s, const octree_body *body)
+{
+    return kinds[s->region->kind].meets(s, body);
+}
+
+bool shape_contains(const shape *s, const octree_body *body)
+{
+    return kinds[s->region->kind].contains(s, body);
+}
+
+octant_masks shape_relate(const shape *s, const cell_halves *h, unsigned octants, bool contained)
+{
+    return kinds[s->region->kind].relate(s, h, octants, contained);
+}
+
+octree_box shape_bounds(const shape *s)
+{
+    return kinds[s->region->kind].bounds(s);
+}
+
+/* ---- Checks ------------------------------------------------------------------------------------------------- */
+
+static octree_status check_halves(const double half[3])
+{
+    octree_status status = OCTREE_OK;
+    for (int i = 0; i < 3 && status == OCTREE_OK; i++)
+        status = check_length(half[i]);
+    return status;
+}
+
+/* Check a vector that must not be zero. */
+static octree_status check_direction(const double v[3])
+{
+    const octree_status status = check_finite_position(v);
+    return status == OCTREE_OK && v[0] == 0 && v[1] == 0 && v[2] == 0 ? OCTREE_BAD_SIZE : status;
+}
+
+static octree_status check_half_spaces(const octree_half_space *half_spaces, size_t count)
+{
+    if (count == 0 || count > OCTREE_MAX_HALF_SPACES)
+        return OCTREE_BAD_SIZE;
+    if (!half_spaces)
+        return OCTREE_NULL_ARGUMENT;
+    octree_status status = OCTREE_OK;
+    for (size_t i = 0; i < count && status == OCTREE_OK; i++)
+        status = isfinite(half_spaces[i].offset) ? check_direction(half_spaces[i].normal) : OCTREE_NOT_FINITE;
+    return status;
+}
+
+static octree_status check_ray(const octree_region *region)
+{
+    octree_status status = check_finite_position(region->origin);
+    if (status == OCTREE_OK)
+        status = check_direction(region->direction);
+    if (status == OCTREE_OK)
+        status = isnan(region->length) ? OCTREE_NOT_FINITE : region->length < 0 ? OCTREE_BAD_SIZE : OCTREE_OK;
+    return status == OCTREE_OK ? check_halves(region->half) : status;
+}
+
+static octree_status check_swept(const octree_region *region)
+{
+    if (!is_finite_position(region->from) || !is_finite_position(region->to))
+        return OCTREE_NOT_FINITE;
+    return check_halves(region->half);
+}
+
+static octree_status check_ball(const octree_region *region)
+{
+    const octree_status status = check_finite_position(region->center);
+    return status == OCTREE_OK ? check_length(region->radius) : status;
+}
+
+octree_status octree_region_check(const octree_region *region)
+{
+    if (!region)
+        return OCTREE_NULL_ARGUMENT;
+    switch (region->kind) {
+    case OCTREE_REGION_BOX:
+        return check_box(&region->box);
+    case OCTREE_REGION_BALL:
+        return check_ball(region);
+    case OCTREE_REGION_HALF_SPACES:
+        return check_half_spaces(region->half_spaces, region->half_space_count);
+    case OCTREE_REGION_SWEPT:
+        return check_swept(region);
+    case OCTREE_REGION_RAY:
+        return check_ray(region);
+    case OCTREE_REGION_KINDS:
+        break;
+    }
+    return OCTREE_BAD_OPTION;
+}
