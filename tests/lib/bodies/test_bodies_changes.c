@@ -1,0 +1,382 @@
+/* SPDX-License-Identifier: MIT */
+/* test_bodies_changes.c - long random sequences of single and bulk changes against a list of bodies, and failures of
+ * each allocation. */
+#include "fixture.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "body_scenes.h"
+#include "counting_allocator.h"
+
+enum { ROOM = 400, BATCH = 40, ROUNDS = 400 };
+
+/* The oracle: a list of bodies. */
+typedef struct model {
+    octree_body bodies[ROOM];
+    size_t count;
+} model;
+
+static size_t find_in_model(const model *m, const octree_body *body)
+{
+    size_t i = 0;
+    while (i < m->count && octree_compare_bodies(&m->bodies[i], body) != 0)
+        i++;
+    return i;
+}
+
+static octree_status insert_into_model(model *m, const octree_body *body)
+{
+    if (find_in_model(m, body) < m->count)
+        return OCTREE_DUPLICATE;
+    assert_true(m->count < ROOM);
+    m->bodies[m->count++] = *body;
+    return OCTREE_OK;
+}
+
+static octree_status remove_from_model(model *m, const octree_body *body)
+{
+    const size_t at = find_in_model(m, body);
+    if (at == m->count)
+        return OCTREE_NOT_FOUND;
+    m->bodies[at] = m->bodies[--m->count];
+    return OCTREE_OK;
+}
+
+static octree_status move_in_model(model *m, const octree_body *from, const octree_body *to)
+{
+    const size_t at = find_in_model(m, from), other = find_in_model(m, to);
+    if (at == m->count)
+        return OCTREE_NOT_FOUND;
+    if (other < m->count && other != at)
+        return OCTREE_DUPLICATE;
+    m->bodies[at] = *to;
+    return OCTREE_OK;
+}
+
+/* The set holds the bodies of the model, and is in the same state as a set that is built from them at once. */
+static void assert_same_as_model(const octree_bodies *set, const model *m)
+{
+    octree_bodies *built;
+    const octree_def def = octree_bodies_definition(set);
+    const char *violation = octree_bodies_check(set);
+    if (violation)
+        fail_msg("%s", violation);
+    assert_int_equal(octree_bodies_count(set), m->count);
+    for (size_t i = 0; i < m->count; i++)
+        assert_true(octree_bodies_contain(set, &m->bodies[i]));
+    assert_int_equal(octree_bodies_create(&def, &built), OCTREE_OK);
+    assert_int_equal(octree_bodies_insert_many(built, m->bodies, m->count, NULL, NULL), OCTREE_OK);
+    assert_true(octree_bodies_digest(built) == octree_bodies_digest(set));
+    for (unsigned i = 0; i < OCTREE_BODY_LEVELS; i++) {
+        double reach[3] = {0}, expected[3] = {0};
+        const octree *a = octree_bodies_level(set, i, reach), *b = octree_bodies_level(built, i, expected);
+        assert_int_equal(octree_count(a), octree_count(b));
+        assert_true(octree_count(a) == 0 || node_count(a) == node_count(b));
+        assert_memory_equal(reach, expected, sizeof reach);
+    }
+    octree_bodies_destroy(built);
+}
+
+/* A body that is stored, with probability 3/4, or a random one. */
+static octree_body pick_body(const model *m, scene_numbers numbers, uint64_t *seed)
+{
+    if (m->count > 0 && random_below(seed, 4) > 0)
+        return m->bodies[random_below(seed, m->count)];
+    return random_body(numbers, seed, random_below(seed, 5));
+}
+
+/* A place for a body: near or far, with the same extent or another one. */
+static octree_body pick_destination(const octree_body *from, scene_numbers numbers, uint64_t *seed)
+{
+    octree_body to = random_body(numbers, seed, from->id);
+    if (random_below(seed, 3) > 0)
+        memcpy(to.half, from->half, sizeof to.half);
+    if (random_below(seed, 4) == 0)
+        memcpy(to.position, from->position, sizeof to.position);
+    return to;
+}
+
+static void change_one(octree_bodies *set, model *m, scene_numbers numbers, uint64_t *seed)
+{
+    const octree_body body = pick_body(m, numbers, seed), to = pick_destination(&body, numbers, seed);
+    const uint64_t kind = random_below(seed, m->count > ROOM / 2 ? 3 : 4);
+    if (kind == 0)
+        assert_int_equal(octree_bodies_remove(set, &body), remove_from_model(m, &body));
+    else if (kind == 1)
+        assert_int_equal(octree_bodies_move(set, &body, &to), move_in_model(m, &body, &to));
+    else if (m->count < ROOM - 1)
+        assert_int_equal(octree_bodies_insert(set, &to), insert_into_model(m, &to));
+}
+
+static void change_many(octree_bodies *set, model *m, scene_numbers numbers, uint64_t *seed)
+{
+    octree_body from[BATCH], to[BATCH];
+    octree_status statuses[BATCH];
+    size_t changed, expected = 0;
+    const size_t count = random_below(seed, BATCH + 1);
+    const uint64_t kind = m->count + BATCH > ROOM ? 0 : random_below(seed, 3);
+    for (size_t i = 0; i < count; i++) {
+        from[i] = pick_body(m, numbers, seed);
+        to[i] = pick_destination(&from[i], numbers, seed);
+    }
+    if (kind == 0)
+        assert_int_equal(octree_bodies_remove_many(set, from, count, statuses, &changed), OCTREE_OK);
+    else if (kind == 1)
+        assert_int_equal(octree_bodies_move_many(set, from, to, count, statuses, &changed), OCTREE_OK);
+    else
+        assert_int_equal(octree_bodies_insert_many(set, to, count, statuses, &changed), OCTREE_OK);
+    for (size_t i = 0; i < count; i++) {
+        const octree_status status = kind == 0   ? remove_from_model(m, &from[i])
+                                     : kind == 1 ? move_in_model(m, &from[i], &to[i])
+                                                 : insert_into_model(m, &to[i]);
+        assert_int_equal(statuses[i], status);
+        expected += status == OCTREE_OK;
+    }
+    assert_int_equal(changed, expected);
+}
+
+static void changes_have_the_result_of_changes_of_a_list(void **state)
+{
+    (void)state;
+    for (int numbers = 0; numbers < NUMBERS_KINDS; numbers++) {
+        uint64_t seed = 11 + (uint64_t)numbers;
+        model m = {.count = 0};
+        octree_bodies *set;
+        const octree_def def = define(scene_world((scene_numbers)numbers), 3, 21, OCTREE_GROW);
+        assert_int_equal(octree_bodies_create(&def, &set), OCTREE_OK);
+        for (int round = 0; round < ROUNDS; round++) {
+            if (random_below(&seed, 8) == 0)
+                change_many(set, &m, (scene_numbers)numbers, &seed);
+            else
+                change_one(set, &m, (scene_numbers)numbers, &seed);
+            if (random_below(&seed, 50) == 0)
+                assert_int_equal(octree_bodies_compact(set), OCTREE_OK);
+            if (round % 16 == 0)
+                assert_same_as_model(set, &m);
+        }
+        assert_int_equal(octree_bodies_replace_all(set, m.bodies, m.count / 2, NULL, NULL), OCTREE_OK);
+        m.count /= 2;
+        assert_same_as_model(set, &m);
+        assert_int_equal(octree_bodies_clear(set), OCTREE_OK);
+        m.count = 0;
+        assert_same_as_model(set, &m);
+        octree_bodies_destroy(set);
+    }
+}
+
+/* Bodies at one place: each change takes constant time, so that this test is quick. */
+static void many_bodies_at_one_place_are_changed_quickly(void **state)
+{
+    (void)state;
+    enum { MANY = 100000 };
+    octree_bodies *set;
+    const octree_def def = define(cube(-8, 8), 4, 21, OCTREE_GROW);
+    octree_body body = {{1, 1, 1}, {1, 1, 1}, 0};
+    assert_int_equal(octree_bodies_create(&def, &set), OCTREE_OK);
+    for (body.id = 0; body.id < MANY; body.id++)
+        assert_int_equal(octree_bodies_insert(set, &body), OCTREE_OK);
+    for (body.id = 0; body.id < MANY; body.id += 2) {
+        octree_body moved = body;
+        moved.half[0] = 1.25;
+        assert_int_equal(octree_bodies_move(set, &body, &moved), OCTREE_OK);
+    }
+    for (body.id = 1; body.id < MANY; body.id += 2)
+        assert_int_equal(octree_bodies_remove(set, &body), OCTREE_OK);
+    assert_int_equal(octree_bodies_count(set), MANY / 2);
+    octree_bodies_destroy(set);
+}
+
+/* ---- Failures of memory ------------------------------------------------------------------------------------- */
+
+typedef octree_status change_set(octree_bodies *set, const octree_body *from, const octree_body *to, size_t count);
+
+static octree_status insert_each(octree_bodies *set, const octree_body *from, const octree_body *to, size_t count)
+{
+    (void)from;
+    return octree_bodies_insert(set, &to[count - 1]);
+}
+
+static octree_status remove_each(octree_bodies *set, const octree_body *from, const octree_body *to, size_t count)
+{
+    (void)to;
+    return octree_bodies_remove(set, &from[count - 1]);
+}
+
+static octree_status move_each(octree_bodies *set, const octree_body *from, const octree_body *to, size_t count)
+{
+    return octree_bodies_move(set, &from[count - 1], &to[count - 1]);
+}
+
+static octree_status compact(octree_bodies *set, const octree_body *from, const octree_body *to, size_t count)
+{
+    (void)from;
+    (void)to;
+    (void)count;
+    return octree_bodies_compact(set);
+}
+
+static octree_status replace_all(octree_bodies *set, const octree_body *from, const octree_body *to, size_t count)
+{
+    (void)from;
+    return octree_bodies_replace_all(set, to, count, NULL, NULL);
+}
+
+/* Make a set of `count` bodies whose memory is counted, and as many destinations. */
+static octree_bodies *make_counted_set(counting_allocator *counts, octree_body *from, octree_body *to, size_t count)
+{
+    uint64_t seed = 77;
+    octree_bodies *set;
+    octree_def def = define(scene_world(NUMBERS_SMOOTH), 2, 21, OCTREE_GROW);
+    def.allocator = counting_allocator_use(counts);
+    assert_int_equal(octree_bodies_create(&def, &set), OCTREE_OK);
+    for (size_t i = 0; i < count; i++) {
+        from[i] = random_body(NUMBERS_SMOOTH, &seed, i);
+        to[i] = random_body(NUMBERS_SMOOTH, &seed, i);
+        assert_int_equal(octree_bodies_insert(set, &from[i]), OCTREE_OK);
+    }
+    return set;
+}
+
+/* Let allocation n and all later ones fail, for n = 0, 1, 2 ..., until the change succeeds. A failure changes nothing.
+ * Returns the number of failures. */
+static size_t assert_failures_change_nothing(change_set *change)
+{
+    size_t failures = 0;
+    for (size_t count = 1; count <= 48; count++) {
+        octree_body from[48], to[48];
+        counting_allocator counts = {0};
+        octree_bodies *set = make_counted_set(&counts, from, to, count);
+        octree_status status = OCTREE_NO_MEMORY;
+        for (size_t n = 0; status == OCTREE_NO_MEMORY; n++) {
+            const uint64_t digest = octree_bodies_digest(set);
+            counting_allocator_fail_at(&counts, n);
+            counts.fail_until = SIZE_MAX;
+            status = change(set, from, to, count);
+            counting_allocator_stop_failing(&counts);
+            assert_true(status == OCTREE_OK || status == OCTREE_NO_MEMORY);
+            assert_null(octree_bodies_check(set));
+            assert_true(status == OCTREE_OK || octree_bodies_digest(set) == digest);
+            failures += status == OCTREE_NO_MEMORY;
+        }
+        octree_bodies_destroy(set);
+        assert_all_returned(&counts);
+    }
+    return failures;
+}
+
+static void single_changes_survive_the_failure_of_each_allocation(void **state)
+{
+    (void)state;
+    assert_true(assert_failures_change_nothing(insert_each) > 0);
+    assert_failures_change_nothing(remove_each); /* merges find free blocks */
+    assert_true(assert_failures_change_nothing(move_each) > 0);
+    assert_true(assert_failures_change_nothing(compact) > 0);
+    assert_true(assert_failures_change_nothing(replace_all) > 0);
+}
+
+typedef octree_status change_many_bodies(octree_bodies *set, const octree_body *from, const octree_body *to,
+                                         size_t count, octree_status *statuses);
+
+static octree_status insert_many(octree_bodies *set, const octree_body *from, const octree_body *to, size_t count,
+                                 octree_status *statuses)
+{
+    (void)from;
+    return octree_bodies_insert_many(set, to, count, statuses, NULL);
+}
+
+static octree_status remove_many(octree_bodies *set, const octree_body *from, const octree_body *to, size_t count,
+                                 octree_status *statuses)
+{
+    (void)to;
+    return octree_bodies_remove_many(set, from, count, statuses, NULL);
+}
+
+static octree_status move_many(octree_bodies *set, const octree_body *from, const octree_body *to, size_t count,
+                               octree_status *statuses)
+{
+    return octree_bodies_move_many(set, from, to, count, statuses, NULL);
+}
+
+/* The statuses of a bulk call that failed say which bodies are changed. `removes`: it removes `from`; `inserts`: it
+ * inserts `to`. If no status was written, nothing has changed. */
+static void assert_statuses_are_true(change_many_bodies *change, bool removes, bool inserts)
+{
+    enum { COUNT = 48 };
+    octree_status status = OCTREE_NO_MEMORY;
+    size_t n = 0;
+    for (; status == OCTREE_NO_MEMORY; n++) {
+        octree_body from[COUNT], to[COUNT];
+        octree_status statuses[COUNT];
+        counting_allocator counts = {0};
+        octree_bodies *set = make_counted_set(&counts, from, to, COUNT);
+        for (size_t i = 0; i < COUNT; i++)
+            statuses[i] = OCTREE_NO_MEMORY;
+        counting_allocator_fail_at(&counts, n);
+        counts.fail_until = SIZE_MAX;
+        status = change(set, from, to, COUNT, statuses);
+        counting_allocator_stop_failing(&counts);
+        assert_null(octree_bodies_check(set));
+        for (size_t i = 0; i < COUNT; i++) {
+            assert_true(statuses[i] == OCTREE_OK || statuses[i] == OCTREE_NO_MEMORY);
+            assert_true(octree_bodies_contain(set, &from[i]) == !(removes && statuses[i] == OCTREE_OK));
+            assert_true(octree_bodies_contain(set, &to[i]) == (inserts && statuses[i] == OCTREE_OK));
+        }
+        octree_bodies_destroy(set);
+        assert_all_returned(&counts);
+    }
+    assert_int_equal(status, OCTREE_OK);
+    assert_true(n > 3);
+}
+
+static void bulk_changes_report_what_a_failure_has_changed(void **state)
+{
+    (void)state;
+    assert_statuses_are_true(insert_many, false, true);
+    assert_statuses_are_true(remove_many, true, false);
+    assert_statuses_are_true(move_many, true, true);
+}
+
+static bool ignore_pair(const octree_body *a, const octree_body *b, void *context)
+{
+    (void)a;
+    (void)b;
+    (void)context;
+    return true;
+}
+
+static void pairs_and_creation_survive_the_failure_of_each_allocation(void **state)
+{
+    (void)state;
+    octree_body from[48], to[48];
+    counting_allocator counts = {0};
+    octree_bodies *set = make_counted_set(&counts, from, to, 48), *other;
+    octree_status status = OCTREE_NO_MEMORY;
+    for (size_t n = 0; status == OCTREE_NO_MEMORY; n++) {
+        counting_allocator_fail_at(&counts, n);
+        status = octree_bodies_pairs(set, NULL, ignore_pair, NULL);
+        counting_allocator_stop_failing(&counts);
+        assert_true(n > 3 || status == OCTREE_NO_MEMORY);
+    }
+    assert_int_equal(status, OCTREE_OK);
+    const octree_def def = octree_bodies_definition(set);
+    for (size_t n = 0; n < 2; n++) {
+        counting_allocator_fail_at(&counts, n);
+        assert_int_equal(octree_bodies_create(&def, &other), OCTREE_NO_MEMORY);
+        assert_null(other);
+    }
+    octree_bodies_destroy(set);
+    assert_all_returned(&counts);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(changes_have_the_result_of_changes_of_a_list),
+        cmocka_unit_test(many_bodies_at_one_place_are_changed_quickly),
+        cmocka_unit_test(single_changes_survive_the_failure_of_each_allocation),
+        cmocka_unit_test(bulk_changes_report_what_a_failure_has_changed),
+        cmocka_unit_test(pairs_and_creation_survive_the_failure_of_each_allocation),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
