@@ -301,8 +301,8 @@ static void tell_lead(const table *t, const char *kind, bool first, FILE *out)
 static void tell(const table *t, FILE *out)
 {
     const pick exact = {.variant = "octreel", .setting = 0}, near = {.variant = "octreel", .setting = 1};
-    fputs("Octreel's exact answers a second, as a multiple of those of the fastest other index (median of the scenes, "
-          "least and most):",
+    fputs("Octreel's exact queries a second, divided by those of the fastest other library in the same scene (above 1, "
+          "Octreel is faster; median of the scenes, lowest and highest scene):",
           out);
     for (size_t i = 0; i < sizeof asking_kinds / sizeof asking_kinds[0]; i++) {
         char kind[32];

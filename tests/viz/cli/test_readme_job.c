@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_readme_job.c - the GitHub job of the README and the action that it uses work; frames of a test stand for those
- * of a user. */
+/* test_readme_job.c - the GitHub job of the action's README and the action itself work; frames of a test stand for
+ * those of a user. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,11 +18,11 @@ typedef struct job {
     workflow run;
 } job;
 
-/* The README's YAML block. */
+/* The YAML block of the action's README. */
 static json_t *read_block(void)
 {
     static const char fence[] = "\n```yaml\n";
-    char *readme = file_read(OCTREEL_ROOT "/README.md", NULL), *begin = strstr(readme, fence);
+    char *readme = file_read(OCTREEL_ROOT "/.github/actions/diff/README.md", NULL), *begin = strstr(readme, fence);
     assert_non_null(begin);
     begin += sizeof fence - 1;
     char *end = strstr(begin, "```");
