@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: MIT
-# Run by CMake: write OUTPUT, the manual octree(3), from the comments in HEADER and in the types.h beside it. The first C
-# program in EXAMPLE becomes the example; VERSION and DATE are those of the library.
+# Run by CMake: write OUTPUT, the manual NAME(3), from the comments in HEADER and, if it includes that, in the types.h
+# beside it. The first C program in EXAMPLE that begins by including HEADER becomes the example; VERSION and DATE are
+# those of the library.
 cmake_policy(VERSION 3.22)
 file(READ ${HEADER} text)
 cmake_path(GET HEADER PARENT_PATH folder)
+cmake_path(GET HEADER STEM stem)
 file(READ ${folder}/types.h types)
 string(REGEX REPLACE "^/\\*[^\n]*\n/\\*[^/]*\\*/\n" "" types "${types}")
 string(REPLACE "#include \"octree/types.h\"\n" "${types}" text "${text}")
@@ -26,7 +28,7 @@ function(escape variable)
   set(${variable} "${text}" PARENT_SCOPE)
 endfunction()
 escape(text)
-string(FIND "${example}" "\n```c\n" begin)
+string(FIND "${example}" "\n```c\n#include <octree/${stem}.h>" begin)
 string(SUBSTRING "${example}" ${begin} -1 example)
 string(REGEX REPLACE "^\n```c\n([^`]*)```.*" "\\1" example "${example}")
 escape(example)
@@ -61,7 +63,7 @@ endmacro()
 
 # ---- The head: what the header says of itself -----------------------------------------------------------------------
 
-string(REGEX MATCH "/\\* octree\\.h \\\\- (a [^\n]*)\\.\n([^/]*)\n \\*/" head "${text}")
+string(REGEX MATCH "/\\* ${stem}\\.h \\\\- (a [^\n]*)\\.\n([^/]*)\n \\*/" head "${text}")
 set(line "${CMAKE_MATCH_1}")
 string(REGEX REPLACE "\n \\* ?" "\n" about "\n${CMAKE_MATCH_2}")
 string(REGEX REPLACE "^ \\*\n|^\n+" "" about "${about}")
@@ -69,14 +71,14 @@ string(REGEX REPLACE "\n  \\\\- " "\n.IP \\\\(bu 2\n" about "${about}")
 string(REGEX REPLACE "\n    " "\n" about "${about}")
 string(REGEX REPLACE "\n\n(Conventions)\n" "\n.SS \\1\n" about "${about}")
 string(REPLACE "\n\n" "\n.PP\n" about "${about}")
-set(page ".TH octree 3 ${DATE} \"Octree ${VERSION}\" Octree
+set(page ".TH ${NAME} 3 ${DATE} \"Octree ${VERSION}\" Octree
 .nr HY 0
 .ad l
 .SH NAME
-octree \\- ${line}
+${NAME} \\- ${line}
 .SH SYNOPSIS
 .EX
-\\fB#include <octree/octree.h>\\fR
+\\fB#include <octree/${stem}.h>\\fR
 
 cc \\fIprogram.c\\fR $(pkg\\-config \\-\\-cflags \\-\\-libs octree)
 .EE
@@ -160,12 +162,21 @@ foreach(line IN LISTS lines)
   endif()
 endforeach()
 
-string(APPEND page ".SH \"RETURN VALUE\"
+if(statuses)
+  string(APPEND page ".SH \"RETURN VALUE\"
 Every function that can fail returns an octree_status:
-${statuses}.SH EXAMPLES
+${statuses}")
+else()
+  string(APPEND page ".SH \"RETURN VALUE\"
+Every function that can fail returns an octree_status; octree(3) lists them.
+")
+endif()
+string(APPEND page ".SH EXAMPLES
 .EX
 ${example}.EE
 .SH \"SEE ALSO\"
+.BR octree (3),
+.BR octree_bodies (3),
 .BR octreel (1),
 .BR octreel\\-session (5)
 ")
