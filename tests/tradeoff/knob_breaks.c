@@ -182,12 +182,12 @@ static size_t count_verdict(const table *t, const char *variant, int verdict)
 static void tell(const table *t, FILE *out)
 {
     const size_t octreel = table_count(t, (pick){.variant = "octreel", .setting = NAN});
-    fprintf(
-        out,
-        "On difficult points, such as coordinates of 1e300 or NaN, each library has %zu tests. Octreel is right in %zu "
-        "and refuses %zu, whose points are not finite. The other libraries together are right in %zu of %zu.",
-        octreel, count_verdict(t, "octreel", RIGHT), count_verdict(t, "octreel", REFUSED),
-        count_verdict(t, NULL, RIGHT) - count_verdict(t, "octreel", RIGHT), t->count - octreel);
+    fprintf(out,
+            "Each library has %zu tests with difficult points, such as coordinates of 1e300 or NaN. Octreel is right "
+            "in %zu "
+            "of %zu, and refuses %zu whose points are not finite. The other libraries are right in %zu of their %zu.",
+            octreel, count_verdict(t, "octreel", RIGHT), octreel, count_verdict(t, "octreel", REFUSED),
+            count_verdict(t, NULL, RIGHT) - count_verdict(t, "octreel", RIGHT), t->count - octreel);
 }
 
 static void defend(const table *t, FILE *out)

@@ -301,8 +301,9 @@ static void tell_lead(const table *t, const char *kind, bool first, FILE *out)
 static void tell(const table *t, FILE *out)
 {
     const pick exact = {.variant = "octreel", .setting = 0}, near = {.variant = "octreel", .setting = 1};
-    fputs("Octreel's exact queries a second, divided by those of the fastest other library in the same scene (above 1, "
-          "Octreel is faster; median of the scenes, lowest and highest scene):",
+    fputs("How many times as fast exact queries are as with the fastest other library in the same scene (above 1, "
+          "Octreel "
+          "is faster), as the median of the scenes (lowest to highest scene):",
           out);
     for (size_t i = 0; i < sizeof asking_kinds / sizeof asking_kinds[0]; i++) {
         char kind[32];
