@@ -112,8 +112,8 @@ static bool wait_for_input(const json_stream *s)
     return true;
 }
 
-/* Reads the bytes that are available. Sets s->ended at the end of the stream. Returns JSON_STREAM_OBJECT if the scan
- * can continue. */
+/* Reads the bytes that are available. Sets s->ended at the end of the stream. JSON_STREAM_OBJECT means here that the
+ * scan can continue. */
 static json_stream_state read_available_bytes(json_stream *s, json_reader *r)
 {
     ssize_t got;

@@ -45,7 +45,7 @@ size_t number_print(double value, char text[NUMBER_TEXT]);
 
 /* Returns the double with the fewest decimal digits that rounds to a given finite float: 0.1 for 0.1f. The result is at
  * most FLT_MAX. */
-double number_from_float(float value);
+double widen_float_as_printed(float value);
 
 /* Writes a double with at most `digits` significant digits. Returns `text`. */
 const char *number_format(double value, int digits, char text[NUMBER_TEXT]);

@@ -210,7 +210,7 @@ double number_round_up_to_1_2_5(double limit)
     return 0;
 }
 
-double number_from_float(float value)
+double widen_float_as_printed(float value)
 {
     for (int digits = FLT_DIG; digits < FLT_DECIMAL_DIG; digits++) {
         char text[NUMBER_TEXT];

@@ -188,7 +188,7 @@ typedef struct sweep {
 
 /* Returns a pointer to the end coordinate of the line's last merged edge. Returns null if the line has no merged edge
  * yet. */
-static double *find_last_end(const sweep *w)
+static double *last_merged_edge_end(const sweep *w)
 {
     return w->edges->count > w->first ? &w->edges->items[w->edges->count - 1].ends[1][w->axis] : NULL;
 }
@@ -212,7 +212,7 @@ static bool add_edge(const sweep *w, const interval *of, double from, double to)
  * out. */
 static bool extend_or_add_edge(const sweep *w, const interval *of, double from, double to)
 {
-    double *end = find_last_end(w);
+    double *end = last_merged_edge_end(w);
     const edge *last = end ? &w->edges->items[w->edges->count - 1] : NULL;
     if (!last || *end != from || last->depth != of->depth || memcmp(&last->style, &of->style, sizeof of->style) != 0)
         return add_edge(w, of, from, to);
@@ -253,7 +253,7 @@ static bool sweep_line(const sweep *w, const interval *line, size_t count)
             begun++;
         const interval *now = find_shallowest(line + first, begun - first, at);
         if (!now) { /* the begun intervals have length 0; only a box that is a single point has such an edge */
-            const double *end = find_last_end(w);
+            const double *end = last_merged_edge_end(w);
             if (!(end && *end == at) && !add_edge(w, &line[first], at, at))
                 return false;
             first = begun;

@@ -39,7 +39,7 @@ scene project_scene_to_samples(const scene *s)
 
 /* Returns the position of a view depth among the bands, from 0 at the nearest depth of the world to QUAD_BANDS at its
  * farthest depth. */
-static double find_band_position(const camera *c, double depth)
+static double compute_band_coordinate(const camera *c, double depth)
 {
     const double span = c->far_depth - c->near_depth;
     return span > 0 ? (depth - c->near_depth) / span * QUAD_BANDS : 0;
@@ -108,7 +108,7 @@ static bool clip_to_picture(const view *v, piece *p)
  * Returns the number of pieces. */
 static unsigned cut_into_bands(const scene *s, const double a[3], const double b[3], piece pieces[QUAD_BANDS])
 {
-    const double first = find_band_position(&s->camera, a[2]), last = find_band_position(&s->camera, b[2]);
+    const double first = compute_band_coordinate(&s->camera, a[2]), last = compute_band_coordinate(&s->camera, b[2]);
     const int step = first < last ? 1 : -1, last_band = (int)round_to_band(last);
     unsigned count = 0;
     double from[3], to[3];
@@ -171,7 +171,7 @@ bool clip_picture_segment(const scene *s, const double from[3], const double to[
 
 unsigned find_depth_band(const camera *c, double depth)
 {
-    return round_to_band(find_band_position(c, depth));
+    return round_to_band(compute_band_coordinate(c, depth));
 }
 
 static bool is_at_visible_depth(const camera *c, double depth)
@@ -200,7 +200,7 @@ typedef struct point_run {
     double from_eye[3][RUN];
     /* for each point: its camera coordinates, as camera_transform() computes them */
     double across[RUN], along[RUN], depth[RUN];
-    /* for each point: its pixel (x, y), and its position among the bands from find_band_position() */
+    /* for each point: its pixel (x, y), and its position among the bands from compute_band_coordinate() */
     double x[RUN], y[RUN], band[RUN];
     double seen[RUN]; /* not 0: the point is visible in the picture */
 } point_run;
@@ -253,7 +253,7 @@ static void project_point_run(const scene *s, point_run *run)
         run->y[i] = c.middle[1] - run->along[i] * scale;
     }
     for (int i = 0; i < RUN; i++)
-        run->band[i] = find_band_position(&c, run->depth[i]);
+        run->band[i] = compute_band_coordinate(&c, run->depth[i]);
     find_visible_points(s, run);
 }
 

@@ -40,7 +40,8 @@ typedef ARRAY(struct splat_covering) splat_list;
 
 typedef struct splat_covering {
     size_t marker; /* the index of the point's marker in the scene */
-    /* the least depth of the point's disc in the square; lists are sorted by `depth`, then by view_depth, then by id */
+    /* the least depth of the point's disc within this square of the screen; the list of a square is sorted by `depth`,
+     * then by view_depth, then by id */
     int32_t depth;
     double view_depth;
     uint64_t id;

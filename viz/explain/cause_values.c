@@ -28,7 +28,7 @@ static json_t *make_json_value(const point_value *value, point_value_kind kind)
         return NULL;
     if (kind == POINT_COLOR)
         return json_sprintf("#%02x%02x%02x", value->color[0], value->color[1], value->color[2]);
-    return kind == POINT_INTENSITY ? json_real(number_from_float(value->intensity)) : json_integer(value->class);
+    return kind == POINT_INTENSITY ? json_real(widen_float_as_printed(value->intensity)) : json_integer(value->class);
 }
 
 static void compare_value(cause_facts *facts, uint64_t id, const point_value *a, const point_value *b)

@@ -142,8 +142,8 @@ void session_write_column_values(json_writer *w, uint64_t id);
 /* Sets the values of the point with this id. Returns false with an error if the point already has other values. */
 bool session_set_value(json_reader *r, const json_place *at, uint64_t id, const point_value *value);
 
-/* Moves the values from `listed` to `made`. The reader calls this at the end of a file, or after each object of a
- * stream. */
+/* Moves the values that were read from the reader's list `listed` to the session `made`. The reader calls this at the
+ * end of a file, or after each object of a stream. */
 bool session_merge_listed_values(json_reader *r);
 void session_release_values(session_values *values);
 

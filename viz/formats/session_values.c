@@ -46,7 +46,7 @@ static bool read_intensity(json_reader *r, json_t *value, const json_place *at, 
 
 static void write_intensity(json_writer *w, const void *from)
 {
-    json_write_number(w, number_from_float(*(const float *)from));
+    json_write_number(w, widen_float_as_printed(*(const float *)from));
 }
 
 static bool read_point_class(json_reader *r, json_t *value, const json_place *at, void *into)

@@ -26,8 +26,8 @@
 #define FIRST_ID 1000 /* the id of the first tick mark of the x axis */
 /* rounding tolerance: a corner may lie this many pixels beyond the line of an edge on the outline */
 #define OUTLINE 1e-3
-/* Weight of a low position when choose_edge() rates the edges for a level axis; a position at the left has the weight
- * 1. */
+/* When choose_edge() rates the edges for a horizontal axis, being low in the picture counts this many times as much as
+ * being at its left. */
 #define LOWEST 16
 #define SCALE_ID 100
 /* The part of the framed box that a zoomed picture of the follow camera shows. The other cameras show the whole box. */

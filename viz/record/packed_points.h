@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* packed_points.h - packs the points of a page: a block (point_block.h), compressed as gzip does. */
+/* packed_points.h - packs the points of a page into a block (point_block.h), and compresses the block as gzip does. */
 #ifndef RECORD_PACKED_POINTS_H
 #define RECORD_PACKED_POINTS_H
 

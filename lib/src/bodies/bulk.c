@@ -85,8 +85,8 @@ static size_t gather_level(bulk *b, unsigned level)
     return count;
 }
 
-/* Make the collected changes of all levels. `finish` is called for each change, in the caller's order if it was made,
- * and in the reverse order if it was not. */
+/* Make the collected changes of all levels, a bulk call for each level. Then call `finish` for each change of the
+ * level: in the caller's order if the call succeeded; in the reverse order, to restore the rows, if it failed. */
 static void make_changes(bulk *b, bulk_change *change, void (*finish)(bulk *b, const pending *p, bool made))
 {
     for (unsigned level = 0; level < OCTREE_BODY_LEVELS && b->count > 0; level++) {

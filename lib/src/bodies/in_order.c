@@ -302,7 +302,7 @@ static void search_in_order(ordered_search *s, size_t *count)
 
 /* ---- Public functions --------------------------------------------------------------------------------------- */
 
-/* Check what both searches share. */
+/* Check the arguments that octree_bodies_nearest() and octree_bodies_cast() have in common. */
 static octree_status check_ordered_search(const octree_bodies *set, const octree_search *how, size_t k,
                                           const octree_hit *hits)
 {

@@ -329,7 +329,7 @@ typedef struct inspection {
 static const char *check_row(inspection *s, const octree_point *point)
 {
     if (point->id >= s->set->rows.end)
-        return "a point of a level has no row";
+        return "a point in the tree of a level has no body in the set";
     const octree_body *body = row_at(&s->set->rows, (size_t)point->id);
     if (!is_same_position(body->position, point->position))
         return "a row has another position than its point";

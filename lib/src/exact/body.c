@@ -116,9 +116,9 @@ static int compare_with_radius(const octree_body *e, const double center[3], dou
     return exact_sign(&sum);
 }
 
-/* Add the square of one axis. Let u = 2^-53. The errors of |target - center| and of the gap are at most u * |target -
- * center| + u * |gap|, below 2u * size. Squaring and adding round twice more; the factor covers all of it. 2^-1000
- * covers underflow. */
+/* Add the squared gap along one axis. Let u = 2^-53. The errors of |target - center| and of the gap are at most u *
+ * |target - center| + u * |gap|, below 2u * size. The squaring and the addition each round once more. The factor covers
+ * all of these errors, and 2^-1000 covers underflow. */
 static void measure_axis(body_square *s, double gap, double size)
 {
     const double inexact = size * 0x1p-51;

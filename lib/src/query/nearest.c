@@ -13,8 +13,8 @@
  *
  * Distances to planes: in units of keys, the position of every plane is a whole number, so a distance is the difference
  * of this number and the target's position in keys. The difference has a known error, by which the reach of nodes is
- * widened (find_node_reach() in neighbor_heap.c). In worlds where keys may be wrong, and for targets outside the world,
- * the coordinates of the planes are computed instead.
+ * widened (limit_of_node_distance() in neighbor_heap.c). In worlds where keys may be wrong, and for targets outside the
+ * world, the coordinates of the planes are computed instead.
  *
  * Order of siblings: a child's squared distance is a sum of one term per axis. On an axis where the child is in the
  * half near the target, the term is the parent's term; in the far half, it is the squared distance to the splitting

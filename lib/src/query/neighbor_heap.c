@@ -26,7 +26,7 @@
 
 /* Returns the squared distance beyond which nodes are pruned, if points are searched up to the squared distance
  * `square`. The result allows for the error of the nodes' distances. */
-static inline double find_node_reach(const neighbor_heap *h, double square)
+static inline double limit_of_node_distance(const neighbor_heap *h, double square)
 {
     if (!(h->node_error > 0))
         return metric_above(square);
@@ -361,7 +361,7 @@ void neighbor_heap_set_radius(neighbor_heap *h, double radius)
     h->radius_square = scaled * scaled;
     h->is_filtered = true;
     h->point_reach = metric_above(h->radius_square);
-    h->node_reach = find_node_reach(h, h->radius_square);
+    h->node_reach = limit_of_node_distance(h, h->radius_square);
 }
 
 void neighbor_heap_add(neighbor_heap *h, const octree_point *points, const double squares[], uint64_t within)
@@ -374,7 +374,7 @@ void neighbor_heap_add(neighbor_heap *h, const octree_point *points, const doubl
     else
         add_to_heap(h, points, squares, within);
     if (h->count == h->k)
-        h->node_reach = find_node_reach(h, h->worst * h->shrink);
+        h->node_reach = limit_of_node_distance(h, h->worst * h->shrink);
 }
 
 double greatest_group_minimum(const double squares[], unsigned count)

@@ -20,8 +20,8 @@
 
 enum {
     CACHED = 300000, /* a tree with fewer points fits into a processor's caches, where sorting is cheaper */
-    FEW = 20,        /* in a larger tree, a batch is small if it has less than a twentieth of the stored points */
-    /* in a tree that fits into the caches, a batch is small if it has less than an eighth of the stored points */
+    FEW = 20,        /* a batch is small if it has less than this part of the stored points: a twentieth */
+    /* the same for a tree that fits into the caches: an eighth */
     FEW_OF_CACHED = 8,
 };
 

@@ -40,7 +40,7 @@ typedef struct filling {
      * the cell is in a crowd */
     octree_point **next;
     list crowds;    /* a list of struct crowd, in Morton order */
-    size_t crowded; /* the number of points in all crowds */
+    size_t crowded; /* the number of points in all cells that hold a crowd (see the head) */
 } filling;
 
 static size_t cell_count_at(unsigned depth)

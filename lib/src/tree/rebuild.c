@@ -22,8 +22,8 @@
 /* A table of the ids that move, with the address of each id's stored point. If the ids are dense, the slot of an id is
  * id - least; otherwise the table is a hash table with linear probing. */
 typedef struct id_table {
-    /* for each of stored_count slots from slot `first` on, the address of the stored point; null: not found. If two
-     * tasks write one slot, the id is stored twice, and the table is not used */
+    /* a table with stored_count entries: entry i is the address of the stored point of slot first + i, or null if none
+     * was found. If two tasks write the same entry, the tree holds the id twice; the table is then discarded */
     const octree_point *_Atomic *stored;
     uint64_t *bits; /* for dense ids: bit i is set if a move has the id least + i; null for other ids */
     /* for ids that are not dense: for each slot, 1 + the index of the move, or 0 if the slot is empty; else null */

@@ -265,7 +265,7 @@ bool web_view(size_t recording)
 
 /* Returns true if the view shows a heat layer whose sums have not been collected from tick 0 on. The page must then
  * open the session again with this view. */
-bool web_lacks_sums(void)
+bool web_must_replay_for_heat(void)
 {
     return page.playback.view.layers & VIEW_HEAT_LAYERS & ~page.summed_layers;
 }

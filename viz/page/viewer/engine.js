@@ -120,7 +120,7 @@ class Engine {
      * tick 0. */
     get lacksSums()
     {
-        return Boolean(this.wasm.web_lacks_sums());
+        return Boolean(this.wasm.web_must_replay_for_heat());
     }
 
     /* Draw the current tick as recorded. The returned picture is valid until the next call of the module. */
