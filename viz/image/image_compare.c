@@ -11,6 +11,7 @@
  * machine gets the same number. Anti-aliased edges are detected as in pixelmatch and odiff; see is_antialiased(). */
 #include "image_compare.h"
 #include "bytes.h"
+#include "samples.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -35,35 +36,6 @@ static int minimum(int a, int b)
 
 /* Pixels are compared in spans of this length. The samples of a span fit on the stack and into the L1 cache. */
 #define SPAN 128
-
-/* The red, green and blue samples of a pixel, of 8 or 16 bits each. */
-typedef struct pixel_samples {
-    uint16_t of[3];
-} pixel_samples;
-
-/* Returns the largest sample value after scaling both images to the same range: 255 or 65535. */
-static int common_sample_range(const image *a, const image *b)
-{
-    return a->wide || b->wide ? 65535 : 255;
-}
-
-/* Read `count` pixels from the n-th pixel on, and scale their samples to 0..range. */
-static void read_samples(const image *image, size_t n, int count, int range, pixel_samples *span)
-{
-    const size_t step = image_pixel_size(image);
-    const unsigned scale = range == 65535 ? 257 : 1;
-    const uint8_t *at = image->pixels + n * step;
-    if (image->wide) {
-        memcpy(span, at, (size_t)count * sizeof *span);
-        return;
-    }
-    for (int i = 0; i < count; i++, at += step) {
-        const image_color color =
-            image->channels == 1 ? image->palette.colors[*at] : (image_color){at[0], at[1], at[2]};
-        span[i] =
-            (pixel_samples){{(uint16_t)(color.r * scale), (uint16_t)(color.g * scale), (uint16_t)(color.b * scale)}};
-    }
-}
 
 /* Returns `count` pixels from the n-th pixel on as r, g, b of 8 bits: the image's own bytes or, if it is indexed,
  * colours in `room`. */
