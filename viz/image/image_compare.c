@@ -324,7 +324,8 @@ bool image_has_no_difference(const image_difference *difference)
 
 bool image_is_within_tolerance(const image_difference *difference, const image_tolerance *tolerance)
 {
-    return difference->same_size && difference->counted.pixels <= tolerance->max_pixels;
+    const bool invisible = tolerance->flip && difference->has_flip && difference->flip.mean <= tolerance->max_flip;
+    return difference->same_size && (invisible || difference->counted.pixels <= tolerance->max_pixels);
 }
 
 /* ---- The picture of the difference --------------------------------------------------------------------------- */

@@ -19,6 +19,9 @@ typedef struct image_tolerance {
     uint64_t max_pixels; /* forgive up to this many differing pixels that no other rule forgives */
     double max_delta;    /* forgive pixels whose two colours have at most this distance, in IMAGE_DELTA_UNIT */
     bool antialias;      /* true: forgive pixels on anti-aliased edges */
+    /* true: forgive all differences of an image whose mean FLIP, seen at this resolution, is at most max_flip */
+    bool flip;
+    double max_flip, pixels_per_degree;
     const image_rectangle *ignored; /* rectangles whose pixels are not compared */
     size_t ignored_count;
     const uint8_t *ignored_mask; /* one byte per pixel, or null; a pixel whose byte is not 0 is not compared */
@@ -47,6 +50,13 @@ typedef struct image_tally {
     int max_x, max_y;
 } image_tally;
 
+/* How visible a difference is, from 0, invisible, to 1: the result of image_measure_flip(). */
+typedef struct image_flip {
+    double mean;          /* of all pixels that are not ignored */
+    double worst;         /* the largest value of a pixel */
+    int worst_x, worst_y; /* the first pixel, in reading order, with the value `worst`; -1 if all values are 0 */
+} image_flip;
+
 typedef struct image_difference {
     bool same_size;       /* false: the images differ in size, and nothing was counted */
     int channel_range;    /* the largest possible value of largest_channel: 255, or 65535 for 16-bit samples */
@@ -56,6 +66,8 @@ typedef struct image_difference {
     uint64_t antialiased; /* number of pixels that are forgiven by `antialias`, and not by max_delta */
     /* number of differing pixels that the ignored rectangles or the mask exclude; no tally counts these pixels */
     uint64_t ignored;
+    bool has_flip;   /* true: FLIP was measured, by the caller of the functions below */
+    image_flip flip; /* valid only if has_flip */
 } image_difference;
 
 /* Compare the colours of two images, each indexed or RGB. image_compare() forgives no difference;
@@ -87,8 +99,8 @@ image_difference image_end_comparison(const image_comparison *comparison);
 /* Returns whether the sizes are equal and no pixel differs, not even an ignored pixel. */
 bool image_has_no_difference(const image_difference *difference);
 
-/* Returns whether the sizes are equal and at most max_pixels differing pixels are neither ignored nor forgiven by
- * another rule. */
+/* Returns whether the sizes are equal, and at most max_pixels differing pixels are neither ignored nor forgiven by
+ * another rule or the mean FLIP is within max_flip. */
 bool image_is_within_tolerance(const image_difference *difference, const image_tolerance *tolerance);
 
 /* Draw row y of a picture that shows the difference of two images, as indices of the palette

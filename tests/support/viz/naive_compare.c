@@ -173,8 +173,10 @@ static int channel_difference(const double a[3], const double b[3], int range)
 image_difference naive_compare(const image *a, const image *b, const image_tolerance *tolerance)
 {
     const image_tally none = {0, 0, -1, -1, 0, -1, -1, -1, -1};
-    image_difference d = {
-        a->width == b->width && a->height == b->height, a->wide || b->wide ? 65535 : 255, none, none, 0, 0, 0};
+    image_difference d = {.same_size = a->width == b->width && a->height == b->height,
+                          .channel_range = a->wide || b->wide ? 65535 : 255,
+                          .unlike = none,
+                          .counted = none};
     double from[3], to[3];
     for (int y = 0; d.same_size && y < a->height; y++) {
         for (int x = 0; x < a->width; x++) {
