@@ -3,6 +3,7 @@
 #include "command.h"
 #include "contact_sheet.h"
 #include "explain.h"
+#include "flip.h"
 #include "hint.h"
 #include "ignored_layers.h"
 #include "number.h"
@@ -37,6 +38,23 @@ static bool read_delta(const command_option *option, const char *text, void *int
     if (numbers_parse(text, delta, 1) && *delta >= 0 && *delta <= 1)
         return true;
     return refuse_value(option, "a number from 0 to 1", text);
+}
+
+static bool read_flip(const command_option *option, const char *text, void *into)
+{
+    image_tolerance *t = into;
+    t->flip = true;
+    return read_delta(option, text, &t->max_flip);
+}
+
+static bool read_resolution(const command_option *option, const char *text, void *into)
+{
+    double *resolution = into;
+    if (numbers_parse(text, resolution, 1) && *resolution >= FLIP_LEAST_PIXELS_PER_DEGREE &&
+        *resolution <= FLIP_MOST_PIXELS_PER_DEGREE)
+        return true;
+    return print_refusal("--%s takes a number from %d to %d, not \"%s\"", option->name, FLIP_LEAST_PIXELS_PER_DEGREE,
+                         FLIP_MOST_PIXELS_PER_DEGREE, text);
 }
 
 static bool read_rectangle(const command_option *option, const char *text, void *into)
@@ -105,6 +123,17 @@ static const command_option options[] = {
      .read = read_delta, OPTION_VALUE(arguments, options.tolerance.max_delta)},
     {"antialias", NULL, "ignore pixels on anti-aliased edges (Vysniauskas 2009, as in pixelmatch)", .read = read_flag,
      OPTION_VALUE(arguments, options.tolerance.antialias)},
+    {"flip", "X",
+     "accept a frame whose mean FLIP (Andersson and others 2020) is at most X. FLIP is how visible the difference is "
+     "to "
+     "a person who sees the two frames in alternation, from 0, invisible, to 1. It is measured and reported with any "
+     "X; "
+     "0 accepts nothing visible",
+     .read = read_flip, OPTION_VALUE(arguments, options.tolerance)},
+    {"pixels-per-degree", "N",
+     "resolution that a person sees, for --flip, from 1 to 200 (default 67: a display 0.7 m and 3840 pixels wide, seen "
+     "from 0.7 m)",
+     .read = read_resolution, OPTION_VALUE(arguments, options.tolerance.pixels_per_degree)},
     {"ignore", "X,Y,W,H", "ignore a rectangle of pixels; can be given several times", .read = read_rectangle},
     {"ignore-layer", "LIST",
      "ignore pixels of recordings where these layers, such as nodes,points, are on top in either frame; octreel record "
@@ -134,7 +163,8 @@ static const command_option options[] = {
     {"output", "DIR",
      "write evidence into DIR: report.html, one page with everything, in which you tick findings for octreel accept "
      "--from; for the first frame of each finding NAME.expected.png, NAME.actual.png and NAME.difference.png "
-     "(different pixels glow, even by one level; tolerated pixels are blue); and contact.png, small copies of all",
+     "(different pixels glow, even by one level; tolerated pixels are blue), and with --flip NAME.flip.png, a map of "
+     "FLIP from black to pale yellow; and contact.png, small copies of all",
      .read = read_folder, OPTION_VALUE(arguments, outputs[PAGE].folder)},
     FORCE_OPTION(arguments, force, FORCE_FILES),
     JSON_OPTION(arguments, json, "print JSON; share/octreel/diff.schema.json describes it"),
@@ -217,6 +247,12 @@ static int write_reports(const arguments *a, diff_report *all)
     return verdict == DIFF_TROUBLE ? print_first_error(all->result, all->why) : statuses[verdict];
 }
 
+static bool check_resolution(const image_tolerance *t)
+{
+    const bool given = t->pixels_per_degree < FLIP_PIXELS_PER_DEGREE || t->pixels_per_degree > FLIP_PIXELS_PER_DEGREE;
+    return t->flip || !given || print_refusal("--pixels-per-degree has no effect without --flip: add --flip X");
+}
+
 /* Checks everything that can be checked before the folder of evidence is changed. */
 static bool check_before_writing(const arguments *a, const diff_side sides[2], octreel_error *error)
 {
@@ -278,7 +314,8 @@ static int run(int argc, char **argv)
     if (status == COMMAND_GO_ON && page->folder && !path)
         status = print_error("out of memory");
     else if (status == COMMAND_GO_ON)
-        status = check_outputs(a.outputs, OUTPUTS, argv + optind, 2, a.json, a.force)
+        status = check_resolution(&a.options.tolerance) &&
+                         check_outputs(a.outputs, OUTPUTS, argv + optind, 2, a.json, a.force)
                      ? compare_sides(&a, (const char *[]){argv[optind], argv[optind + 1]})
                      : EXIT_TROUBLE;
     free(path);
@@ -307,6 +344,8 @@ const command command_diff = {
                 "octreel diff before.png after.png\n"
                 "# compare folders, with a colour tolerance and without the top left corner\n"
                 "octreel diff golden frames --max-delta 0.02 --ignore 0,0,320,16\n"
+                "# accept differences that a person barely sees\n"
+                "octreel diff golden frames --flip 0.01\n"
                 "# in a GitHub job: write evidence/report.html and a summary of the job\n"
                 "octreel diff golden frames -o evidence --markdown - >> \"$GITHUB_STEP_SUMMARY\"\n"
                 "# compare with a baseline, and show the expected pictures from its store\n"
@@ -316,7 +355,8 @@ const command command_diff = {
     .environment = "  GITHUB_ACTIONS  if set, GitHub annotations are printed, as with --annotate\n",
     .files = "  DIR/report.html  the page, which needs no other file\n"
              "  DIR/contact.png  small copies of the pictures of all findings\n"
-             "  DIR/NAME.expected.png, DIR/NAME.actual.png, DIR/NAME.difference.png  the first frame of a finding\n",
+             "  DIR/NAME.expected.png, DIR/NAME.actual.png, DIR/NAME.difference.png  the first frame of a finding\n"
+             "  DIR/NAME.flip.png  its FLIP map, with --flip\n",
     .min_arguments = 2,
     .max_arguments = 2,
     .takes = "two sides, each a PNG, a folder of PNGs, a recording or a baseline",

@@ -20,9 +20,9 @@ typedef struct diff_result {
 bool diff_check(const diff_side *a, const diff_side *b, const diff_options *options, octreel_error *error);
 
 /* Compare the frames of `b` with the reference `a`, on all cores. Files with equal bytes are not decoded. Other
- * pictures are read a few rows at a time. A whole picture is in memory only with --antialias, or if it is interlaced
- * or has 16 bits a sample. Both sides and the lists in the options must outlive the result. Return false with an
- * error if diff_check() fails or memory runs out. */
+ * pictures are read a few rows at a time. A whole picture is in memory only with --antialias or --flip, or if it is
+ * interlaced or has 16 bits a sample. Both sides and the lists in the options must outlive the result. Return false
+ * with an error if diff_check() fails or memory runs out. */
 bool diff_run(const diff_side *a, const diff_side *b, const diff_options *options, diff_result *result,
               octreel_error *error);
 void diff_release(diff_result *result);

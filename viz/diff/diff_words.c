@@ -44,6 +44,13 @@ static void print_worst(FILE *out, const image_difference *d)
             d->channel_range, tally->min_x, tally->min_y, tally->max_x, tally->max_y);
 }
 
+static void print_flip(FILE *out, const image_difference *d)
+{
+    if (d->has_flip)
+        fprintf(out, "; mean FLIP %.4f, worst %.4f at (%d,%d)", diff_round_delta(d->flip.mean),
+                diff_round_delta(d->flip.worst), d->flip.worst_x, d->flip.worst_y);
+}
+
 static void print_pixels(FILE *out, const diff_pair *pair)
 {
     const image_difference *d = &pair->difference;
@@ -55,6 +62,7 @@ static void print_pixels(FILE *out, const diff_pair *pair)
             verb_ending(d->unlike.pixels));
     print_forgiven(out, d);
     print_worst(out, d);
+    print_flip(out, d);
 }
 
 static void print_difference(FILE *out, const diff_pair *pair)
@@ -200,6 +208,8 @@ void diff_print_tolerance(FILE *out, const diff_result *result)
         print_item(out, &first, "up to %" PRIu64 " pixel%s a frame", t->max_pixels, plural_ending(t->max_pixels));
     if (t->max_delta > 0)
         print_item(out, &first, "colours within %g " IMAGE_DELTA_UNIT, t->max_delta);
+    if (t->flip)
+        print_item(out, &first, "a mean FLIP up to %g at %.4g pixels per degree", t->max_flip, t->pixels_per_degree);
     if (t->antialias)
         print_item(out, &first, "anti-aliasing");
     for (size_t i = 0; i < t->ignored_count; i++) {

@@ -24,8 +24,8 @@ void diff_print_tolerance(FILE *out, const diff_result *result);
 void diff_print_pair(FILE *out, const diff_pair *pair);
 void diff_print_difference(FILE *out, const diff_pair *pair);
 
-/* Round a color difference up to four decimals. The rounded number is not smaller than the difference, so a user can
- * give it to --max-delta. */
+/* Round a color difference or a mean FLIP up to four decimals. The rounded number is not smaller than the difference,
+ * so a user can give it to --max-delta or --flip. */
 double diff_round_delta(double delta);
 
 /* Return whether reports list pairs with this finding. Reports list all pairs except pairs whose frames are equal

@@ -29,7 +29,7 @@ diff_verdict diff_finding_verdict(diff_finding finding)
 
 diff_options diff_options_default(void)
 {
-    return (diff_options){.background = IMAGE_WHITE};
+    return (diff_options){.background = IMAGE_WHITE, .tolerance.pixels_per_degree = FLIP_PIXELS_PER_DEGREE};
 }
 
 const char *diff_pair_name(const diff_pair *pair)
@@ -40,7 +40,8 @@ const char *diff_pair_name(const diff_pair *pair)
 bool diff_is_exact(const diff_options *options)
 {
     const image_tolerance *t = &options->tolerance;
-    return t->max_pixels == 0 && t->max_delta == 0 && !t->antialias && t->ignored_count == 0 && !options->mask;
+    return t->max_pixels == 0 && t->max_delta == 0 && !t->antialias && !t->flip && t->ignored_count == 0 &&
+           !options->mask;
 }
 
 bool pair_tolerance(const diff_pair *pair, const diff_options *options, image_tolerance *tolerance)
@@ -86,23 +87,32 @@ typedef struct reading {
     octreel_error error;
 } reading;
 
-/* Open a picture. With --antialias the band is the whole picture, because recognizing anti-aliasing needs the rows
- * above and below each row. */
+/* Open a picture. With --antialias or --flip the band is the whole picture, because recognizing anti-aliasing and
+ * measuring FLIP need the rows above and below each row. */
 static void open_reading(reading *r, const diff_frame *frame, const diff_options *options)
 {
+    const bool whole = options->tolerance.antialias || options->tolerance.flip;
     r->about = frame->pixels;
     r->in_memory = frame->pixels;
     if (!r->in_memory)
-        r->source = image_source_open(frame->path, options->background, options->tolerance.antialias, &r->error);
+        r->source = image_source_open(frame->path, options->background, whole, &r->error);
     if (r->source)
         r->about = image_source_description(r->source);
     if (r->about)
-        r->rows = options->tolerance.antialias ? r->about->height : image_find_band_height(r->about);
+        r->rows = whole ? r->about->height : image_find_band_height(r->about);
 }
 
 static bool has_failed(const reading *r)
 {
     return !r->about || (r->source && image_source_has_failed(r->source));
+}
+
+static void fail_reading(reading *r)
+{
+    error_no_memory(&r->error);
+    image_source_close(r->source);
+    r->source = NULL;
+    r->about = NULL;
 }
 
 static bool read_next_rows(reading *r, image *band)
@@ -115,6 +125,15 @@ static bool read_next_rows(reading *r, image *band)
     band->pixels += (size_t)r->next_y * (size_t)band->width * image_pixel_size(band);
     r->next_y += band->height;
     return left > 0;
+}
+
+/* Add a band of both pictures. With --flip the band is the whole picture. Return false if memory runs out. */
+static bool compare_band(image_comparison *c, const image bands[2])
+{
+    image_difference *d = &c->difference;
+    image_compare_band(c, &bands[0], &bands[1]);
+    d->has_flip = c->tolerance->flip && d->unlike.pixels > 0;
+    return !d->has_flip || image_measure_flip(&bands[0], &bands[1], c->tolerance, NULL, &d->flip);
 }
 
 /* Compare two pictures. Both pictures are read to the end even if their sizes differ, because a later part of a file
@@ -130,8 +149,8 @@ static image_difference compare_rows(reading of[2], const image_tolerance *toler
     while (!has_failed(&of[0]) && (more[0] || more[1])) {
         for (int i = 0; i < 2; i++)
             more[i] = read_next_rows(&of[i], &bands[i]);
-        if (opened && c.difference.same_size && more[0] && more[1])
-            image_compare_band(&c, &bands[0], &bands[1]);
+        if (opened && c.difference.same_size && more[0] && more[1] && !compare_band(&c, bands))
+            fail_reading(&of[0]);
     }
     return image_end_comparison(&c);
 }

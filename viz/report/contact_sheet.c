@@ -23,7 +23,8 @@ enum {
     LINE = 18, /* height of a line of text, in pixels */
     HEAD = GAP + LINE + GAP / 2 + LINE,
     ROW = 2 * LINE + CELL_HEIGHT + 2 * GAP,
-    WIDTH = EVIDENCE_PICTURES * (CELL_WIDTH + GAP) + GAP,
+    COLUMNS = EVIDENCE_DIFFERENCE + 1, /* expected, actual and difference */
+    WIDTH = COLUMNS * (CELL_WIDTH + GAP) + GAP,
     LETTERS = (WIDTH - 2 * GAP) / 8, /* number of characters that fit in a line of text */
 };
 
@@ -133,7 +134,7 @@ static void draw_cell(image *sheet, const diff_report *report, size_t pair, evid
 
 static void draw_row(image *sheet, const diff_report *report, const frame_group *group, int top)
 {
-    for (int i = 0; i < EVIDENCE_PICTURES; i++)
+    for (int i = 0; i < COLUMNS; i++)
         draw_cell(sheet, report, group->first, (evidence_picture)i, GAP + i * (CELL_WIDTH + GAP), top + 2 * LINE);
     draw_text(sheet, GAP, top, LETTERS, group->frames, warm_color);
     draw_text(sheet, GAP, top + LINE, LETTERS, group->cause ? group->cause : group->difference, text_color);
@@ -147,7 +148,7 @@ static void draw_sheet(image *sheet, const diff_report *report, size_t failing)
     size_t row = 0;
     snprintf(line, sizeof line, "%s%s%s", report->groups->verdict, headline ? ": " : "", headline ? headline : "");
     draw_text(sheet, GAP, GAP, LETTERS, line, text_color);
-    for (int i = 0; i < EVIDENCE_PICTURES; i++)
+    for (int i = 0; i < COLUMNS; i++)
         draw_text(sheet, GAP + i * (CELL_WIDTH + GAP), GAP + LINE + GAP / 2, 40, evidence_word((evidence_picture)i),
                   faint_color);
     for (size_t i = 0; i < report->groups->count && row < CONTACT_SHEET_ROWS; i++)

@@ -3,6 +3,7 @@
 #include "evidence.h"
 #include "contact_sheet.h"
 #include "file.h"
+#include "flip.h"
 #include "folder.h"
 #include "octree/digest.h"
 #include "png_read.h"
@@ -20,7 +21,8 @@
 static const char marker_text[] =
     EVIDENCE_MARKER_BEGINNING "What octreel diff found: open " EVIDENCE_PAGE ".\n"
                               "The next octreel diff -o into this folder removes the page, contact.png and all\n"
-                              "pictures named *.expected.png, *.actual.png and *.difference.png, also in subfolders.\n";
+                              "pictures named *.expected.png, *.actual.png, *.difference.png and *.flip.png, also in\n"
+                              "subfolders.\n";
 
 /* ---- Names --------------------------------------------------------------------------------------------------- */
 
@@ -248,18 +250,50 @@ static bool write_difference(canvas *c, const char *path, octreel_error *error)
     return ok;
 }
 
-static bool draw_difference(const diff_pair *pair, const diff_options *options, const char *folder, unsigned *written,
-                            octreel_error *error)
+static const uint8_t *map_row(int y, void *context)
+{
+    const canvas *c = context;
+    return c->row + (size_t)y * (size_t)c->images[0].width;
+}
+
+/* Write the FLIP map. c->row holds the whole map. */
+static bool write_flip(canvas *c, const char *path, octreel_error *error)
+{
+    const image *a = &c->images[0];
+    const image_palette palette = image_make_magma_palette();
+    const image_rows rows = {.width = a->width, .height = a->height, .palette = &palette, .row = map_row, .context = c};
+    image_flip flip;
+    c->row = malloc((size_t)a->width * (size_t)a->height);
+    const bool ok = c->row && image_measure_flip(a, &c->images[1], &c->tolerance, c->row, &flip)
+                        ? image_write_png_rows(&rows, path, error)
+                        : error_no_memory(error);
+    free(c->row);
+    return ok;
+}
+
+typedef bool picture_writer(canvas *c, const char *path, octreel_error *error);
+
+static bool draw_picture(canvas *c, picture_writer *write, const char *folder, const diff_pair *pair,
+                         evidence_picture picture, unsigned *written, octreel_error *error)
+{
+    char *path = picture_path(folder, pair, picture);
+    const bool ok = path ? write(c, path, error) : error_no_memory(error);
+    *written |= ok ? 1u << picture : 0;
+    free(path);
+    return ok;
+}
+
+static bool draw_differences(const diff_pair *pair, const diff_options *options, const char *folder, unsigned *written,
+                             octreel_error *error)
 {
     canvas c = {0};
-    char *path = picture_path(folder, pair, EVIDENCE_DIFFERENCE);
-    bool ok = path || error_no_memory(error);
-    ok = ok && read_pictures(&c, pair, options, error) && write_difference(&c, path, error);
-    *written |= ok ? 1u << EVIDENCE_DIFFERENCE : 0;
+    bool ok = read_pictures(&c, pair, options, error) &&
+              draw_picture(&c, write_difference, folder, pair, EVIDENCE_DIFFERENCE, written, error);
+    if (ok && pair->difference.has_flip)
+        ok = draw_picture(&c, write_flip, folder, pair, EVIDENCE_FLIP, written, error);
     image_release(&c.images[0]);
     image_release(&c.images[1]);
     pair_tolerance_release(&c.tolerance);
-    free(path);
     return ok;
 }
 
@@ -271,7 +305,7 @@ bool evidence_write_pair(const diff_pair *pair, const diff_options *options, con
         !copy_frame(pair->b, pair, EVIDENCE_ACTUAL, folder, written, error))
         return false;
     const bool both = (pair->finding == FOUND_PIXELS || pair->finding == FOUND_SIZE) && pair->a->path && pair->b->path;
-    return !both || draw_difference(pair, options, folder, written, error);
+    return !both || draw_differences(pair, options, folder, written, error);
 }
 
 /* ---- All pairs ----------------------------------------------------------------------------------------------- */

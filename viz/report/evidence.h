@@ -10,11 +10,12 @@
 #define EVIDENCE_PAGE "report.html"
 
 /* The kinds of pictures, each with the word that its file names contain. For frame_000041.png the files are
- * frame_000041.expected.png, frame_000041.actual.png and frame_000041.difference.png. */
+ * frame_000041.expected.png, frame_000041.actual.png, frame_000041.difference.png and frame_000041.flip.png. */
 #define EVIDENCE_PICTURE_MAP(X)                                                                                        \
     X(EXPECTED, "expected")     /* a copy of the reference frame's file */                                             \
     X(ACTUAL, "actual")         /* a copy of the compared frame's file */                                              \
-    X(DIFFERENCE, "difference") /* drawn by image_draw_difference_row() */
+    X(DIFFERENCE, "difference") /* drawn by image_draw_difference_row() */                                             \
+    X(FLIP, "flip")             /* with --flip, the map of image_measure_flip() */
 
 typedef enum evidence_picture {
 #define EVIDENCE_PICTURE_ENUM(name, word) EVIDENCE_##name,
@@ -33,8 +34,8 @@ char *evidence_file_name(const char *frame, evidence_picture picture);
 bool evidence_is_file_name(const char *name);
 
 /* Write the expected and the actual picture of a pair into a folder, as far as they exist. If both can be read, also
- * write their difference. For each written picture the bit (1 << evidence_picture) is set in *written. Both images
- * are held in memory; the difference is written row by row. */
+ * write their difference, and their FLIP map if FLIP was measured. For each written picture the bit (1 <<
+ * evidence_picture) is set in *written. Both images are held in memory; the difference is written row by row. */
 bool evidence_write_pair(const diff_pair *pair, const diff_options *options, const char *folder, unsigned *written,
                          octreel_error *error);
 

@@ -46,6 +46,10 @@ static void write_tolerance(json_writer *w, const diff_result *result)
     json_write_integer_member(w, "max_pixels", t->max_pixels);
     json_write_number_member(w, "max_delta", t->max_delta);
     json_write_text_member(w, "delta_unit", IMAGE_DELTA_UNIT);
+    if (t->flip) {
+        json_write_number_member(w, "max_flip", t->max_flip);
+        json_write_number_member(w, "pixels_per_degree", t->pixels_per_degree);
+    }
     json_write_bool_member(w, "antialias", t->antialias);
     json_begin_array_member(w, "ignore");
     for (size_t i = 0; i < t->ignored_count; i++) {
@@ -77,6 +81,16 @@ static void write_tally(json_writer *w, const char *key, const image_tally *t)
     json_write_end_object(w);
 }
 
+static void write_flip(json_writer *w, const image_flip *flip)
+{
+    json_begin_object_member(w, "flip");
+    json_write_number_member(w, "mean", flip->mean);
+    json_write_number_member(w, "worst", flip->worst);
+    if (flip->worst > 0)
+        write_two_numbers(w, "worst_at", flip->worst_x, flip->worst_y);
+    json_write_end_object(w);
+}
+
 static void write_difference(json_writer *w, const image_difference *d)
 {
     json_write_integer_member(w, "channel_range", (uint64_t)d->channel_range);
@@ -85,6 +99,8 @@ static void write_difference(json_writer *w, const image_difference *d)
     json_write_integer_member(w, "close", d->close);
     json_write_integer_member(w, "antialiased", d->antialiased);
     json_write_integer_member(w, "ignored", d->ignored);
+    if (d->has_flip)
+        write_flip(w, &d->flip);
 }
 
 void diff_json_finding(json_writer *w, const diff_report *report, size_t i)

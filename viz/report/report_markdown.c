@@ -34,6 +34,8 @@ static void write_pixels(FILE *out, const diff_pair *pair)
     fprintf(out, "%" PRIu64 " of %" PRIu64 " pixel%s", d->counted.pixels, all, plural_ending(all));
     if (d->unlike.pixels > d->counted.pixels)
         fprintf(out, ", %" PRIu64 " more forgiven", d->unlike.pixels - d->counted.pixels);
+    if (d->has_flip)
+        fprintf(out, ", FLIP %.4f", diff_round_delta(d->flip.mean));
     fprintf(out, " | %.4f " IMAGE_DELTA_UNIT " at (%d,%d)", diff_round_delta(d->counted.worst_delta),
             d->counted.worst_x, d->counted.worst_y);
 }

@@ -133,6 +133,8 @@ function factsOf(finding)
         facts.push(["channels", `by up to ${tally.largest_channel} of ${finding.channel_range}`]);
         facts.push(["area", `${pair(tally.min)} to ${pair(tally.max)}`]);
     }
+    if (finding.flip)
+        facts.push(["FLIP", `mean ${shownDelta(finding.flip.mean)}, worst ${shownDelta(finding.flip.worst)}`]);
     if (forgiven.length > 0)
         facts.push(["forgiven", forgiven.join(", ")]);
     facts.push(...sizesOf(finding));

@@ -13,6 +13,7 @@ const MODES = [
     ["swipe", "s", "swipe", "expected on the left of the line, actual on its right"],
     ["blink", "b", "blink", "expected and actual in turn"],
     ["difference", "d", "difference", "pixels that differ glow"],
+    ["flip", "f", "FLIP", "how visible the differences are, from black to pale yellow"],
     ["side", "t", "side by side", "expected, actual and difference"],
     ["expected", "e", "expected", "only the reference"],
     ["actual", "a", "actual", "only the frame"],
@@ -90,6 +91,7 @@ class Report {
         byId("details").textContent = detailsOf(finding);
         byId("details").hidden = detailsOf(finding) === "";
         byId("colors").hidden = !finding.files.difference;
+        byId("flip-colors").hidden = !finding.files.flip;
         byId("facts-of-frame").replaceChildren();
         for (const [name, value] of factsOf(finding))
             byId("facts-of-frame").append(element("dt", name), element("dd", value, {"data-fact": name}));
@@ -158,6 +160,7 @@ class Report {
             const mode = button.dataset.mode;
             button.setAttribute("aria-pressed", mode === seen);
             button.disabled = !this.stage.can(mode);
+            button.hidden = mode === "flip" && !this.findings.frames.some(finding => finding.files.flip);
         }
         for (const button of byId("zooms").querySelectorAll("button"))
             button.disabled = !seen || (button.dataset.key === "z" && !this.stage.place);

@@ -3,7 +3,7 @@
  * same part of their pictures. */
 "use strict";
 
-const PICTURES = ["expected", "actual", "difference"];
+const PICTURES = ["expected", "actual", "difference", "flip"];
 const LARGEST_SCALE = 64;
 /* The width of the shown part, in pixels of the picture, when a pane is zoomed to the worst pixel. */
 const WORST_ACROSS = 48;
@@ -17,7 +17,8 @@ const PANES = {
     swipe: ["expected", "actual"],
     blink: ["expected", "actual"],
     difference: ["difference"],
-    side: PICTURES,
+    flip: ["flip"],
+    side: ["expected", "actual", "difference"],
     expected: ["expected"],
     actual: ["actual"],
 };
