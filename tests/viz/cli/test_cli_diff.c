@@ -65,6 +65,18 @@ static void every_verdict_names_the_tolerances(void **state)
          0},
         {"--max-delta 1", "b.png: forgiven: 0 pixels count; 5 of 384 pixels differ, 5 of them close; worst 0.0027", 0},
         {"--max-delta 0", "compared exactly\n", 1},
+        {"--flip 0.1", "forgiven: a mean FLIP up to 0.1 at 67.02 pixels per degree\n", 0},
+        {"--flip 0.1",
+         "b.png: forgiven: 5 of 384 pixels differ; worst 0.0027 YIQ at (0,3), channels by up to 1 of "
+         "255; within (0,3)-(4,3); mean FLIP 0.00",
+         0},
+        {"--flip 0",
+         "b.png: 5 of 384 pixels differ; worst 0.0027 YIQ at (0,3), channels by up to 1 of 255; within "
+         "(0,3)-(4,3); mean FLIP 0.00",
+         1},
+        {"--flip 0 --pixels-per-degree 20", "forgiven: a mean FLIP up to 0 at 20 pixels per degree\n", 1},
+        {"--flip 0 --max-pixels 5", "forgiven: up to 5 pixels a frame, a mean FLIP up to 0 at 67.02 pixels per deg", 0},
+        {"--flip 0 --ignore 0,3,5,1", "pixels differ, 5 more in ignored areas", 0},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         command_result result = run_octreel(NULL, "diff %s %s %s", p.a.path, p.b.path, cases[i].options);
@@ -82,6 +94,11 @@ static void errors_are_printed_with_status_2(void **state)
         {"--max-delta 1.5", "--max-delta takes a number from 0 to 1"},
         {"--max-delta x", "--max-delta takes a number from 0 to 1"},
         {"--max-delta nan", "--max-delta takes a number from 0 to 1"},
+        {"--flip 1.01", "--flip takes a number from 0 to 1"},
+        {"--flip x", "--flip takes a number from 0 to 1"},
+        {"--flip 0.1 --pixels-per-degree 0.9", "--pixels-per-degree takes a number from 1 to 200, not \"0.9\""},
+        {"--flip 0.1 --pixels-per-degree 201", "--pixels-per-degree takes a number from 1 to 200"},
+        {"--pixels-per-degree 30", "--pixels-per-degree has no effect without --flip: add --flip X"},
         {"--ignore 1,2,3", "--ignore takes left, top, width and height"},
         {"--ignore 1,2,0,4", "--ignore takes left, top, width and height"},
         {"--ignore 1,2,3,4,5", "--ignore takes left, top, width and height"},

@@ -187,6 +187,8 @@ static void json_conforms_to_its_schema(void **state)
     char more[2300];
     snprintf(more, sizeof more, "-o %s --causes all", t.out.path);
     assert_json_fits(state, t.a.path, t.b.path, more);
+    snprintf(more, sizeof more, "-o %s --flip 0.001 --pixels-per-degree 50", t.out.path);
+    assert_json_fits(state, t.a.path, t.b.path, more);
     assert_json_fits(state, t.a.path, t.a.path, "");
     gallery_write(place_below(b.path, "2.png").path, 1, 9);
     file_write_text(place_below(b.path, "3.png").path, "\x89PNG");

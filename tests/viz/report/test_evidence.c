@@ -9,6 +9,7 @@
 
 #include "evidence.h"
 #include "fixture.h"
+#include "flip.h"
 #include "galleries.h"
 #include "images.h"
 
@@ -105,6 +106,37 @@ static void pictures_show_expected_actual_and_difference(void **state)
         assert_int_equal(unlike && x<3, drawn.b> drawn.r);
     }
     image_release(&difference);
+    comparison_release(&made);
+}
+
+static void with_flip_the_evidence_has_a_map(void **state)
+{
+    diff_options options = diff_options_default();
+    const place a = gallery_make(*state, "a", "1.png 2.png"), b = gallery_make(*state, "b", "1.png 2.png"),
+                folder = place_in(*state, "out");
+    const image_palette magma = image_make_magma_palette();
+    image small;
+    octreel_error error = {""};
+    uint8_t map[GALLERY_WIDTH * GALLERY_HEIGHT];
+    image_flip flip;
+    options.tolerance.flip = true;
+    gallery_write(place_below(b.path, "1.png").path, 1, 0);
+    assert_true(image_create(&small, 3, 40, 3) &&
+                image_write_png(&small, place_below(b.path, "2.png").path, NULL, 0, &error));
+    comparison_of made = leave_evidence(a.path, b.path, &options, folder.path);
+    assert_folder_has(folder.path, "1.actual.png 1.difference.png 1.expected.png 1.flip.png "
+                                   "2.actual.png 2.difference.png 2.expected.png evidence.txt");
+    image expected = gallery_picture(0), actual = gallery_picture(1);
+    image drawn = assert_read(place_below(folder.path, "1.flip.png").path);
+    assert_true(image_measure_flip(&expected, &actual, &options.tolerance, map, &flip));
+    assert_true(made.result.pairs[0].difference.flip.mean == flip.mean && flip.mean > 0.1);
+    assert_int_equal(drawn.channels, 1);
+    assert_memory_equal(drawn.pixels, map, sizeof map);
+    assert_memory_equal(drawn.palette.colors, magma.colors, sizeof magma.colors);
+    image_release(&small);
+    image_release(&expected);
+    image_release(&actual);
+    image_release(&drawn);
     comparison_release(&made);
 }
 
@@ -264,6 +296,7 @@ int main(void)
         WITH_FOLDER(each_finding_leaves_the_pictures_that_exist),
         WITH_FOLDER(comparison_with_a_baseline_leaves_only_the_actual_frame),
         WITH_FOLDER(pictures_show_expected_actual_and_difference),
+        WITH_FOLDER(with_flip_the_evidence_has_a_map),
         WITH_FOLDER(equal_frames_leave_no_pictures),
         cmocka_unit_test(different_frame_names_have_different_file_names),
         WITH_FOLDER(pictures_of_subfolders_lie_in_subfolders),
