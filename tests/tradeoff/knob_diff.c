@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "fixture.h"
+#include "flip.h"
 #include "frames.h"
 #include "image_compare.h"
 #include "knob.h"
@@ -13,24 +14,27 @@
 #include "recording_file.h"
 
 static const column columns[] = {
-    {"setting", "--max-delta: the distance of two colours that is forgiven, of 1 for black and white", NULL},
+    {"setting", "--max-delta: the distance of two colours that is forgiven, of 1 for black and white; or --flip", NULL},
     {"found", "pixels that still count as different, of all pixels", NULL},
     {"differ", "pixels that differ at all, of all pixels", NULL},
     {"worst", "the largest distance of two colours of a pixel", NULL},
+    {"flip", "mean FLIP of the frame: how visible the distortion is, from 0 to 1", NULL},
     {"ms", "processor milliseconds to compare two frames of 640 x 360", NULL},
 };
 
 static const chart charts[] = {
     {.title = "Pixels that are still found",
      .x = "setting",
-     .x_label = "--max-delta",
+     .x_label = "--max-delta or --flip",
      .y = "found",
      .y_label = "share of pixels that count as different",
      .y_log = true},
-    {.title = "Time", .x = "setting", .x_label = "--max-delta", .y = "ms", .y_label = "milliseconds"},
+    {.title = "Time", .x = "setting", .x_label = "--max-delta or --flip", .y = "ms", .y_label = "milliseconds"},
 };
 
 static const double deltas[] = {0, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2};
+#define DELTA "max-delta alone"
+#define FLIP "--flip"
 enum { DELTAS = sizeof deltas / sizeof deltas[0], WIDTH = 640, HEIGHT = 360, TIMES = 5 };
 
 /* ---- Distortions -------------------------------------------------------------------------------------------- */
@@ -121,20 +125,48 @@ static image draw_frame(const subject *s, int aa)
     return frame;
 }
 
-static void compare_within(table *t, const char *scene, const char *variant, const image *a, const image *b,
-                           image_tolerance tolerance)
+/* Compare as octreel diff does; *time is in milliseconds. */
+static image_difference compare(const image *a, const image *b, const image_tolerance *tolerance, double *time)
 {
-    const double pixels = (double)a->width * (double)a->height;
     image_difference found = {0};
     double times[TIMES];
     for (int i = 0; i < TIMES; i++) {
         const double start = processor_time();
-        found = image_compare_within(a, b, &tolerance);
+        found = image_compare_within(a, b, tolerance);
+        found.has_flip = tolerance->flip;
+        if (tolerance->flip && !image_measure_flip(a, b, tolerance, NULL, &found.flip))
+            stop_with_error("there is no memory for FLIP");
         times[i] = processor_time() - start;
     }
+    *time = median(times, TIMES) / 1e6;
+    return found;
+}
+
+static void compare_within(table *t, const char *scene, const char *variant, const image *a, const image *b,
+                           image_tolerance tolerance)
+{
+    const double pixels = (double)a->width * (double)a->height;
+    double time;
+    const image_difference found = compare(a, b, &tolerance, &time);
     table_add(t, scene, variant,
               (double[]){tolerance.max_delta, (double)found.counted.pixels / pixels,
-                         (double)found.unlike.pixels / pixels, found.unlike.worst_delta, median(times, TIMES) / 1e6});
+                         (double)found.unlike.pixels / pixels, found.unlike.worst_delta, NAN, time});
+}
+
+/* --flip forgives a frame as a whole. */
+static void compare_flip(table *t, const char *scene, const image *a, const image *b)
+{
+    const double pixels = (double)a->width * (double)a->height;
+    image_tolerance tolerance = {.flip = true, .pixels_per_degree = FLIP_PIXELS_PER_DEGREE};
+    double time;
+    const image_difference found = compare(a, b, &tolerance, &time);
+    for (int i = 0; i < DELTAS; i++) {
+        tolerance.max_flip = deltas[i];
+        const bool forgiven = image_is_within_tolerance(&found, &tolerance);
+        table_add(t, scene, FLIP,
+                  (double[]){deltas[i], forgiven ? 0 : (double)found.counted.pixels / pixels,
+                             (double)found.unlike.pixels / pixels, found.unlike.worst_delta, found.flip.mean, time});
+    }
 }
 
 static void measure(const run *r, table *t)
@@ -148,8 +180,9 @@ static void measure(const run *r, table *t)
             distortions[i].apply(&frame, &distorted);
         for (int j = 0; j < DELTAS; j++)
             for (int edges = 0; edges < 2; edges++)
-                compare_within(t, distortions[i].name, edges ? "with --antialias" : "max-delta alone", &frame,
-                               &distorted, (image_tolerance){.max_delta = deltas[j], .antialias = edges == 1});
+                compare_within(t, distortions[i].name, edges ? "with --antialias" : DELTA, &frame, &distorted,
+                               (image_tolerance){.max_delta = deltas[j], .antialias = edges == 1});
+        compare_flip(t, distortions[i].name, &frame, &distorted);
         attach_picture(r, t, &distorted, 64, 36, distortions[i].name);
         image_release(&distorted);
     }
@@ -158,7 +191,7 @@ static void measure(const run *r, table *t)
     subject_free(s);
 }
 
-/* The least --max-delta that forgives a distortion, of those measured; infinite if none does. */
+/* The least setting that forgives a distortion, of those measured; infinite if none does. */
 static double least_forgiving(const table *t, const char *scene, const char *variant)
 {
     double least = INFINITY;
@@ -169,12 +202,12 @@ static double least_forgiving(const table *t, const char *scene, const char *var
     return least;
 }
 
-/* List the distortions that some measured --max-delta forgives, or those that none does. */
-static void list_distortions(const table *t, bool forgiven, FILE *out)
+/* List the distortions that some measured setting forgives, or those that none does. */
+static void list_distortions(const table *t, const char *variant, bool forgiven, FILE *out)
 {
     const char *separator = " ";
     for (int i = 0; i < DISTORTIONS; i++) {
-        const double least = least_forgiving(t, distortions[i].name, "max-delta alone");
+        const double least = least_forgiving(t, distortions[i].name, variant);
         if (isfinite(least) != forgiven)
             continue;
         fprintf(out, "%s%s", separator, distortions[i].name);
@@ -182,31 +215,41 @@ static void list_distortions(const table *t, bool forgiven, FILE *out)
             fprintf(out, " (%g)", least);
         separator = ", ";
     }
+    if (*separator == ' ')
+        fputs(" none", out);
 }
 
 static void tell(const table *t, FILE *out)
 {
     fputs("Nothing is forgiven by default. A --max-delta forgives", out);
-    list_distortions(t, true, out);
-    fprintf(out, "; none up to %g forgives", deltas[DELTAS - 1]);
-    list_distortions(t, false, out);
+    list_distortions(t, DELTA, true, out);
+    fprintf(out, "; up to %g it still finds", deltas[DELTAS - 1]);
+    list_distortions(t, DELTA, false, out);
+    fputs(". A --flip forgives", out);
+    list_distortions(t, FLIP, true, out);
+    fputs("; it still finds", out);
+    list_distortions(t, FLIP, false, out);
     fputs(".", out);
 }
 
 static void defend(const table *t, FILE *out)
 {
-    const double noise = least_forgiving(t, "noise of 2 levels", "max-delta alone");
-    const pick line = {.scene = "a line is missing", .variant = "max-delta alone", .setting = noise};
+    const double noise = least_forgiving(t, "noise of 2 levels", DELTA);
+    const pick line = {.scene = "a line is missing", .variant = DELTA, .setting = noise};
+    const pick seen = {.scene = line.scene, .variant = FLIP, .setting = 0}, grain = {"noise of 2 levels", FLIP, 0};
     fprintf(
         out,
         "Octreel draws the same pixels everywhere, so its own frames need no tolerance. For frames of other programs: "
-        "%g forgives noise of 2 levels, and still finds %.2f %% of all pixels where a line is missing.",
-        noise, 100 * table_sum(t, line, "found"));
+        "%g forgives noise of 2 levels, and still finds %.2f %% of all pixels where a line is missing. A mean hides "
+        "what is small: the FLIP of the missing line is %.3g, and that of the noise %.3g. --flip is for differences "
+        "all "
+        "over the frame, such as another driver's antialiasing.",
+        noise, 100 * table_sum(t, line, "found"), table_sum(t, seen, "flip"), table_sum(t, grain, "flip"));
 }
 
 const knob knob_diff = {
     .name = "diff",
-    .title = "Tolerances of octreel diff: --max-delta and --antialias",
+    .title = "Tolerances of octreel diff: --max-delta, --antialias and --flip",
     .trades = "Differences that are forgiven for differences that are missed.",
     .preset = "no tolerance: one pixel that differs by one level is found",
     .proven = "Without a tolerance every pixel that differs counts.",

@@ -124,11 +124,9 @@ static const command_option options[] = {
     {"antialias", NULL, "ignore pixels on anti-aliased edges (Vysniauskas 2009, as in pixelmatch)", .read = read_flag,
      OPTION_VALUE(arguments, options.tolerance.antialias)},
     {"flip", "X",
-     "accept a frame whose mean FLIP (Andersson and others 2020) is at most X. FLIP is how visible the difference is "
-     "to "
+     "accept a frame whose mean FLIP (Andersson and others 2020) is at most X. FLIP is how visible a difference is to "
      "a person who sees the two frames in alternation, from 0, invisible, to 1. It is measured and reported with any "
-     "X; "
-     "0 accepts nothing visible",
+     "X. A mean hides small differences: a missing line in a frame of 640 x 360 pixels has about 0.001",
      .read = read_flip, OPTION_VALUE(arguments, options.tolerance)},
     {"pixels-per-degree", "N",
      "resolution that a person sees, for --flip, from 1 to 200 (default 67: a display 0.7 m and 3840 pixels wide, seen "
@@ -344,7 +342,7 @@ const command command_diff = {
                 "octreel diff before.png after.png\n"
                 "# compare folders, with a colour tolerance and without the top left corner\n"
                 "octreel diff golden frames --max-delta 0.02 --ignore 0,0,320,16\n"
-                "# accept differences that a person barely sees\n"
+                "# accept the antialiasing of another graphics driver\n"
                 "octreel diff golden frames --flip 0.01\n"
                 "# in a GitHub job: write evidence/report.html and a summary of the job\n"
                 "octreel diff golden frames -o evidence --markdown - >> \"$GITHUB_STEP_SUMMARY\"\n"

@@ -249,7 +249,7 @@ static void question_mark_lists_the_keys(void **state)
     assert_said(state, "help before", "false");
     assert_said(state, "help", "true");
     assert_said(state, "behind the help", "frame_000000.png");
-    assert_said(state, "keys listed", "n \xe2\x86\x92 p \xe2\x86\x90 Home End s b d t e a space [ ] z + - 0 x m ?");
+    assert_said(state, "keys listed", "n \xe2\x86\x92 p \xe2\x86\x90 Home End s b d f t e a space [ ] z + - 0 x m ?");
 }
 
 /* What cannot be read cannot be accepted. */
@@ -313,6 +313,24 @@ static void page_of_tolerated_differences_says_that_frames_differ(void **state)
     comparison_of made = assert_compared(a.path, b.path, &options);
     write_page_of(&made, folder.path, true, NULL);
     assert_opens_with(state, folder, "<h2>1 frame differs and is forgiven</h2>");
+}
+
+static void page_shows_flip_where_it_was_measured(void **state)
+{
+    driven *d = *state;
+    const place a = gallery_make(d->folder, "seen", "1.png"), b = gallery_make(d->folder, "unseen", "1.png");
+    const place folder = place_in(d->folder, "visible"), exact = place_in(d->folder, "exact");
+    diff_options options = diff_options_default();
+    options.tolerance.flip = true;
+    gallery_write(place_below(b.path, "1.png").path, 7, 0);
+    comparison_of made = assert_compared(a.path, b.path, &options);
+    write_page_of(&made, folder.path, true, NULL);
+    assert_opens_with(state, folder, "<dt>FLIP</dt><dd data-fact=\"FLIP\">mean 0.");
+    assert_opens_with(state, folder, "<p id=\"flip-colors\">");
+    assert_opens_with(state, folder, "title=\"FLIP (f)\" aria-pressed=\"false\">FLIP</button>");
+    write_page(a.path, b.path, exact.path, NULL, NULL);
+    assert_opens_with(state, exact,
+                      "title=\"FLIP (f)\" aria-pressed=\"false\" disabled=\"\" hidden=\"\">FLIP</button>");
 }
 
 /* In the list beside the pictures, as wide windows have it. */
@@ -411,6 +429,7 @@ int main(void)
         cmocka_unit_test(page_loads_no_other_file),
         cmocka_unit_test(page_of_no_difference_says_so),
         cmocka_unit_test(page_of_tolerated_differences_says_that_frames_differ),
+        cmocka_unit_test(page_shows_flip_where_it_was_measured),
         cmocka_unit_test(file_names_are_neither_changed_nor_cut),
         cmocka_unit_test(page_of_few_differences_shows_all),
         cmocka_unit_test(large_pictures_stay_in_files_beside_the_page),
