@@ -7,6 +7,7 @@
 #include "diff_words.h"
 #include "file.h"
 #include "file_kind.h"
+#include "flip.h"
 #include "pair.h"
 #include "text.h"
 
@@ -42,7 +43,7 @@ octreel_pixels octreel_make_pixels(const void *data, int width, int height, octr
 
 octreel_compare_def octreel_compare_def_default(void)
 {
-    return (octreel_compare_def){.background = 0xffffff};
+    return (octreel_compare_def){.background = 0xffffff, .pixels_per_degree = FLIP_PIXELS_PER_DEGREE};
 }
 
 /* ---- The definition ------------------------------------------------------------------------------------------ */
@@ -60,6 +61,12 @@ static bool check_definition(const octreel_compare_def *def, octreel_error *erro
 {
     if (!(def->max_delta >= 0 && def->max_delta <= 1)) /* a NaN is refused, too */
         return error_set(error, "max_delta is %g; it must be from 0 to 1", def->max_delta);
+    if (def->flip && !(def->max_flip >= 0 && def->max_flip <= 1))
+        return error_set(error, "max_flip is %g; it must be from 0 to 1", def->max_flip);
+    if (def->flip && !(def->pixels_per_degree >= FLIP_LEAST_PIXELS_PER_DEGREE &&
+                       def->pixels_per_degree <= FLIP_MOST_PIXELS_PER_DEGREE))
+        return error_set(error, "pixels_per_degree is %g; it must be from %d to %d", def->pixels_per_degree,
+                         FLIP_LEAST_PIXELS_PER_DEGREE, FLIP_MOST_PIXELS_PER_DEGREE);
     if (def->background > 0xffffff)
         return error_set(error, "background is 0x%08x; it must be 0xRRGGBB", (unsigned)def->background);
     if (def->ignored_count > 0 && !def->ignored)
@@ -77,6 +84,9 @@ static void set_options(comparing *c)
     c->options.tolerance = (image_tolerance){.max_pixels = def->max_pixels,
                                              .max_delta = def->max_delta,
                                              .antialias = def->antialias,
+                                             .flip = def->flip,
+                                             .max_flip = def->max_flip,
+                                             .pixels_per_degree = def->pixels_per_degree,
                                              .ignored = def->ignored,
                                              .ignored_count = def->ignored_count};
     c->options.background =
@@ -205,6 +215,8 @@ static void copy_difference(octreel_comparison *result, const image_difference *
     result->antialiased = d->antialiased;
     result->ignored = d->ignored;
     result->worst_delta = tally->worst_delta;
+    result->mean_flip = d->has_flip ? d->flip.mean : 0;
+    result->worst_flip = d->has_flip ? d->flip.worst : 0;
     result->worst_x = tally->worst_x;
     result->worst_y = tally->worst_y;
     result->largest_channel = tally->largest_channel;

@@ -2,6 +2,7 @@
 /* pair.c - compares two frames: first the bytes of their files, then their pixels or digests. */
 #include "pair.h"
 #include "file.h"
+#include "flip.h"
 #include "png_chunks.h"
 #include "png_read.h"
 

@@ -259,8 +259,11 @@ static void tolerances_are_those_of_octreel_diff(void **state)
         def.max_pixels = next_random(&random) % 20;
         def.ignored = ignored;
         def.ignored_count = next_random(&random) % 3;
-        const image_tolerance tolerance = {def.max_pixels, def.max_delta,     def.antialias,
-                                           ignored,        def.ignored_count, NULL};
+        const image_tolerance tolerance = {.max_pixels = def.max_pixels,
+                                           .max_delta = def.max_delta,
+                                           .antialias = def.antialias,
+                                           .ignored = ignored,
+                                           .ignored_count = def.ignored_count};
         const image image_a = picture_of(a), image_b = picture_of(b);
         const image_difference expected = naive_compare(&image_a, &image_b, &tolerance);
         const octreel_pixels of_a = octreel_make_pixels(a, WIDTH, HEIGHT, OCTREEL_RGB8);
@@ -308,6 +311,30 @@ static void invalid_pixels_are_refused(void **state)
     assert_int_equal(octreel_compare_pixels(&bad, &good, NULL, NULL), OCTREEL_VERDICT_TROUBLE);
 }
 
+/* One level of green is hardly visible, white on black is. FLIP is measured only if the definition asks for it. */
+static void flip_forgives_invisible_differences(void **state)
+{
+    (void)state;
+    enum { SIDE = 8, BYTES = 3 * SIDE * SIDE };
+    unsigned char reference[BYTES] = {0}, faint[BYTES] = {0}, white[BYTES];
+    memset(white, 255, sizeof white);
+    faint[3 * 20 + 1] = 1;
+    const octreel_pixels pixels[3] = {octreel_make_pixels(reference, SIDE, SIDE, OCTREEL_RGB8),
+                                      octreel_make_pixels(faint, SIDE, SIDE, OCTREEL_RGB8),
+                                      octreel_make_pixels(white, SIDE, SIDE, OCTREEL_RGB8)};
+    octreel_compare_def def = octreel_compare_def_default();
+    octreel_comparison found = compare(&pixels[1], &pixels[0], &def);
+    assert_true(found.verdict == OCTREEL_VERDICT_DIFFERENT && found.mean_flip == 0);
+    def.flip = true;
+    def.max_flip = 0.01;
+    found = compare(&pixels[1], &pixels[0], &def);
+    assert_true(found.verdict == OCTREEL_VERDICT_SAME && found.mean_flip > 0 && found.mean_flip <= found.worst_flip);
+    found = compare(&pixels[2], &pixels[0], &def);
+    assert_true(found.verdict == OCTREEL_VERDICT_DIFFERENT && found.mean_flip > 0.5);
+    found = compare(&pixels[0], &pixels[0], &def);
+    assert_true(found.verdict == OCTREEL_VERDICT_SAME && found.mean_flip == 0);
+}
+
 static void invalid_definitions_are_refused(void **state)
 {
     (void)state;
@@ -318,7 +345,15 @@ static void invalid_definitions_are_refused(void **state)
     for (size_t i = 0; i < sizeof deltas / sizeof *deltas; i++) {
         def.max_delta = deltas[i];
         assert_trouble(&good, &good, &def, "max_delta is ");
+        def = octreel_compare_def_default();
+        def.flip = true;
+        def.max_flip = deltas[i];
+        assert_trouble(&good, &good, &def, "max_flip is ");
+        def = octreel_compare_def_default();
     }
+    def.flip = true;
+    def.pixels_per_degree = 0.5;
+    assert_trouble(&good, &good, &def, "pixels_per_degree is 0.5; it must be from 1 to 200");
     def = octreel_compare_def_default();
     def.background = 0x1000000;
     assert_trouble(&good, &good, &def, "background is 0x01000000; it must be 0xRRGGBB");
@@ -356,6 +391,7 @@ int main(void)
         cmocka_unit_test(depth_alone_is_no_difference),
         cmocka_unit_test(tolerances_are_those_of_octreel_diff),
         cmocka_unit_test(invalid_pixels_are_refused),
+        cmocka_unit_test(flip_forgives_invisible_differences),
         cmocka_unit_test(invalid_definitions_are_refused),
         cmocka_unit_test(other_size_is_a_difference),
         cmocka_unit_test(one_pixel_of_any_band_is_found),

@@ -79,8 +79,13 @@ typedef struct octreel_compare_def {
     /* Forgive pixels whose two colours are at most this far apart, from 0, equal, to 1. The distance is YIQ (Kotsarenko
      * and Ramos 2010), the one of pixelmatch's threshold. */
     double max_delta;
-    bool antialias;                   /* true: forgive pixels on anti-aliased edges, as pixelmatch finds them */
-    uint64_t max_pixels;              /* forgive up to this many differing pixels that no other rule forgives */
+    /* true: call the pictures the same if their mean FLIP (Andersson et al. 2020), a measure of how visible their
+     * difference is, is at most max_flip, from 0, invisible, to 1 */
+    bool flip;
+    double max_flip;
+    double pixels_per_degree; /* for FLIP: the pixels of the display in a degree of the visual field, 1 to 200 */
+    bool antialias;           /* true: forgive pixels on anti-aliased edges, as pixelmatch finds them */
+    uint64_t max_pixels;      /* forgive up to this many differing pixels that no other rule forgives */
     const octreel_rectangle *ignored; /* rectangles whose pixels are not compared; may be null if the count is 0 */
     size_t ignored_count;
     uint32_t background; /* 0xRRGGBB: the colour behind transparent pixels; a baseline has its own instead */
@@ -89,7 +94,7 @@ typedef struct octreel_compare_def {
     const char *frame;
 } octreel_compare_def;
 
-/* Returns a definition that forgives nothing, with a white background. */
+/* Returns a definition that forgives nothing, with a white background, and a display of 67 pixels per degree. */
 octreel_compare_def octreel_compare_def_default(void);
 
 /* What a comparison found. Counts are numbers of pixels. Coordinates are in pixels from the left upper corner, and -1
@@ -107,6 +112,7 @@ typedef struct octreel_comparison {
     uint64_t ignored;                      /* pixels in ignored rectangles whose colours differ */
     double worst_delta;                    /* the largest distance of the two colours of a pixel, as max_delta */
     int worst_x, worst_y;                  /* the first pixel in reading order that has it */
+    double mean_flip, worst_flip;          /* if the definition asks for FLIP: the mean and the largest value, else 0 */
     int largest_channel;                   /* the largest difference of two samples of a channel */
     int channel_range; /* the largest possible one: 255, or 65535 with samples of 16 bits; 0: not compared */
     int min_x, min_y, max_x, max_y; /* the smallest rectangle around the pixels, both corners inclusive */
@@ -120,7 +126,8 @@ typedef struct octreel_comparison {
  * frame.
  *
  * Memory: for pixels, at most 6 bytes a pixel, and none for RGB8 and GREY8 without gaps and from the top down. For
- * files, some rows; with antialias, and for files that are interlaced or have samples of 16 bits, 8 bytes a pixel. */
+ * files, some rows; with antialias or flip, and for files that are interlaced or have samples of 16 bits, 8 bytes a
+ * pixel. */
 octreel_verdict octreel_compare_pixels(const octreel_pixels *actual, const octreel_pixels *reference,
                                        const octreel_compare_def *def, octreel_comparison *result);
 octreel_verdict octreel_compare_pixels_to_file(const octreel_pixels *actual, const char *reference,
