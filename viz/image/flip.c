@@ -211,30 +211,46 @@ typedef struct totals {
     uint64_t count;
 } totals;
 
-/* Strips are processed one after the other, so that a pixel further up may come later. */
-static void find_worst(image_flip *flip, double value, int x, int y)
+static void clear_ignored_values(strip *s, int y, totals *all)
 {
-    if (value > flip->worst || (value > 0 && value == flip->worst && y < flip->worst_y))
-        *flip = (image_flip){.worst = value, .worst_x = x, .worst_y = y};
+    for (int i = 0; i < s->count; i++)
+        if (image_is_pixel_ignored(s->tolerance, s->images[0]->width, s->left + i, y)) {
+            s->values[i] = 0;
+            all->count--;
+        }
+}
+
+/* Four sums, because one would wait for each addition. */
+static double add_values(const float *values, int count)
+{
+    double sums[4] = {0, 0, 0, 0};
+    for (int i = 0; i < count; i++)
+        sums[i % 4] += (double)values[i];
+    return (sums[0] + sums[1]) + (sums[2] + sums[3]);
+}
+
+/* Strips are processed one after the other, so that a pixel further up may come later. */
+static void find_worst(const strip *s, int y, image_flip *flip)
+{
+    for (int i = 0; i < s->count; i++) {
+        const double value = (double)s->values[i];
+        if (value > flip->worst || (value == flip->worst && value > 0 && y < flip->worst_y))
+            *flip = (image_flip){.worst = value, .worst_x = s->left + i, .worst_y = y};
+    }
 }
 
 /* Add the values of row y, and store them in the map. */
 static void count_row(strip *s, int y, totals *all, image_flip *flip, uint8_t *map)
 {
-    const int width = s->images[0]->width;
-    const bool ignores = has_ignored_pixels(s->tolerance);
-    double sum = 0;
-    for (int i = 0; i < s->count; i++) {
-        const int x = s->left + i;
-        const bool ignored = ignores && image_is_pixel_ignored(s->tolerance, width, x, y);
-        const float value = ignored ? 0 : s->values[i];
-        sum += (double)value;
-        all->count += !ignored;
-        find_worst(flip, (double)value, x, y);
-        if (map)
-            map[(size_t)y * (size_t)width + (size_t)x] = (uint8_t)(255 * value + 0.5f);
-    }
-    all->sum += sum;
+    all->count += (uint64_t)s->count;
+    if (has_ignored_pixels(s->tolerance))
+        clear_ignored_values(s, y, all);
+    all->sum += add_values(s->values, s->count);
+    find_worst(s, y, flip);
+    if (map)
+        map += (size_t)y * (size_t)s->images[0]->width + (size_t)s->left;
+    for (int i = 0; map && i < s->count; i++)
+        map[i] = (uint8_t)(255 * s->values[i] + 0.5f);
 }
 
 static void measure_strip(strip *s, totals *all, image_flip *flip, uint8_t *map)

@@ -13,7 +13,8 @@
 
 /* Measure FLIP between two images of the same size: the mean and the largest value of all pixels that the tolerance
  * does not ignore. Ignored pixels of `b` are read from `a`, so that they do not change the values of their neighbours.
- * Equal images have the mean 0. The order of the two images does not matter, unless pixels are ignored.
+ * Equal images have the mean 0. The order of the two images does not matter, unless pixels are ignored. The tolerance's
+ * pixels_per_degree must be within the limits above.
  *
  * Each pixel's value, rounded to 0..255, is stored in `map`, which has a byte for each pixel or is null; ignored pixels
  * have the value 0. Returns false if memory runs out.

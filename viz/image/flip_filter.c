@@ -3,22 +3,21 @@
  *
  * A picture of N pixels and a filter of K x K weights cost N K K products. All filters of FLIP are Gaussians, their
  * derivatives, or a sum of two Gaussians. Such a filter is a product of a function of x and a function of y, so that a
- * pass along the rows and a pass along the columns cost 2 N K. The kernels are also even or odd, so that two taps share
- * a product. Both passes use the same functions: a tap is a pointer to a row, and in the pass along the rows it points
- * k floats further into the same row.
+ * pass along the rows and a pass along the columns cost 2 N K products. The kernels are also even or odd, so that two
+ * taps share a product. Both passes use the same functions: a tap is a pointer to a row, and in the pass along the rows
+ * it points k floats further into the same row.
  *
  * Each sum is computed tap by tap for all pixels of a row. A compiler may then compute several pixels at once without
  * changing the order of any sum, which would change bits. Five pairs of taps are added at a time, so that the sum is
  * loaded and stored less often.
  *
- * Source of the kernels: P. Andersson and others, "FLIP: A Difference Evaluator for Alternating Images", 2020, sections
- * 4.1.1 and 4.2.1. The authors also describe the split of the sum of two Gaussians. */
+ * Source of the kernels, and of the split of the sum of two Gaussians: P. Andersson and others, "FLIP: A Difference
+ * Evaluator for Alternating Images", 2020. */
 #include "flip_filter.h"
 #include "portable_math.h"
 
 #include <math.h>
 #include <stdbool.h>
-#include <string.h>
 
 #define PI 3.14159265358979324
 
@@ -39,6 +38,11 @@ static const sensitivity LUMINANCE = {1, 0.0047}, RED_GREEN = {1, 0.0053},
 /* Weights below this part of the middle one are dropped: they are close to the rounding of a float. Luminance and
  * red-green have 11 taps instead of 21. */
 #define NEGLIGIBLE 1e-6
+
+static int round_up(double x)
+{
+    return (int)-floor(-x);
+}
 
 static void store_weights(flip_kernel *kernel, const double *weights, int radius, double scale)
 {
@@ -91,7 +95,7 @@ static void balance(double *weights, int radius, bool odd)
 static void make_detectors(double pixels_per_degree, flip_kernels *kernels)
 {
     const double deviation = 0.5 * EDGE_WIDTH * pixels_per_degree;
-    const int radius = (int)ceil(3 * deviation);
+    const int radius = round_up(3 * deviation);
     double smooth[FLIP_MOST_RADIUS + 1], edge[FLIP_MOST_RADIUS + 1], point[FLIP_MOST_RADIUS + 1];
     const double sum = compute_gaussian(1, -0.5 / (deviation * deviation), radius, smooth);
     for (int k = 0; k <= radius; k++) {
@@ -107,7 +111,7 @@ static void make_detectors(double pixels_per_degree, flip_kernels *kernels)
 
 flip_kernels flip_make_kernels(double pixels_per_degree)
 {
-    const int radius = (int)ceil(3 * sqrt(WIDEST / (2 * PI * PI)) * pixels_per_degree);
+    const int radius = round_up(3 * sqrt(WIDEST / (2 * PI * PI)) * pixels_per_degree);
     flip_kernels made = {.reach = (radius + FLIP_STEP - 1) / FLIP_STEP * FLIP_STEP};
     make_blur(&LUMINANCE, 1, radius, pixels_per_degree, &made.luminance);
     make_blur(&RED_GREEN, 1, radius, pixels_per_degree, &made.red_green);
@@ -118,83 +122,79 @@ flip_kernels flip_make_kernels(double pixels_per_degree)
 
 /* ---- Rows -------------------------------------------------------------------------------------------------------- */
 
-/* Add the FLIP_STEP pairs of taps from k on of an even kernel. w points to the weight of k, up to the row k below the
- * middle row, and down to the row k above it. */
+/* Returns the sum of FLIP_STEP pairs of taps of an even kernel at pixel x. up[0] is the row that w[0] weighs, up[1] the
+ * row below it; down[0] is the other row of w[0], down[-1] the row above it. */
+static inline float sum_even(const float *w, const float *const *up, const float *const *down, int x)
+{
+    return w[0] * (up[0][x] + down[0][x]) + w[1] * (up[1][x] + down[-1][x]) + w[2] * (up[2][x] + down[-2][x]) +
+           w[3] * (up[3][x] + down[-3][x]) + w[4] * (up[4][x] + down[-4][x]);
+}
+
+static inline float sum_odd(const float *w, const float *const *up, const float *const *down, int x)
+{
+    return w[0] * (up[0][x] - down[0][x]) + w[1] * (up[1][x] - down[-1][x]) + w[2] * (up[2][x] - down[-2][x]) +
+           w[3] * (up[3][x] - down[-3][x]) + w[4] * (up[4][x] - down[-4][x]);
+}
+
+/* Add FLIP_STEP pairs. The pointers are copied, because gcc 12 does not vectorize a loop that loads them. */
 static void add_pairs(const float *w, const float *const *up, const float *const *down, int count, float *restrict out)
 {
-    const float *a = up[0], *b = up[1], *c = up[2], *d = up[3], *e = up[4];
-    const float *p = down[0], *q = down[-1], *r = down[-2], *s = down[-3], *t = down[-4];
+    const float *const rows[] = {up[0], up[1], up[2], up[3], up[4]};
+    const float *const others[] = {down[-4], down[-3], down[-2], down[-1], down[0]};
+    const float weights[] = {w[0], w[1], w[2], w[3], w[4]};
     for (int x = 0; x < count; x++)
-        out[x] += w[0] * (a[x] + p[x]) + w[1] * (b[x] + q[x]) + w[2] * (c[x] + r[x]) + w[3] * (d[x] + s[x]) +
-                  w[4] * (e[x] + t[x]);
+        out[x] += sum_even(weights, rows, others + 4, x);
 }
 
-/* As add_pairs(), for two kernels. */
-static void add_pairs_twice(const float *w, const float *v, const float *const *up, const float *const *down, int count,
-                            float *restrict out, float *restrict other)
+/* Add all pairs but the first FLIP_STEP. */
+static void add_far_pairs(const flip_kernel *even, const float *const *middle, int count, float *restrict out)
 {
-    const float *a = up[0], *b = up[1], *c = up[2], *d = up[3], *e = up[4];
-    const float *p = down[0], *q = down[-1], *r = down[-2], *s = down[-3], *t = down[-4];
-    for (int x = 0; x < count; x++) {
-        const float ap = a[x] + p[x], bq = b[x] + q[x], cr = c[x] + r[x], ds = d[x] + s[x], et = e[x] + t[x];
-        out[x] += w[0] * ap + w[1] * bq + w[2] * cr + w[3] * ds + w[4] * et;
-        other[x] += v[0] * ap + v[1] * bq + v[2] * cr + v[3] * ds + v[4] * et;
-    }
-}
-
-/* As add_pairs(), for an even kernel and an odd one. */
-static void add_pairs_and_odd(const float *w, const float *v, const float *const *up, const float *const *down,
-                              int count, float *restrict out, float *restrict odd)
-{
-    const float *a = up[0], *b = up[1], *c = up[2], *d = up[3], *e = up[4];
-    const float *p = down[0], *q = down[-1], *r = down[-2], *s = down[-3], *t = down[-4];
-    for (int x = 0; x < count; x++) {
-        out[x] += w[0] * (a[x] + p[x]) + w[1] * (b[x] + q[x]) + w[2] * (c[x] + r[x]) + w[3] * (d[x] + s[x]) +
-                  w[4] * (e[x] + t[x]);
-        odd[x] += v[0] * (a[x] - p[x]) + v[1] * (b[x] - q[x]) + v[2] * (c[x] - r[x]) + v[3] * (d[x] - s[x]) +
-                  v[4] * (e[x] - t[x]);
-    }
-}
-
-static void multiply(float weight, const float *row, int count, float *restrict out)
-{
-    for (int x = 0; x < count; x++)
-        out[x] = weight * row[x];
-}
-
-static void add_all_pairs(const flip_kernel *even, const float *const *middle, int count, float *restrict out)
-{
-    for (int k = 1; k <= even->radius; k += FLIP_STEP)
+    for (int k = 1 + FLIP_STEP; k <= even->radius; k += FLIP_STEP)
         add_pairs(even->weights + k, middle + k, middle - k, count, out);
 }
 
 void filter_even(const flip_kernel *even, const float *const *middle, int count, float *restrict out)
 {
-    multiply(even->weights[0], middle[0], count, out);
-    add_all_pairs(even, middle, count, out);
+    const float *w = even->weights;
+    for (int x = 0; x < count; x++)
+        out[x] = w[0] * middle[0][x] + sum_even(w + 1, middle + 1, middle - 1, x);
+    add_far_pairs(even, middle, count, out);
 }
 
 void filter_even_add(const flip_kernel *even, const float *const *middle, int count, float *restrict out)
 {
+    const float *w = even->weights;
     for (int x = 0; x < count; x++)
-        out[x] += even->weights[0] * middle[0][x];
-    add_all_pairs(even, middle, count, out);
+        out[x] += w[0] * middle[0][x] + sum_even(w + 1, middle + 1, middle - 1, x);
+    add_far_pairs(even, middle, count, out);
 }
 
 void filter_two_even(const flip_kernel *large, const flip_kernel *small, const float *const *middle, int count,
                      float *restrict out_large, float *restrict out_small)
 {
-    multiply(large->weights[0], middle[0], count, out_large);
-    multiply(small->weights[0], middle[0], count, out_small);
-    for (int k = 1; k <= large->radius; k += FLIP_STEP)
-        add_pairs_twice(large->weights + k, small->weights + k, middle + k, middle - k, count, out_large, out_small);
+    const float *v = large->weights, *w = small->weights;
+    for (int x = 0; x < count; x++) {
+        out_large[x] = v[0] * middle[0][x] + sum_even(v + 1, middle + 1, middle - 1, x);
+        out_small[x] = w[0] * middle[0][x] + sum_even(w + 1, middle + 1, middle - 1, x);
+    }
+    for (int k = 1 + FLIP_STEP; k <= large->radius; k += FLIP_STEP)
+        for (int x = 0; x < count; x++) {
+            out_large[x] += sum_even(v + k, middle + k, middle - k, x);
+            out_small[x] += sum_even(w + k, middle + k, middle - k, x);
+        }
 }
 
 void filter_even_and_odd(const flip_kernel *even, const flip_kernel *odd, const float *const *middle, int count,
                          float *restrict out, float *restrict out_odd)
 {
-    multiply(even->weights[0], middle[0], count, out);
-    memset(out_odd, 0, (size_t)count * sizeof *out_odd);
-    for (int k = 1; k <= even->radius || k <= odd->radius; k += FLIP_STEP)
-        add_pairs_and_odd(even->weights + k, odd->weights + k, middle + k, middle - k, count, out, out_odd);
+    const float *v = even->weights, *w = odd->weights;
+    for (int x = 0; x < count; x++) {
+        out[x] = v[0] * middle[0][x] + sum_even(v + 1, middle + 1, middle - 1, x);
+        out_odd[x] = sum_odd(w + 1, middle + 1, middle - 1, x);
+    }
+    for (int k = 1 + FLIP_STEP; k <= even->radius || k <= odd->radius; k += FLIP_STEP)
+        for (int x = 0; x < count; x++) {
+            out[x] += sum_even(v + k, middle + k, middle - k, x);
+            out_odd[x] += sum_odd(w + k, middle + k, middle - k, x);
+        }
 }
