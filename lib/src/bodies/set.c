@@ -391,6 +391,7 @@ static int compare_doubles(const double a[3], const double b[3])
 
 int octree_compare_bodies(const void *a, const void *b)
 {
+    RETURN_IN_DEFAULT_MODE(int, octree_compare_bodies, a, b);
     const octree_body *x = a, *y = b;
     if (x->id != y->id)
         return x->id < y->id ? -1 : 1;

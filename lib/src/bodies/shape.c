@@ -6,6 +6,7 @@
  * certain.
  */
 #include "shape.h"
+#include "../exact/float_mode.h"
 
 /* ---- Boxes and balls ---------------------------------------------------------------------------------------- */
 
@@ -312,6 +313,7 @@ static octree_status check_ball(const octree_region *region)
 
 octree_status octree_region_check(const octree_region *region)
 {
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_region_check, region);
     if (!region)
         return OCTREE_NULL_ARGUMENT;
     switch (region->kind) {

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "octree/bodies.h"
 #include "octree/digest.h"
 #include "octree/game.h"
 #include "octree/sample.h"
@@ -384,6 +385,98 @@ static void play(run *r)
     SAY(octree_foreign_check(&(octree_foreign_tree){.nodes = &node, .node_count = 1}, NULL));
 }
 
+/* ---- Bodies --------------------------------------------------------------------------------------------------- */
+
+static bool visit_body(const octree_body *body, void *context)
+{
+    check_callback(context, IN_VISITOR);
+    add_bytes(context, body, sizeof *body);
+    return true;
+}
+
+static bool visit_pair(const octree_body *a, const octree_body *b, void *context)
+{
+    return visit_body(a, context) && visit_body(b, context);
+}
+
+/* A body whose size depends on its number. */
+static octree_body make_body(size_t i)
+{
+    octree_body body = {.id = i};
+    memcpy(body.position, points[i].position, sizeof body.position);
+    for (int axis = 0; axis < 3; axis++)
+        body.half[axis] = times((int)((i * 7 + (size_t)axis * 5) % (i % 50 == 0 ? 900 : 40)));
+    return body;
+}
+
+static void search_bodies(run *r, const octree_bodies *set, const octree_region *region)
+{
+    octree_hit hits[8];
+    size_t count;
+    const octree_search how = {.trace = trace, .trace_context = r};
+    SAY(octree_region_check(region));
+    SAY(octree_bodies_search(set, region, &how, visit_body, r));
+    SAY(octree_bodies_nearest(set, region->center, 8, region->radius, &how, visit_body, r, hits, &count));
+    for (size_t i = 0; i < count; i++)
+        add_bytes(r, &hits[i], sizeof hits[i]);
+    SAY(octree_bodies_cast(set, region, 8, &how, visit_body, r, hits, &count));
+    for (size_t i = 0; i < count; i++)
+        add_bytes(r, &hits[i], sizeof hits[i]);
+}
+
+static void change_bodies(run *r, octree_bodies *set)
+{
+    enum { MANY = 1200, MOVED = 200 };
+    static octree_body bodies[MANY + MOVED];
+    octree_body bad = make_body(1);
+    for (size_t i = 0; i < MANY + MOVED; i++)
+        bodies[i] = make_body(i);
+    SAY(octree_bodies_insert_many(set, bodies, MANY, NULL, NULL));
+    for (size_t i = 0; i < 50; i++) {
+        SAY(octree_bodies_remove(set, &bodies[i]));
+        SAY(octree_bodies_insert(set, &bodies[i]));
+        SAY(octree_bodies_move(set, &bodies[i], &bodies[MANY + i]));
+    }
+    SAY(octree_bodies_move_many(set, bodies + 50, bodies + MANY + 50, 100, NULL, NULL));
+    SAY(octree_bodies_remove_many(set, bodies + 200, 100, NULL, NULL));
+    SAY(octree_bodies_compact(set));
+    bad.half[1] = times(-1); /* a negative subnormal number is not zero */
+    SAY(octree_bodies_insert(set, &bad));
+    r->digest = octree_digest_word(r->digest, octree_bodies_contain(set, &bodies[400]));
+    r->digest = octree_digest_word(r->digest, octree_bodies_digest(set));
+    r->digest = octree_digest_word(r->digest, octree_bodies_check(set) == NULL);
+    r->digest = octree_digest_word(r->digest, octree_compare_bodies(&bodies[0], &bad) < 0);
+    check_mode(r, "bodies");
+}
+
+static void use_bodies(run *r)
+{
+    octree_bodies *set;
+    octree_def def = definition(r, OCTREE_GROW);
+    SAY(octree_bodies_create(&def, &set));
+    change_bodies(r, set);
+    for (size_t i = 0; i < 20; i++) {
+        const octree_half_space half_space = {{1, -1, 0.5}, times((int)i * 20)};
+        octree_region region = {
+            .contained = i % 2, .half_spaces = &half_space, .half_space_count = 1, .length = HUGE_VAL};
+        octree_collision_box(points[i].position, times(100), &region.box);
+        memcpy(region.center, points[i].position, sizeof region.center);
+        memcpy(region.origin, points[i].position, sizeof region.origin);
+        memcpy(region.from, points[i].position, sizeof region.from);
+        memcpy(region.to, points[i + 1].position, sizeof region.to);
+        memcpy(region.direction, points[i + 2].position, sizeof region.direction);
+        region.radius = times(150);
+        region.half[0] = times(10);
+        for (int kind = 0; kind < OCTREE_REGION_KINDS; kind++) {
+            region.kind = (octree_region_kind)kind;
+            search_bodies(r, set, &region);
+        }
+    }
+    SAY(octree_bodies_pairs(set, NULL, visit_pair, r));
+    octree_bodies_destroy(set);
+    check_mode(r, "octree_bodies_destroy");
+}
+
 /* Call everything in a mode. */
 static run run_script(const mode *m)
 {
@@ -400,6 +493,7 @@ static run run_script(const mode *m)
     look_around(r);
     fail_all(r, points[5].position);
     play(r);
+    use_bodies(r);
     octree_destroy(r->tree);
     check_mode(r, "octree_destroy");
     set_default_mode();
