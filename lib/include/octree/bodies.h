@@ -18,6 +18,7 @@
  *   - A change of one body happens completely or not at all. A call that changes many bodies reports the status of
  * each.
  *   - Bodies that visitors receive are valid during the call.
+ *   - During a bulk change, the executor must not query the set.
  *   - n is the number of bodies, L the number of levels in use, D and M are the depth and the capacity of a level.
  */
 #ifndef OCTREE_BODIES_H
@@ -111,7 +112,7 @@ size_t octree_bodies_memory(const octree_bodies *bodies);
 
 /* Returns the tree of a level, for reading its nodes (octree_walk, octree_statistics). The id of a point of this tree
  * is the argument of octree_bodies_at(). reach[] receives bounds of the half extents in this level; `reach` may be
- * null. Returns null if the level has never had a body, and for level >= OCTREE_BODY_LEVELS. */
+ * null. The tree may be empty. Returns null if the level has no tree yet, and for level >= OCTREE_BODY_LEVELS. */
 const octree *octree_bodies_level(const octree_bodies *bodies, unsigned level, double reach[3]);
 
 /* Store the body of a point of a level in *body. The point must be one that the level's tree holds. */

@@ -93,9 +93,11 @@ static void make_changes(bulk *b, bulk_change *change, void (*finish)(bulk *b, c
         const size_t count = gather_level(b, level);
         if (count == 0)
             continue;
+        const unsigned begun = begin_set_callbacks(b->set); /* the executor */
         octree_status status = create_level(b->set, level);
         if (status == OCTREE_OK)
             status = change(b->set->levels[level].tree, b->points, (const double(*)[3])b->to, count);
+        end_callbacks(begun);
         for (size_t i = 0; i < b->count; i++) {
             const pending *p = &b->items[status == OCTREE_OK ? i : b->count - 1 - i];
             if (p->level != level)
@@ -335,7 +337,9 @@ static void move_row(bulk *b, size_t index)
         return;
     }
     make_changes(b, move_points, finish_move);
-    set_status(b, index, octree_bodies_move(b->set, &b->from[index], moved));
+    const octree_status made = octree_bodies_move(b->set, &b->from[index], moved);
+    set_status(b, index, made);
+    b->failure = b->failure == OCTREE_OK ? made : b->failure;
 }
 
 octree_status octree_bodies_move_many(octree_bodies *bodies, const octree_body *from, const octree_body *to,
@@ -380,11 +384,15 @@ static octree_status rebuild_set(octree_bodies *set, const octree_body *bodies, 
     octree_status status = octree_bodies_create(&set->def, &other);
     if (status != OCTREE_OK)
         return status;
-    const unsigned begun = begin_callbacks(anchor_of(set)); /* an executor of the new set must not change this set */
+    const unsigned begun = begin_set_callbacks(set); /* an executor of the new set must not change this set */
     status = octree_bodies_insert_many(other, bodies, count, statuses, changed);
     end_callbacks(begun);
     if (status == OCTREE_OK)
         swap_sets(set, other);
+    for (size_t i = 0; status != OCTREE_OK && statuses && i < count; i++)
+        statuses[i] = statuses[i] == OCTREE_OK ? status : statuses[i];
+    if (status != OCTREE_OK && changed)
+        *changed = 0;
     octree_bodies_destroy(other);
     return status;
 }

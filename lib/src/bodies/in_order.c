@@ -35,8 +35,9 @@ typedef struct ordered_search {
     body_call accept;
     octree_hit *hits; /* a heap; hits[0] has the greatest key. The key is octree_hit.at */
     size_t count, k;
-    double limit;  /* no body whose key is certainly greater than this is among the first k */
-    double shrink; /* a node is skipped if its bound exceeds this factor times `limit` */
+    double limit;    /* no body whose key is certainly greater than this is among the first k */
+    double farthest; /* a node is also skipped if its bound exceeds this: its bodies are beyond the radius */
+    double shrink;   /* a node is skipped if its bound exceeds this factor times `limit` */
     const level *level;
     meter meter;
 } ordered_search;
@@ -207,7 +208,7 @@ static void sort_hits(ordered_search *s)
 
 static bool is_too_far(const ordered_search *s, double bound)
 {
-    return bound > s->limit * s->shrink || bound > DBL_MAX;
+    return bound > s->limit * s->shrink || bound > s->farthest || bound > DBL_MAX;
 }
 
 static void scan_leaf(ordered_search *s, const node *leaf)
@@ -290,7 +291,7 @@ static void search_level(ordered_search *s, const level *l)
 
 static void search_in_order(ordered_search *s, size_t *count)
 {
-    const unsigned begun = begin_callbacks(anchor_of(s->set));
+    const unsigned begun = begin_set_callbacks(s->set);
     for (unsigned i = 0; i < OCTREE_BODY_LEVELS && s->k > 0; i++)
         if (octree_count(s->set->levels[i].tree) > 0)
             search_level(s, &s->set->levels[i]);
@@ -343,6 +344,7 @@ octree_status octree_bodies_nearest(const octree_bodies *bodies, const double ta
                         .limit = HUGE_VAL,
                         .meter.how = &search};
     s.scale = anchor_of(bodies)->scale;
+    s.farthest = metric_above(radius * s.scale * (radius * s.scale));
     const double factor = 1 + search.epsilon;
     s.shrink = search.epsilon > 0 ? (1 + 0x1p-50) / (factor * factor) : 1;
     search_in_order(&s, count);
@@ -376,6 +378,7 @@ octree_status octree_bodies_cast(const octree_bodies *bodies, const octree_regio
                         .hits = hits,
                         .k = k,
                         .limit = HUGE_VAL,
+                        .farthest = HUGE_VAL,
                         .shrink = 1,
                         .meter.how = &search};
     s.cast = shape_make(ray).cast;

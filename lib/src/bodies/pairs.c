@@ -292,8 +292,7 @@ octree_status octree_bodies_pairs(const octree_bodies *bodies, const octree_bodi
     p.status = make_snapshots(&a, bodies, &memory);
     if (p.status == OCTREE_OK && other)
         p.status = make_snapshots(&b, other, &memory);
-    const unsigned begun = begin_callbacks(anchor_of(bodies)),
-                   begun_other = begin_callbacks(anchor_of(other ? other : bodies));
+    const unsigned begun = begin_set_callbacks(bodies), begun_other = begin_set_callbacks(other ? other : bodies);
     if (p.status == OCTREE_OK && other)
         pair_sets(&p, &a, &b);
     else if (p.status == OCTREE_OK)

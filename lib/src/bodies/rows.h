@@ -11,7 +11,7 @@
 
 #define ROWS_IN_CHUNK 1024
 #define ROW_NONE UINT32_MAX
-#define ROWS_AT_MOST (UINT32_C(3) << 30) /* so that the hash table has fewer than 2^32 slots */
+#define ROWS_AT_MOST (UINT32_C(5) << 29) /* so that the hash table has fewer than 2^32 slots */
 
 typedef struct rows {
     arena *memory;

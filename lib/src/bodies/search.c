@@ -121,7 +121,7 @@ octree_status octree_bodies_search(const octree_bodies *bodies, const octree_reg
     s.call = (body_call){visit, context};
     s.stopped = false;
     const octree_box bounds = shape_bounds(&s.shape);
-    const unsigned begun = begin_callbacks(anchor_of(bodies));
+    const unsigned begun = begin_set_callbacks(bodies);
     for (unsigned i = 0; i < OCTREE_BODY_LEVELS && !s.stopped; i++)
         if (octree_count(bodies->levels[i].tree) > 0)
             search_level(&s, &bodies->levels[i], &bounds);

@@ -59,8 +59,9 @@ octree_status octree_bodies_create(const octree_def *def, octree_bodies **bodies
         octree_destroy(anchor);
         return status;
     }
-    (*bodies)->def = *def;
-    (*bodies)->def.allocator = clamped.allocator;
+    (*bodies)->def = clamped;
+    if (def->leaf_capacity == OCTREE_AUTO)
+        (*bodies)->def.leaf_capacity = OCTREE_AUTO;
     (*bodies)->largest = find_largest_exponent(&def->world);
     (*bodies)->levels[OCTREE_BODY_LEVELS - 1].tree = anchor;
     return OCTREE_OK;
@@ -94,7 +95,7 @@ octree_status check_set_change(const octree_bodies *set)
 {
     if (!set)
         return OCTREE_NULL_ARGUMENT;
-    return set->points ? OCTREE_BAD_OPTION : is_running_callback(anchor_of(set)) ? OCTREE_BUSY : OCTREE_OK;
+    return set->points ? OCTREE_BAD_OPTION : is_running_callback(listed_as(set)) ? OCTREE_BUSY : OCTREE_OK;
 }
 
 octree_status octree_bodies_clear(octree_bodies *bodies)
@@ -113,7 +114,7 @@ octree_status octree_bodies_clear(octree_bodies *bodies)
 
 void octree_bodies_destroy(octree_bodies *bodies)
 {
-    if (!bodies || is_running_callback(anchor_of(bodies)))
+    if (!bodies || is_running_callback(listed_as(bodies)))
         return;
     for (unsigned i = 0; !bodies->points && i < OCTREE_BODY_LEVELS; i++)
         octree_destroy(bodies->levels[i].tree);
@@ -159,7 +160,9 @@ octree_status octree_bodies_insert(octree_bodies *bodies, const octree_body *bod
     if (rows_find(&bodies->rows, &added) != ROW_NONE)
         return OCTREE_DUPLICATE;
     const uint32_t row = rows_add(&bodies->rows, &added);
+    const unsigned begun = begin_set_callbacks(bodies); /* under OCTREE_AUTO, the executor */
     status = octree_insert(bodies->levels[number].tree, added.position, row);
+    end_callbacks(begun);
     if (status == OCTREE_OK)
         change_reach(bodies, number, added.half, 1);
     else
@@ -186,21 +189,24 @@ octree_status octree_bodies_remove(octree_bodies *bodies, const octree_body *bod
     return status;
 }
 
-/* Move the point of a body from one level to another. If the removal fails, the insertion is undone: the merge that
- * this needs finds the blocks that the split has just freed. */
+/* Move the point of a body from one level to another. The memory for the removal is allocated first, so that nothing
+ * can fail after the insertion. */
 static octree_status change_level(octree_bodies *set, const octree_body *from, const octree_body *to, uint32_t row)
 {
     level *old = &set->levels[find_level(set, from->half)], *new = &set->levels[find_level(set, to->half)];
+    prepared_removal leaving;
     if (old == new)
         return octree_move(old->tree, from->position, row, to->position);
     octree_status status = create_level(set, (unsigned)(new - set->levels));
     if (status == OCTREE_OK)
-        status = octree_insert(new->tree, to->position, row);
+        status = prepare_removal(old->tree, from->position, row, &leaving);
     if (status != OCTREE_OK)
         return status;
-    status = octree_remove(old->tree, from->position, row);
-    if (status != OCTREE_OK)
-        octree_remove(new->tree, to->position, row);
+    status = octree_insert(new->tree, to->position, row);
+    if (status == OCTREE_OK)
+        make_removal(old->tree, &leaving);
+    else
+        cancel_removal(old->tree, &leaving);
     return status;
 }
 
@@ -218,7 +224,9 @@ octree_status octree_bodies_move(octree_bodies *bodies, const octree_body *from,
         return OCTREE_NOT_FOUND;
     if (other != ROW_NONE && other != row)
         return OCTREE_DUPLICATE;
+    const unsigned begun = begin_set_callbacks(bodies);
     status = change_level(bodies, &old, &moved, row);
+    end_callbacks(begun);
     if (status != OCTREE_OK)
         return status;
     if (!is_same_position(old.half, moved.half)) {
@@ -307,12 +315,13 @@ uint64_t octree_bodies_digest(const octree_bodies *bodies)
     for (unsigned i = 0; i < OCTREE_BODY_LEVELS; i++)
         if (bodies->levels[i].tree)
             octree_walk(bodies->levels[i].tree, add_leaf_digests, &s);
+    const octree_def *def = bodies->points ? &bodies->points->def : &bodies->def;
     uint64_t digest = octree_digest_word(OCTREE_DIGEST_START, s.sum);
-    digest = octree_digest_word(digest, bodies->def.leaf_capacity);
-    digest = octree_digest_word(digest, bodies->def.max_depth);
+    digest = octree_digest_word(digest, def->leaf_capacity);
+    digest = octree_digest_word(digest, def->max_depth);
     for (int i = 0; i < 3; i++) {
-        digest = octree_digest_double(digest, bodies->def.world.min[i]);
-        digest = octree_digest_double(digest, bodies->def.world.max[i]);
+        digest = octree_digest_double(digest, def->world.min[i]);
+        digest = octree_digest_double(digest, def->world.max[i]);
     }
     return digest;
 }
@@ -391,10 +400,10 @@ static int compare_doubles(const double a[3], const double b[3])
 
 int octree_compare_bodies(const void *a, const void *b)
 {
-    RETURN_IN_DEFAULT_MODE(int, octree_compare_bodies, a, b);
     const octree_body *x = a, *y = b;
     if (x->id != y->id)
         return x->id < y->id ? -1 : 1;
+    RETURN_IN_DEFAULT_MODE(int, octree_compare_bodies, a, b);
     const int order = compare_doubles(x->position, y->position);
     return order ? order : compare_doubles(x->half, y->half);
 }

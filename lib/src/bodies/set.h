@@ -29,10 +29,26 @@ struct octree_bodies {
     double point_half[3]; /* only then: the half extents of all bodies */
 };
 
-/* The tree under which the set is listed while its callbacks run; see visits.h. */
+/* A tree that every set has, for its definition and its axes. */
 static inline const octree *anchor_of(const octree_bodies *set)
 {
     return set->levels[OCTREE_BODY_LEVELS - 1].tree;
+}
+
+/* The pointer under which a set is listed while its callbacks run; see visits.h. It is only compared. It is none of the
+ * set's trees, so that the set can change them while an executor runs. */
+static inline const octree *listed_as(const octree_bodies *set)
+{
+    return (const octree *)(const void *)set;
+}
+
+/* List the set, and the tree whose points it shows. Returns the argument for end_callbacks(). */
+static inline unsigned begin_set_callbacks(const octree_bodies *set)
+{
+    const unsigned begun = begin_callbacks(listed_as(set));
+    if (set->points)
+        begin_callbacks(set->points);
+    return begun;
 }
 
 /* Returns the level of a body with these half extents. */

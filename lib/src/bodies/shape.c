@@ -82,7 +82,7 @@ static octant_masks relate_ball(const shape *s, const cell_halves *h, unsigned o
         const unsigned o = bits_lowest(left), x = o >> 2, y = o >> 1 & 1, z = o & 1;
         const double farthest = (far[0][x] * far[0][x] + far[1][y] * far[1][y]) + far[2][z] * far[2][z];
         meets |= mask_if(!(bound_square(near[0][x], near[1][y], near[2][z]) > above), 1u << o);
-        inside |= mask_if(farthest < below, 1u << o);
+        inside |= mask_if(farthest < below && below <= DBL_MAX, 1u << o);
     }
     return (octant_masks){(uint8_t)meets, (uint8_t)inside};
 }

@@ -124,6 +124,8 @@ static void measure_axis(body_square *s, double gap, double size)
     const double inexact = size * 0x1p-51;
     s->value += gap * gap;
     s->error += inexact * (2 * gap + inexact) + gap * gap * 0x1p-50 + 0x1p-1000;
+    if (s->value > DBL_MAX) /* the sum may overflow where no square does */
+        s->error = HUGE_VAL;
 }
 
 body_square body_measure(const octree_body *e, const double target[3], double scale)

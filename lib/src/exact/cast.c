@@ -228,15 +228,18 @@ static double round_sum(const double t[4], double part)
     return exact_round(&exact);
 }
 
-/* Returns the quotient of a time, of which both parts are multiplied by `part`, a power of two. The numerator, the
- * speed and the quotient are rounded once each. */
-static double divide(const cast *c, const fraction *time, double part)
+/* Returns the quotient of a time. The numerator, the speed and the quotient are rounded once each. If the numerator or
+ * the speed overflows, eighths are divided: then no part is so small that its eighth would be inexact, unless the time
+ * is infinite. */
+static double divide(const cast *c, const fraction *time)
 {
     const double *step = c->step[time->axis];
-    return round_sum(time->terms, part) / fabs(step[0] * part + step[1] * part);
+    const double way = round_sum(time->terms, 1), speed = c->speed[time->axis];
+    if (way <= DBL_MAX && speed <= DBL_MAX)
+        return way / speed; /* infinite only if the time is */
+    return round_sum(time->terms, 0.125) / fabs(step[0] * 0.125 + step[1] * 0.125);
 }
 
-/* If a part overflows, eighths are divided. A speed so small that its eighth is inexact gives an infinite time then. */
 double cast_first_time(const cast *c, const octree_body *e)
 {
     fraction entry;
@@ -246,6 +249,5 @@ double cast_first_time(const cast *c, const octree_body *e)
         return 0;
     if (certain)
         entry = find_time(c, e, axis, -1);
-    const double time = divide(c, &entry, 1);
-    return time <= DBL_MAX && c->speed[entry.axis] <= DBL_MAX ? time : divide(c, &entry, 0.125);
+    return divide(c, &entry);
 }

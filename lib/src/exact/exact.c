@@ -15,6 +15,7 @@
  * the digits in use. Callers compare doubles first and use exact sums only for near ties.
  */
 #include "exact.h"
+#include "bits.h"
 
 /* A finite double: sign * mantissa * 2^exponent. The mantissa is an integer below 2^53. */
 typedef struct decomposed {
@@ -112,12 +113,22 @@ double exact_round(exact_sum *sum)
     int top = sum->end - 1;
     while (top >= sum->first && sum->digits[top] == 0)
         top--;
-    /* The three highest digits have at least 65 significant bits. Their parts are scaled separately, because the value
-     * of a digit alone may be beyond the range of doubles. */
-    double value = 0;
-    for (int i = top; i >= sum->first && i > top - 3; i--)
-        value += ldexp((double)sum->digits[i], 32 * (i - top));
-    return sign < 0 ? -ldexp(value, 32 * top - 2 * 1074) : ldexp(value, 32 * top - 2 * 1074);
+    if (top < sum->first)
+        return 0;
+    /* The 64 highest bits, whose lowest bit is also set if any lower bit is: the conversion rounds correctly. The sum
+     * is value * 2^(32 * (top - 1) - shift - 2148). */
+    uint64_t bits = (uint64_t)sum->digits[top] << 32, rest = 0;
+    if (top > sum->first)
+        bits |= (uint64_t)sum->digits[top - 1];
+    if (top - 1 > sum->first)
+        rest = (uint64_t)sum->digits[top - 2];
+    const int shift = 63 - (int)bits_highest(bits);
+    bits = shift ? bits << shift | rest >> (32 - shift) : bits;
+    bool lower = (rest << shift & UINT32_MAX) != 0;
+    for (int i = sum->first; i < top - 2 && !lower; i++)
+        lower = sum->digits[i] != 0;
+    const double value = ldexp((double)(bits | lower), 32 * (top - 1) - shift - 2 * 1074);
+    return sign < 0 ? -value : value;
 }
 
 int exact_sign_of_sum(const double terms[], int count)

@@ -30,7 +30,7 @@ void exact_add_product(exact_sum *sum, int factor, double a, double b);
  * again. */
 int exact_sign(exact_sum *sum);
 
-/* Returns the sum as a double with an error below 0.501 ulp (one unit of 2^-1074 if it is subnormal). A sum beyond the
+/* Returns the nearest double to the sum; a subnormal result may be one unit of 2^-1074 off. A sum beyond the
  * range of doubles gives an infinity. The call changes the digits, so the sum must be cleared before it is used again.
  */
 double exact_round(exact_sum *sum);

@@ -315,6 +315,26 @@ static void remove_found_point(octree *tree, const found_point *found, node *spa
     tree->version++;
 }
 
+octree_status prepare_removal(octree *tree, const double position[3], uint64_t id, prepared_removal *r)
+{
+    if (!find_point(tree, position, id, &r->found))
+        return OCTREE_NOT_FOUND;
+    return allocate_merged_leaf(tree, &r->found, &r->spare) ? OCTREE_OK : OCTREE_NO_MEMORY;
+}
+
+void make_removal(octree *tree, prepared_removal *r)
+{
+    const octree_point removed = stored_point(&r->found);
+    remove_found_point(tree, &r->found, &r->spare, NULL);
+    if (change_log_is_on(&tree->changes))
+        change_log_append(tree, OCTREE_REMOVED, &removed, NULL);
+}
+
+void cancel_removal(octree *tree, prepared_removal *r)
+{
+    leaf_release(&tree->store, &r->spare);
+}
+
 octree_status remove_point(octree *tree, octree_point *point)
 {
     found_point found;

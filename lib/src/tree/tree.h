@@ -127,4 +127,16 @@ static inline octree_point stored_point(const found_point *found)
 /* Find a pair (position, id). Returns false if the tree does not have the pair. */
 bool find_point(const octree *tree, const double position[3], uint64_t id, found_point *found);
 
+/* A removal whose memory is allocated before the point is removed. prepare_removal() returns OK, NOT_FOUND or
+ * NO_MEMORY. If it returns OK, one of the other two functions must be called before the tree changes; they cannot
+ * fail. */
+typedef struct prepared_removal {
+    found_point found;
+    node spare;
+} prepared_removal;
+
+octree_status prepare_removal(octree *tree, const double position[3], uint64_t id, prepared_removal *r);
+void make_removal(octree *tree, prepared_removal *r);
+void cancel_removal(octree *tree, prepared_removal *r);
+
 #endif

@@ -426,6 +426,137 @@ static void callbacks_cannot_change_the_set(void **state)
     octree_bodies_destroy(set);
 }
 
+/* An executor that tries to change the set whose bulk change it runs. */
+static octree_bodies *set_in_change;
+static size_t runs;
+
+static void change_in_executor(octree_task *task, size_t count, void *task_context, void *context)
+{
+    (void)context;
+    const octree_body body = body_at(1, 1, 1, 4, 1000000);
+    for (size_t i = 0; i < count; i++)
+        task(i, task_context);
+    if (!set_in_change)
+        return;
+    runs++;
+    assert_int_equal(octree_bodies_insert(set_in_change, &body), OCTREE_BUSY);
+    assert_int_equal(octree_bodies_clear(set_in_change), OCTREE_BUSY);
+    octree_bodies_destroy(set_in_change);
+}
+
+static void executors_cannot_change_the_set(void **state)
+{
+    (void)state;
+    enum { MANY = 40000 };
+    static octree_body bodies[MANY];
+    uint64_t seed = 1;
+    octree_bodies *set;
+    octree_def def = define(cube(-8, 8), 8, 21, OCTREE_GROW);
+    def.executor = (octree_executor){change_in_executor, NULL};
+    assert_int_equal(octree_bodies_create(&def, &set), OCTREE_OK);
+    for (size_t i = 0; i < MANY; i++) {
+        bodies[i] = body_at(0, 0, 0, i % 2 ? 0.01 : 0, i);
+        for (int axis = 0; axis < 3; axis++)
+            bodies[i].position[axis] = random_between(&seed, -8, 8);
+    }
+    set_in_change = set;
+    assert_int_equal(octree_bodies_insert_many(set, bodies, MANY, NULL, NULL), OCTREE_OK);
+    assert_int_equal(octree_bodies_remove_many(set, bodies, MANY / 2, NULL, NULL), OCTREE_OK);
+    set_in_change = NULL;
+    assert_true(runs > 0);
+    assert_int_equal(octree_bodies_count(set), MANY / 2);
+    assert_null(octree_bodies_check(set));
+    octree_bodies_destroy(set);
+}
+
+/* A set that shows points is made and destroyed inside a callback of their tree, which it does not change. */
+static bool make_set_of_points(const octree_point *point, void *context)
+{
+    const double half[3] = {1, 1, 1};
+    octree_bodies *set;
+    (void)point;
+    assert_int_equal(octree_bodies_of_points(context, half, &set), OCTREE_OK);
+    octree_bodies_destroy(set); /* frees it: the leak detector would report it */
+    return true;
+}
+
+static void a_set_of_points_lives_inside_a_visit_of_its_tree(void **state)
+{
+    (void)state;
+    const double position[1][3] = {{1, 2, 3}};
+    const octree_box all = cube(-8, 8);
+    octree *tree = make_tree(all, 2, 21, OCTREE_GROW);
+    insert_all(tree, position, 1);
+    assert_int_equal(octree_range(tree, &all, make_set_of_points, tree), OCTREE_OK);
+    octree_destroy(tree);
+}
+
+/* Squares of large distances overflow. */
+static void balls_and_distances_beyond_the_squares_of_doubles_are_right(void **state)
+{
+    (void)state;
+    octree_bodies *set = make_set(cube(0, 1), 1);
+    const octree_region ball = {
+        .kind = OCTREE_REGION_BALL,
+        .center = {-0x1.30c7ea60e2fe4p+511, -0x1.11a5b8b08c836p+511, -0x1.333250f369455p+511},
+        .radius = 0x1p512,
+    };
+    size_t count = 0;
+    for (uint64_t id = 0; id < 8; id++) {
+        const octree_body body = {{id & 1 ? 0.75 : 0.25, id & 2 ? 0.75 : 0.25, id & 4 ? 0.75 : 0.25}, {0}, id};
+        assert_int_equal(octree_bodies_insert(set, &body), OCTREE_OK);
+    }
+    assert_int_equal(octree_bodies_search(set, &ball, NULL, count_bodies, &count), OCTREE_OK);
+    assert_int_equal(count, 0); /* GMP: the nearest corner of the world is farther than the radius */
+    octree_bodies_destroy(set);
+
+    const octree_body large = {{0x1.22b544f35a538p+512, 0x1.f71e099e9b892p+511, 0x1.4d17ce41f888bp+510},
+                               {0x1.3e54ec8b01b85p+510, 0x1.afc8e2805f0a9p+510, 0x1.03984722ae08bp+510},
+                               1};
+    const octree_region other = {.kind = OCTREE_REGION_BALL, .radius = 0x1p512 * (1 - 0x1p-53)};
+    set = make_set(cube(-0x1p600, 0x1p600), 1);
+    assert_int_equal(octree_bodies_insert(set, &large), OCTREE_OK);
+    assert_int_equal(octree_bodies_search(set, &other, NULL, count_bodies, &count), OCTREE_OK);
+    assert_int_equal(count, 1);
+    octree_bodies_destroy(set);
+}
+
+static void a_time_beyond_the_doubles_is_infinite(void **state)
+{
+    (void)state;
+    octree_hit hit;
+    size_t count;
+    octree_bodies *set = make_set(cube(-8, 8), 2);
+    const octree_body body = {{6 * 0x1p-50, 0, 0}, {0}, 1};
+    const octree_region ray = {.kind = OCTREE_REGION_RAY, .direction = {5 * 0x1p-1074, 0, 0}, .length = HUGE_VAL};
+    assert_int_equal(octree_bodies_insert(set, &body), OCTREE_OK);
+    assert_int_equal(octree_bodies_cast(set, &ray, 1, NULL, NULL, NULL, &hit, &count), OCTREE_OK);
+    assert_true(count == 1 && hit.at > DBL_MAX);
+    octree_bodies_destroy(set);
+}
+
+static void a_radius_limits_the_search_for_neighbours(void **state)
+{
+    (void)state;
+    uint64_t seed = 9;
+    octree_hit hits[10];
+    size_t count;
+    octree_cost cost = {0};
+    const double target[3] = {0, 0, 0};
+    octree_bodies *set = make_set(cube(-8, 8), 8);
+    for (uint64_t id = 0; id < 4000; id++) {
+        octree_body body = {.id = id};
+        for (int axis = 0; axis < 3; axis++)
+            body.position[axis] = random_between(&seed, -8, 8);
+        assert_int_equal(octree_bodies_insert(set, &body), OCTREE_OK);
+    }
+    assert_int_equal(
+        octree_bodies_nearest(set, target, 10, 0.5, &(octree_search){.cost = &cost}, NULL, NULL, hits, &count),
+        OCTREE_OK);
+    assert_true(count < 10 && cost.points < 200);
+    octree_bodies_destroy(set);
+}
+
 static void points_of_a_tree_are_bodies_of_one_size(void **state)
 {
     (void)state;
@@ -485,6 +616,11 @@ int main(void)
         cmocka_unit_test(traces_agree_with_costs),
         cmocka_unit_test(epsilon_bounds_the_distance_of_neighbours),
         cmocka_unit_test(callbacks_cannot_change_the_set),
+        cmocka_unit_test(executors_cannot_change_the_set),
+        cmocka_unit_test(a_set_of_points_lives_inside_a_visit_of_its_tree),
+        cmocka_unit_test(balls_and_distances_beyond_the_squares_of_doubles_are_right),
+        cmocka_unit_test(a_time_beyond_the_doubles_is_infinite),
+        cmocka_unit_test(a_radius_limits_the_search_for_neighbours),
         cmocka_unit_test(points_of_a_tree_are_bodies_of_one_size),
         cmocka_unit_test(null_is_an_empty_set),
     };

@@ -337,6 +337,101 @@ static void bulk_changes_report_what_a_failure_has_changed(void **state)
     assert_statuses_are_true(move_many, true, true);
 }
 
+/* Bodies of two sizes, as many as the leaves of two levels hold, and one more in the first: a body that changes its
+ * size makes one leaf merge and the other split. Leaves above 64 points are allocated by the caller's allocator. */
+static void assert_resizing_is_whole(size_t capacity)
+{
+    octree_status status = OCTREE_NO_MEMORY;
+    for (size_t n = 0; status == OCTREE_NO_MEMORY; n++) {
+        uint64_t seed = 5;
+        counting_allocator counts = {0};
+        octree_bodies *set;
+        octree_body first = {.id = 0}, body;
+        octree_def def = define(cube(-1000, 1000), capacity, 21, OCTREE_GROW);
+        def.allocator = counting_allocator_use(&counts);
+        assert_int_equal(octree_bodies_create(&def, &set), OCTREE_OK);
+        for (size_t i = 0; i <= 2 * capacity; i++) {
+            body = (octree_body){.id = i};
+            for (int axis = 0; axis < 3; axis++) {
+                body.position[axis] = random_between(&seed, -1000, 1000);
+                body.half[axis] = i <= capacity ? 1 : 900;
+            }
+            first = i == 0 ? body : first;
+            assert_int_equal(octree_bodies_insert(set, &body), OCTREE_OK);
+        }
+        const uint64_t digest = octree_bodies_digest(set);
+        body = first;
+        body.half[0] = body.half[1] = body.half[2] = 900;
+        counting_allocator_fail_at(&counts, n);
+        counts.fail_until = SIZE_MAX;
+        status = octree_bodies_move(set, &first, &body);
+        counting_allocator_stop_failing(&counts);
+        assert_null(octree_bodies_check(set));
+        assert_true(status == OCTREE_OK || octree_bodies_digest(set) == digest);
+        octree_bodies_destroy(set);
+        assert_all_returned(&counts);
+    }
+    assert_int_equal(status, OCTREE_OK);
+}
+
+static void a_body_that_changes_its_level_is_never_in_both(void **state)
+{
+    (void)state;
+    assert_resizing_is_whole(1);
+    assert_resizing_is_whole(64);
+    assert_resizing_is_whole(65);
+    assert_resizing_is_whole(200);
+}
+
+/* A failed call of octree_bodies_replace_all() has changed nothing, and says so. */
+static void a_failed_replacement_reports_no_change(void **state)
+{
+    (void)state;
+    octree_status status = OCTREE_NO_MEMORY, statuses[48];
+    for (size_t n = 0; status == OCTREE_NO_MEMORY; n++) {
+        size_t changed = 99;
+        octree_body from[48], to[48];
+        counting_allocator counts = {0};
+        octree_bodies *set = make_counted_set(&counts, from, to, 48);
+        for (size_t i = 0; i < 48; i++)
+            statuses[i] = OCTREE_NO_MEMORY;
+        counting_allocator_fail_at(&counts, n);
+        counts.fail_until = SIZE_MAX;
+        status = octree_bodies_replace_all(set, to, 48, statuses, &changed);
+        counting_allocator_stop_failing(&counts);
+        assert_int_equal(changed, status == OCTREE_OK ? 48 : 0);
+        for (size_t i = 0; i < 48; i++)
+            assert_int_equal(statuses[i], status);
+        octree_bodies_destroy(set);
+        assert_all_returned(&counts);
+    }
+}
+
+/* One body of a batch changes its level. If its move fails, the call does not return OK. */
+static void a_batch_with_a_failed_move_returns_its_status(void **state)
+{
+    (void)state;
+    size_t failed = 0;
+    for (size_t n = 0; n < 40; n++) {
+        octree_body from[4], to[4];
+        octree_status statuses[4] = {OCTREE_OK, OCTREE_OK, OCTREE_OK, OCTREE_OK};
+        counting_allocator counts = {0};
+        octree_bodies *set = make_counted_set(&counts, from, to, 4);
+        memcpy(to, from, sizeof to);
+        to[2].half[0] = to[2].half[0] > 1 ? 0.001 : 8;
+        to[2].half[1] = to[2].half[2] = to[2].half[0];
+        counting_allocator_fail_at(&counts, n);
+        const octree_status status = octree_bodies_move_many(set, from, to, 4, statuses, NULL);
+        counting_allocator_stop_failing(&counts);
+        for (int i = 0; i < 4; i++)
+            assert_true(status != OCTREE_OK || statuses[i] == OCTREE_OK);
+        failed += status == OCTREE_NO_MEMORY;
+        octree_bodies_destroy(set);
+        assert_all_returned(&counts);
+    }
+    assert_true(failed > 3);
+}
+
 static bool ignore_pair(const octree_body *a, const octree_body *b, void *context)
 {
     (void)a;
@@ -376,6 +471,9 @@ int main(void)
         cmocka_unit_test(many_bodies_at_one_place_are_changed_quickly),
         cmocka_unit_test(single_changes_survive_the_failure_of_each_allocation),
         cmocka_unit_test(bulk_changes_report_what_a_failure_has_changed),
+        cmocka_unit_test(a_body_that_changes_its_level_is_never_in_both),
+        cmocka_unit_test(a_failed_replacement_reports_no_change),
+        cmocka_unit_test(a_batch_with_a_failed_move_returns_its_status),
         cmocka_unit_test(pairs_and_creation_survive_the_failure_of_each_allocation),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -3,6 +3,7 @@
  * decide: points at equal and nearly equal distances, on grids and off them, at all magnitudes. */
 #include "fixture.h"
 #include "exact_oracle.h"
+#include "exact.h"
 #include "metric.h"
 
 #include <math.h>
@@ -77,11 +78,47 @@ static void coordinates_of_different_sizes_are_compared(void **state)
     }
 }
 
+/* Whether a double is the nearest one to a sum of terms: the sum lies between the midpoints beside the double. */
+static bool is_nearest_double(double value, const double terms[], int count)
+{
+    for (int side = -1; side <= 1; side += 2) {
+        exact_sum sum;
+        exact_clear(&sum);
+        for (int i = 0; i < count; i++)
+            exact_add_product(&sum, 2, terms[i], 1);
+        exact_add_product(&sum, -1, value, 1);
+        exact_add_product(&sum, -1, side > 0 ? next_up(value) : next_down(value), 1);
+        if (exact_sign(&sum) * side > 0)
+            return false;
+    }
+    return true;
+}
+
+static void sums_are_rounded_to_the_nearest_double(void **state)
+{
+    (void)state;
+    uint64_t random = 3;
+    const double half_way[3] = {0x1.106172abb2a7ep+113, 0x1p+60, 0x1.fffffffffep+59};
+    for (int trial = 0; trial < TRIALS / 4; trial++) {
+        double terms[4];
+        exact_sum sum;
+        for (int i = 0; i < 4; i++)
+            terms[i] = trial == 0 ? (i < 3 ? half_way[i] : 0)
+                                  : random_grid_number(&random, 1 + (int)random_below(&random, 53),
+                                                       (int)random_below(&random, 120) - 60);
+        exact_clear(&sum);
+        for (int i = 0; i < 4; i++)
+            exact_add_product(&sum, 1, terms[i], 1);
+        assert_true(is_nearest_double(exact_round(&sum), terms, 4));
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(comparisons_are_those_of_real_numbers),
         cmocka_unit_test(coordinates_of_different_sizes_are_compared),
+        cmocka_unit_test(sums_are_rounded_to_the_nearest_double),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
