@@ -57,7 +57,8 @@ static bool parse_points(cloud_file *file)
     if (file->out->count > 0)
         return true;
     if (file->out->skipped > 0)
-        return cloud_fail(file, "holds no points: all %zu are %s", file->out->skipped, file->out->why_skipped);
+        return cloud_fail(file, "holds no points that can be read: all %zu are %s", file->out->skipped,
+                          file->out->why_skipped);
     return cloud_fail(file, "holds no points");
 }
 

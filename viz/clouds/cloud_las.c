@@ -74,12 +74,13 @@ static bool read_version(las_reader *reader)
     const unsigned major = file->bytes[AT_VERSION];
     reader->minor = file->bytes[AT_VERSION + 1];
     if (major != 1 || reader->minor >= VERSIONS)
-        return cloud_fail_byte(file, AT_VERSION, "LAS %u.%u is not supported; versions 1.0 to 1.%d are", major,
+        return cloud_fail_byte(file, AT_VERSION,
+                               "LAS %u.%u is not a supported version of LAS; versions 1.0 to 1.%d are", major,
                                reader->minor, VERSIONS - 1);
     reader->header_size = (unsigned)read_unsigned(reader, AT_HEADER_SIZE, 2);
     if (reader->header_size < header_sizes[reader->minor])
         return cloud_fail_byte(file, AT_HEADER_SIZE,
-                               "the header says that it has %u bytes, but a header of LAS 1.%u has at least %u",
+                               "the header gives its size as %u bytes, but a header of LAS 1.%u has at least %u",
                                reader->header_size, reader->minor, header_sizes[reader->minor]);
     return file->size >= header_sizes[reader->minor] ||
            cloud_fail_byte(file, file->size, "the file ends in its header");
@@ -98,8 +99,8 @@ static bool read_format(las_reader *reader)
                           "out.las");
     reader->format &= ~(unsigned)COMPRESSED;
     if (reader->format >= FORMATS)
-        return cloud_fail_byte(file, AT_FORMAT, "%u is not a supported point format: 0 to %d", reader->format,
-                               FORMATS - 1);
+        return cloud_fail_byte(file, AT_FORMAT, "%u is not a supported point format; formats 0 to %d are",
+                               reader->format, FORMATS - 1);
     if (reader->length < record_sizes[reader->format])
         return cloud_fail_byte(file, AT_LENGTH,
                                "the header says that a point has %" PRIu64
@@ -155,9 +156,10 @@ static bool find_points(las_reader *reader)
     const cloud_file *file = reader->file;
     reader->first = read_unsigned(reader, AT_POINTS, 4);
     if (reader->first < reader->header_size)
-        return cloud_fail_byte(file, AT_HEADER_SIZE,
-                               "the header says that it has %u bytes, but also that the points begin at byte %" PRIu64,
-                               reader->header_size, reader->first);
+        return cloud_fail_byte(
+            file, AT_HEADER_SIZE,
+            "the header gives its size as %u bytes, but the points begin inside it, at byte %" PRIu64,
+            reader->header_size, reader->first);
     if (reader->first > file->size)
         return cloud_fail_byte(file, AT_POINTS,
                                "the header says that the points begin at byte %" PRIu64
@@ -167,7 +169,8 @@ static bool find_points(las_reader *reader)
     const uint64_t left = file->size - reader->first;
     return reader->count <= left / reader->length ||
            cloud_fail_byte(file, (size_t)reader->first,
-                           "%" PRIu64 " points of %" PRIu64 " bytes should follow, but only %" PRIu64 " do",
+                           "%" PRIu64 " points of %" PRIu64 " bytes each should follow, but the file has only %" PRIu64
+                           " bytes left",
                            reader->count, reader->length, left);
 }
 
@@ -254,10 +257,11 @@ static bool read_compressed(las_reader *reader)
     const cloud_file *file = reader->file;
     reader->first = read_unsigned(reader, AT_POINTS, 4);
     if (reader->count / MOST_A_BYTE > file->size)
-        return cloud_fail_byte(file, reader->minor >= 4 ? AT_WIDE_COUNT : AT_COUNT,
-                               "%" PRIu64
-                               " compressed points should follow, but each of the %zu bytes holds at most %d",
-                               reader->count, file->size, MOST_A_BYTE);
+        return cloud_fail_byte(
+            file, reader->minor >= 4 ? AT_WIDE_COUNT : AT_COUNT,
+            "%" PRIu64
+            " compressed points should follow, but the file is too short: each of its %zu bytes holds at most %d",
+            reader->count, file->size, MOST_A_BYTE);
     return laz_read_records(reader->file, reader->format, reader->count, add_decompressed_record, reader);
 }
 

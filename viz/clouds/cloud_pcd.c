@@ -49,7 +49,8 @@ static bool read_version(pcd_reader *reader, cloud_span rest)
     cloud_read_word(&rest, &word);
     bool known =
         number_parse(word.begin, word.limit, &end, &version) && end == word.limit && version >= 0.5 && version <= 0.7;
-    return known || cloud_fail_at_word(reader->file, word, "is not a supported version of PCD: 0.5 to 0.7");
+    return known ||
+           cloud_fail_at_word(reader->file, word, "is not a supported version of PCD; versions 0.5 to 0.7 are");
 }
 
 static bool read_fields(pcd_reader *reader, cloud_span rest)
@@ -62,7 +63,7 @@ static bool read_fields(pcd_reader *reader, cloud_span rest)
             return cloud_fail_line(reader->file, "more than %d fields", MAX_FIELDS);
         const unsigned axis_bit = channel >= CLOUD_X && channel <= CLOUD_Z ? 1U << channel : 0;
         if (axes & axis_bit)
-            return cloud_fail_at_word(reader->file, word, "another field has this name already");
+            return cloud_fail_at_word(reader->file, word, "is already the name of another field");
         axes |= axis_bit;
         reader->fields[reader->field_count++] = (pcd_field){.name = word, .channel = channel, .count = 1};
     }
@@ -102,12 +103,12 @@ static bool read_word_per_field(pcd_reader *reader, cloud_span rest, bool (*set)
     cloud_span word;
     for (size_t i = 0; i < reader->field_count; i++) {
         if (!cloud_read_word(&rest, &word))
-            return cloud_fail_line(reader->file, "has %zu words for %zu fields", i, reader->field_count);
+            return cloud_fail_line(reader->file, "has %zu values, but FIELDS names %zu fields", i, reader->field_count);
         if (!set(&reader->fields[i], word))
             return cloud_fail_at_word(reader->file, word, reason);
     }
     return !cloud_read_word(&rest, &word) ||
-           cloud_fail_at_word(reader->file, word, "is one word more than there are fields");
+           cloud_fail_at_word(reader->file, word, "is an extra value: the line must have one value for each field");
 }
 
 static bool read_header_number(const pcd_reader *reader, cloud_span rest, uint64_t *number)
@@ -124,7 +125,8 @@ static bool read_encoding(pcd_reader *reader, cloud_span rest)
     const int found = cloud_find_word_in_list(word, "ascii binary binary_compressed");
     reader->encoding = found < 0 ? PCD_ASCII : (pcd_encoding)found;
     return found >= 0 ||
-           cloud_fail_at_word(reader->file, word, "is not a kind of PCD data: ascii, binary or binary_compressed");
+           cloud_fail_at_word(reader->file, word,
+                              "is not a kind of PCD data; the kinds are ascii, binary and binary_compressed");
 }
 
 typedef enum pcd_key {
@@ -157,9 +159,9 @@ typedef struct pcd_keyword {
 static const pcd_keyword keywords[KEYS] = {
     [KEY_VERSION] = {"VERSION", .read = read_version},
     [KEY_FIELDS] = {"FIELDS", true, .read = read_fields},
-    [KEY_SIZE] = {"SIZE", true, .set = set_size, .reason = "is not the size of a field: 1, 2, 4 or 8"},
-    [KEY_TYPE] = {"TYPE", true, .set = set_type, .reason = "is not the type of a field: I, U or F"},
-    [KEY_COUNT] = {"COUNT", .set = set_count, .reason = "is not the count of a field: 1 to 4294967295"},
+    [KEY_SIZE] = {"SIZE", true, .set = set_size, .reason = "is not the size of a field; a size is 1, 2, 4 or 8"},
+    [KEY_TYPE] = {"TYPE", true, .set = set_type, .reason = "is not the type of a field; a type is I, U or F"},
+    [KEY_COUNT] = {"COUNT", .set = set_count, .reason = "is not the count of a field; a count is from 1 to 4294967295"},
     [KEY_WIDTH] = {"WIDTH", .number = offsetof(pcd_reader, width)},
     [KEY_HEIGHT] = {"HEIGHT", .number = offsetof(pcd_reader, height)},
     [KEY_VIEWPOINT] = {"VIEWPOINT", .required = false},
@@ -343,8 +345,9 @@ static bool read_binary_points(pcd_reader *reader, size_t offset)
     size_t left = reader->file->size - offset;
     if (reader->points > left / reader->stride)
         return cloud_fail_byte(reader->file, offset,
-                               "%" PRIu64 " points of %" PRIu64 " bytes should follow, but only %zu do", reader->points,
-                               reader->stride, left);
+                               "%" PRIu64 " points of %" PRIu64
+                               " bytes each should follow, but the file has only %zu bytes left",
+                               reader->points, reader->stride, left);
     cloud_note_trailing_bytes(reader->file, offset + (size_t)(reader->points * reader->stride));
     return add_points(reader, reader->file->bytes + offset);
 }
@@ -371,16 +374,17 @@ static bool read_compressed_points(pcd_reader *reader, size_t offset)
     uint32_t size = (uint32_t)cloud_read_bits(4, false, file->bytes + offset + 4);
     if (reader->points > UINT32_MAX / reader->stride || reader->points * reader->stride != size)
         return cloud_fail_byte(file, offset,
-                               "%" PRIu64 " points of %" PRIu64 " bytes should follow, but %" PRIu32
-                               " bytes of compressed data",
+                               "%" PRIu64 " points of %" PRIu64
+                               " bytes each should follow, but the compressed data claims to hold %" PRIu32 " bytes",
                                reader->points, reader->stride, size);
     offset += SIZES;
     if (packed > file->size - offset)
-        return cloud_fail_byte(file, offset, "%" PRIu32 " compressed bytes should follow, but only %zu do", packed,
-                               file->size - offset);
+        return cloud_fail_byte(file, offset,
+                               "%" PRIu32 " compressed bytes should follow, but the file has only %zu bytes left",
+                               packed, file->size - offset);
     if (size > (uint64_t)packed * LZF_RATIO)
-        return cloud_fail_byte(file, offset, "%" PRIu32 " compressed bytes cannot hold %" PRIu32 " bytes", packed,
-                               size);
+        return cloud_fail_byte(file, offset, "%" PRIu32 " compressed bytes are too few for %" PRIu32 " bytes of points",
+                               packed, size);
     cloud_note_trailing_bytes(file, offset + packed);
     return size == 0 || decompress_points(reader, offset, packed, size);
 }

@@ -65,12 +65,13 @@ static bool read_format(ply_reader *reader, cloud_span rest)
     cloud_read_word(&rest, &name);
     cloud_read_word(&rest, &version);
     if (reader->encoding != PLY_NO_ENCODING)
-        return cloud_fail_at_word(reader->file, name, "is the second format in this header; a PLY header has one");
+        return cloud_fail_at_word(reader->file, name, "is a second format in this header; a PLY header has only one");
     reader->encoding =
         (ply_encoding)(1 + cloud_find_word_in_list(name, "ascii binary_little_endian binary_big_endian"));
     if (reader->encoding == PLY_NO_ENCODING)
-        return cloud_fail_at_word(reader->file, name,
-                                  "is not a PLY format: ascii, binary_little_endian or binary_big_endian");
+        return cloud_fail_at_word(
+            reader->file, name,
+            "is not a PLY format; the formats are ascii, binary_little_endian and binary_big_endian");
     return cloud_word_equals(version, "1.0") || cloud_fail_at_word(reader->file, version, "is not PLY version 1.0");
 }
 
@@ -89,7 +90,7 @@ static bool read_element(ply_reader *reader, cloud_span rest)
     if (!cloud_word_equals(name, "vertex"))
         return true;
     if (reader->vertex)
-        return cloud_fail_at_word(reader->file, name, "another element has this name already");
+        return cloud_fail_at_word(reader->file, name, "is already the name of another element");
     reader->vertex = element;
     return true;
 }
@@ -119,7 +120,7 @@ static bool set_channel(ply_reader *reader, ply_property *property, cloud_span n
     else if (channel >= CLOUD_X && channel <= CLOUD_Z)
         return cloud_fail_at_word(reader->file, name,
                                   list ? "is a list; a coordinate must be a single number"
-                                       : "another property has this name already");
+                                       : "is already the name of another property");
     if (property->channel == CLOUD_RED && property->type.kind == CLOUD_FLOAT)
         reader->full_color = 1;
     return true;
@@ -224,7 +225,7 @@ static bool read_ascii_row(ply_reader *reader, const ply_element *element, uint6
         if (!read_property_words(reader, &reader->properties[element->first_property + i], &line, numbers))
             return false;
     return !cloud_read_word(&line, &word) ||
-           cloud_fail_at_word(reader->file, word, "follows the last property of the line");
+           cloud_fail_at_word(reader->file, word, "is an extra value after the last property of the line");
 }
 
 /* ---- Binary data -------------------------------------------------------------------------------------------- */
@@ -244,8 +245,9 @@ static bool fail_at_file_end(ply_reader *reader, const ply_element *element, uin
 {
     char quote[CLOUD_QUOTE];
     reader->is_truncated = true;
-    return cloud_fail_byte(reader->file, reader->offset, "the file ends within row %" PRIu64 " of %" PRIu64 " %s",
-                           row + 1, element->count, cloud_quote_word(element->name, quote));
+    return cloud_fail_byte(reader->file, reader->offset,
+                           "the file ends in the middle of row %" PRIu64 " of %" PRIu64 " %s", row + 1, element->count,
+                           cloud_quote_word(element->name, quote));
 }
 
 static bool read_binary_row(ply_reader *reader, const ply_element *element, uint64_t row,

@@ -174,13 +174,13 @@ static char find_separator(cloud_span line)
  * points. */
 static bool parse_position(const cloud_file *file, cloud_span *line, char *separator, double position[3])
 {
-    static const char mixed[] = "mixes blanks, commas and semicolons between its columns";
+    static const char mixed[] = "mixes blanks, commas and semicolons between its columns; use only one of them";
     cloud_span field;
     *line = strip_comment(*line);
     *separator = find_separator(*line);
     for (int axis = 0; axis < 3; axis++) {
         if (!read_next_column(line, *separator, &field))
-            return cloud_fail_line(file, "has %d of the three coordinates x y z", axis);
+            return cloud_fail_line(file, "has only %d of the three coordinates x y z", axis);
         if (field.begin == field.limit)
             return cloud_fail_line(file, "column %d is empty", axis + 1);
         if (cloud_parse_coordinate(file, field, &position[axis]))

@@ -65,25 +65,26 @@ static void text_that_is_not_a_cloud_is_refused_with_its_line(void **state)
         {"x y z\n", "a.xyz: holds no points"},
         {"1", "a.xyz:1: says that 1 points follow, but 0 do: the file is truncated"},
         {"# scan\n3\n1 2 3\n4 5 6\n", "a.xyz:2: says that 3 points follow, but 2 do: the file is truncated"},
-        {"1 2 3\n7\n4 5 6\n", "a.xyz:2: has 1 of the three coordinates x y z"},
-        {"2\n2\n1 2 3\n4 5 6\n", "a.xyz:2: has 1 of the three coordinates x y z"},
-        {"x y z\n2\n1 2 3\n4 5 6\n", "a.xyz:2: has 1 of the three coordinates x y z"},
-        {"-2\n1 2 3\n", "a.xyz:1: has 1 of the three coordinates x y z"},
-        {"1 2 3\n4 5\n", "a.xyz:2: has 2 of the three coordinates x y z"},
-        {"1 2 3\n4 # 5 6\n", "a.xyz:2: has 1 of the three coordinates x y z"},
+        {"1 2 3\n7\n4 5 6\n", "a.xyz:2: has only 1 of the three coordinates x y z"},
+        {"2\n2\n1 2 3\n4 5 6\n", "a.xyz:2: has only 1 of the three coordinates x y z"},
+        {"x y z\n2\n1 2 3\n4 5 6\n", "a.xyz:2: has only 1 of the three coordinates x y z"},
+        {"-2\n1 2 3\n", "a.xyz:1: has only 1 of the three coordinates x y z"},
+        {"1 2 3\n4 5\n", "a.xyz:2: has only 2 of the three coordinates x y z"},
+        {"1 2 3\n4 # 5 6\n", "a.xyz:2: has only 1 of the three coordinates x y z"},
         {"1 2 3\n\n4 five 6\n", "a.xyz:3: 'five' is not a number"},
         {"1 2 3\nx y z\n", "a.xyz:2: 'x' is not a number"},
         {"1 2 3x\n", "a.xyz:1: '3x' is not a number"},
         {"1 0x10 3\n", "a.xyz:1: '0x10' is not a number"},
-        {"1 nan 3\n", "a.xyz: holds no points: all 1 are without finite coordinates"},
-        {"inf inf inf\n-nan nan(ind) 2\n", "a.xyz: holds no points: all 2 are without finite coordinates"},
+        {"1 nan 3\n", "a.xyz: holds no points that can be read: all 1 are without finite coordinates"},
+        {"inf inf inf\n-nan nan(ind) 2\n",
+         "a.xyz: holds no points that can be read: all 2 are without finite coordinates"},
         {"1 nano 3\n", "a.xyz:1: 'nano' is not a number"},
-        {"nan 2\n", "a.xyz:1: has 2 of the three coordinates x y z"},
-        {"1 2 3\nnan,5;2\n", "a.xyz:2: mixes blanks, commas and semicolons between its columns"},
+        {"nan 2\n", "a.xyz:1: has only 2 of the three coordinates x y z"},
+        {"1 2 3\nnan,5;2\n", "a.xyz:2: mixes blanks, commas and semicolons between its columns; use only one of them"},
         {"1 2 -1e309\n", "a.xyz:1: '-1e309' is beyond the largest double"},
         {"1,,3\n", "a.xyz:1: column 2 is empty"},
         {",1,2,3\n", "a.xyz:1: column 1 is empty"},
-        {"1,2,\n", "a.xyz:1: has 2 of the three coordinates x y z"},
+        {"1,2,\n", "a.xyz:1: has only 2 of the three coordinates x y z"},
         {"1 2 3\n4 5 6\r7 8 9\n", "a.xyz:2: '6\\x0d7' is not a number"},
         {"1 2 \xff\n", "a.xyz:1: '\\xff' is not a number"},
         {"/\n", "a.xyz:1: '/' is not a number"},
@@ -100,10 +101,10 @@ static void text_that_is_not_a_cloud_is_refused_with_its_line(void **state)
 static void text_with_decimal_commas_is_refused(void **state)
 {
     static const refusal rows[] = {
-        {"1,5;2,5;3,5\n", "a.csv:1: mixes blanks, commas and semicolons between its columns"},
-        {"1,5 2,5 3,5\n", "a.csv:1: mixes blanks, commas and semicolons between its columns"},
-        {"1 2 3,5\n", "a.csv:1: mixes blanks, commas and semicolons between its columns"},
-        {"1;2;3,5\n", "a.csv:1: mixes blanks, commas and semicolons between its columns"},
+        {"1,5;2,5;3,5\n", "a.csv:1: mixes blanks, commas and semicolons between its columns; use only one of them"},
+        {"1,5 2,5 3,5\n", "a.csv:1: mixes blanks, commas and semicolons between its columns; use only one of them"},
+        {"1 2 3,5\n", "a.csv:1: mixes blanks, commas and semicolons between its columns; use only one of them"},
+        {"1;2;3,5\n", "a.csv:1: mixes blanks, commas and semicolons between its columns; use only one of them"},
     };
     (void)state;
     assert_refuses_each("a.csv", rows, sizeof rows / sizeof *rows);
@@ -136,7 +137,7 @@ static void long_name_keeps_its_end_and_the_reason(void **state)
     memset(name, 'd', sizeof name);
     memcpy(name + sizeof name - 7, "/a.xyz", 7);
     assert_false(cloud_parse(name, (const unsigned char *)"1 2\n", 4, &cloud, &error));
-    assert_non_null(strstr(error.text, "d/a.xyz:1: has 2 of the three coordinates x y z"));
+    assert_non_null(strstr(error.text, "d/a.xyz:1: has only 2 of the three coordinates x y z"));
 }
 
 /* ---- Files -------------------------------------------------------------------------------------------------- */

@@ -124,7 +124,8 @@ static void las_with_only_withheld_points_is_refused(void **state)
     (void)state;
     file.data[227 + 15] = 0x80;
     file.data[227 + 20 + 15] = 0xff;
-    assert_refuses("a.las", file.data, file.size, "a.las: holds no points: all 2 are marked as withheld");
+    assert_refuses("a.las", file.data, file.size,
+                   "a.las: holds no points that can be read: all 2 are marked as withheld");
 }
 
 /* ---- What follows the points -------------------------------------------------------------------------------- */
@@ -188,31 +189,35 @@ static void invalid_las_headers_are_refused(void **state)
         const char *sentence;
     } rows[] = {
         {2, 3, 0, 1, 'l', ":byte 0: is not a LAS file: its first bytes are not LASF"},
-        {2, 3, 24, 1, 2, ":byte 24: LAS 2.2 is not supported; versions 1.0 to 1.5 are"},
-        {2, 3, 25, 1, 6, ":byte 24: LAS 1.6 is not supported; versions 1.0 to 1.5 are"},
-        {2, 3, 94, 2, 226, ":byte 94: the header says that it has 226 bytes, but a header of LAS 1.2 has at least 227"},
-        {4, 3, 94, 2, 227, ":byte 94: the header says that it has 227 bytes, but a header of LAS 1.4 has at least 375"},
+        {2, 3, 24, 1, 2, ":byte 24: LAS 2.2 is not a supported version of LAS; versions 1.0 to 1.5 are"},
+        {2, 3, 25, 1, 6, ":byte 24: LAS 1.6 is not a supported version of LAS; versions 1.0 to 1.5 are"},
+        {2, 3, 94, 2, 226,
+         ":byte 94: the header gives its size as 226 bytes, but a header of LAS 1.2 has at least 227"},
+        {4, 3, 94, 2, 227,
+         ":byte 94: the header gives its size as 227 bytes, but a header of LAS 1.4 has at least 375"},
         {2, 3, 94, 2, 65535,
-         ":byte 94: the header says that it has 65535 bytes, but also that the points begin at byte 227"},
+         ":byte 94: the header gives its size as 65535 bytes, but the points begin inside it, at byte 227"},
         {2, 3, 96, 4, 226,
-         ":byte 94: the header says that it has 227 bytes, but also that the points begin at byte 226"},
+         ":byte 94: the header gives its size as 227 bytes, but the points begin inside it, at byte 226"},
         {2, 3, 96, 4, 296,
          ":byte 96: the header says that the points begin at byte 296, but the file has only 295 bytes"},
         {2, 3, 96, 4, UINT32_MAX,
          ":byte 96: the header says that the points begin at byte 4294967295, but the file has only 295 bytes"},
-        {2, 3, 104, 1, 11, ":byte 104: 11 is not a supported point format: 0 to 10"},
-        {2, 3, 104, 1, 63, ":byte 104: 63 is not a supported point format: 0 to 10"},
+        {2, 3, 104, 1, 11, ":byte 104: 11 is not a supported point format; formats 0 to 10 are"},
+        {2, 3, 104, 1, 63, ":byte 104: 63 is not a supported point format; formats 0 to 10 are"},
         {2, 3, 105, 2, 33,
          ":byte 105: the header says that a point has 33 bytes, but points of format 3 have at least 34"},
         {2, 0, 105, 2, 0,
          ":byte 105: the header says that a point has 0 bytes, but points of format 0 have at least 20"},
         {2, 3, 107, 4, 0, ": holds no points"},
-        {2, 3, 107, 4, 3, ":byte 227: 3 points of 34 bytes should follow, but only 68 do"},
-        {2, 3, 107, 4, UINT32_MAX, ":byte 227: 4294967295 points of 34 bytes should follow, but only 68 do"},
+        {2, 3, 107, 4, 3, ":byte 227: 3 points of 34 bytes each should follow, but the file has only 68 bytes left"},
+        {2, 3, 107, 4, UINT32_MAX,
+         ":byte 227: 4294967295 points of 34 bytes each should follow, but the file has only 68 bytes left"},
         {4, 3, 247, 8, 1, ":byte 247: the count of points is 1 here but 2 at byte 107; correct the header"},
-        {4, 6, 247, 8, UINT64_MAX, ":byte 375: 18446744073709551615 points of 30 bytes should follow, but only 60 do"},
+        {4, 6, 247, 8, UINT64_MAX,
+         ":byte 375: 18446744073709551615 points of 30 bytes each should follow, but the file has only 60 bytes left"},
         {4, 6, 247, 8, UINT64_C(1) << 63,
-         ":byte 375: 9223372036854775808 points of 30 bytes should follow, but only 60 do"},
+         ":byte 375: 9223372036854775808 points of 30 bytes each should follow, but the file has only 60 bytes left"},
     };
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {

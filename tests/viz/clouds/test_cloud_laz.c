@@ -167,7 +167,8 @@ static void more_points_than_the_file_can_hold_are_refused(void **state)
     assert_int_equal(fclose(stream), 0);
     memcpy(data + 107, (unsigned char[]){0x00, 0xca, 0x9a, 0x3b}, 4);
     snprintf(sentence, sizeof sentence,
-             "a.laz:byte 107: 1000000000 compressed points should follow, but each of the %zu bytes holds at most 256",
+             "a.laz:byte 107: 1000000000 compressed points should follow, but the file is too short: each of its %zu "
+             "bytes holds at most 256",
              size);
     assert_false(cloud_parse("a.laz", data, size, &c, &error));
     assert_string_equal(error.text, sentence);
