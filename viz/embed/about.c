@@ -25,7 +25,7 @@ static const char *find_query_error(const octree_query *query, octree_player_kin
     if (status == OCTREE_OK && query->at_player && player == OCTREE_PLAYER_NONE)
         return "at_player is set, but the recorder has no player";
     if (status == OCTREE_BAD_OPTION)
-        return "unknown kind or skip, or OCTREE_SKIP_COINCIDENT in a query without a target";
+        return "unknown kind or unknown skip, or a query without a target has OCTREE_SKIP_COINCIDENT";
     return status == OCTREE_OK ? NULL : octree_status_text(status);
 }
 

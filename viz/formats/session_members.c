@@ -74,7 +74,8 @@ static bool check_position(json_reader *r, const json_place *at, void *structure
     const double *position = ((const octree_player *)structure)->position;
     for (int i = 0; i < 3; i++)
         if (position[i] < world->min[i] || position[i] > world->max[i])
-            return json_fail(r, at, "the player is outside the world%s on %c", world_note, "xyz"[i]);
+            return json_fail(r, at, "the player is outside the world%s; correct its coordinate %c", world_note,
+                             "xyz"[i]);
     return true;
 }
 

@@ -56,10 +56,11 @@ static bool read_point_row(json_reader *r, json_t *row, const json_place *at, oc
     const size_t size = json_array_size(row);
     point_value value = {0};
     if (size != 3 && size != 4 && (values->column_count == 0 || size != 4 + values->column_count))
-        return json_fail_expected(r, row, at,
-                                  values->column_count
-                                      ? "a point [x, y, z], [x, y, z, id], or this with a value for each of \"columns\""
-                                      : "a point [x, y, z] or [x, y, z, id]");
+        return json_fail_expected(
+            r, row, at,
+            values->column_count
+                ? "a point [x, y, z] or [x, y, z, id], or [x, y, z, id] followed by a value for each of \"columns\""
+                : "a point [x, y, z] or [x, y, z, id]");
     if (!json_read_numbers(r, row, at, 0, 3, body->position) || (size > 3 && !json_read_id(r, row, at, 3, &body->id)))
         return false;
     for (size_t i = 4; i < size; i++)

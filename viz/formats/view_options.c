@@ -40,7 +40,7 @@ static const char *fit_description(int n)
     return (size_t)n < sizeof fits / sizeof fits[0] ? fits[n][1] : NULL;
 }
 
-/* Sets the error for an unknown name, for example: there is no camera "iss", did you mean iso? there are iso, top, ...
+/* Sets the error for an unknown name, for example: unknown camera "iss", did you mean iso? choose from iso, top, ...
  * Returns false. */
 static bool fail_with_unknown_name(const view_option *option, const char *text, size_t length, octreel_error *error)
 {
@@ -49,7 +49,7 @@ static bool fail_with_unknown_name(const view_option *option, const char *text, 
     hint h = hint_create(text, length);
     for (int i = 0; names(i); i++)
         hint_add_candidate(&h, names(i));
-    return error_set(error, "there is no %s \"%.*s\"%sthere are %s", option->takes, length < 100 ? (int)length : 100,
+    return error_set(error, "unknown %s \"%.*s\"%schoose from %s", option->takes, length < 100 ? (int)length : 100,
                      text, hint_format(&h, "", meant), json_list_names(names, known, sizeof known));
 }
 
@@ -311,7 +311,7 @@ const json_member view_derived_members[] = {
 #define UNSET_UNTIL(flag) .member.nullable = true, .member.given = offsetof(view, flag)
 
 static const view_option rows[] = {
-    {"camera-from", "DIR", NULL, "use the view options of the recording in DIR; options given here replace single ones",
+    {"camera-from", "DIR", NULL, "use the view options of the recording in DIR, except for options that you give here",
      .parse = parse_camera_from},
     {"size", "WxH", "pixels as in 1280x720", "picture in pixels (default 1280x720; a side is 1 to " MOST_PIXELS ")",
      parse_size, MEMBER("size", &json_ints, width), .member.size = 2, .standard = "1280x720", .member.min = 1,
@@ -327,7 +327,7 @@ static const view_option rows[] = {
      MEMBER("look", &json_numbers, look.azimuth), .member.size = 2, UNSET_UNTIL(look.given), .member.check = check_look,
      .member.about = "an azimuth and an elevation in degrees as in [30, 22]", .noun = "direction of view"},
     {"center", "X,Y,Z", "three numbers as in 100,0,0",
-     "world position at the centre of the picture, in place of the middle of the world or the player", parse_numbers,
+     "world position at the centre of the picture, instead of the middle of the world or the player", parse_numbers,
      MEMBER("center", &json_numbers, center.place), .member.size = 3, .member.about = "three numbers [x, y, z]",
      UNSET_UNTIL(center.given), .noun = "center of view"},
     {"zoom", "TIMES", "a number from 0.001 to 1000000", "magnification (default 1)", parse_numbers,
@@ -359,24 +359,25 @@ static const view_option rows[] = {
      parse_choice, MEMBER("diagram", &json_choice, diagram), .standard = "none", .member.names = view_diagram_name,
      .words = view_diagram_words},
     {"no-closeup", NULL, NULL,
-     "draw no close-up. A close-up enlarges, in a part of the picture, what appears small in it: the surroundings of "
-     "the player, else the queries, else the changes of the tick",
+     "draw no close-up. A close-up is a part of the picture that enlarges small elements: the surroundings of the "
+     "player, otherwise the queries, otherwise the changes of the tick",
      parse_switch, MEMBER("closeup", &json_bool, closeup), .standard = "on", .noun = "close-up"},
     {"slice", "AXIS=AT", "an axis and a place as in z=100",
-     "only nodes that cut a plane such as z=100, and the points of the leaves among them", parse_slice,
+     "show only the nodes that a plane such as z=100 cuts, and the points in the leaves among these nodes", parse_slice,
      MEMBER("slice", JSON_CODEC(read_slice, write_slice), filter), .member.nullable = true,
      .member.nonzero = offsetof(view, filter.slice), .member.nonzero_size = 1},
     {"depths", "A:B", "levels from 0 to " NUMBER_DIGITS(OCTREE_MAX_DEPTH) " as in 2:5, 2:, :5 or 3",
-     "only nodes of depth A to B; also A:, :B or A; the root is 0", parse_depths,
+     "show only nodes of depth A to B; A:, :B and A alone are allowed; the root has depth 0", parse_depths,
      MEMBER("depths", &json_ints, filter.min_depth), .member.size = 2, UNSET_UNTIL(filter.by_depth),
      .member.max = OCTREE_MAX_DEPTH, .member.check = check_depths, .member.about = "two depths as in [2, 5]",
      .noun = "range of depths"},
-    {"leaves", NULL, NULL, "show only leaves as boxes; with --depths, show only the points in leaves of these depths",
-     parse_switch, MEMBER("leaves", &json_bool, filter.leaves), .standard = "off", .noun = "rule for leaves only"},
+    {"leaves", NULL, NULL,
+     "draw boxes for leaves only; with --depths, also show only the points in leaves of these depths", parse_switch,
+     MEMBER("leaves", &json_bool, filter.leaves), .standard = "off", .noun = "rule for leaves only"},
     {"region", "BOX", "six numbers as in -10,-10,-10,10,10,10",
-     "only nodes that meet the box x0,y0,z0,x1,y1,z1, and the points in it", parse_region,
+     "show only the nodes that meet the box x0,y0,z0,x1,y1,z1, and the points in the box", parse_region,
      MEMBER("region", &json_box, filter.region), UNSET_UNTIL(filter.by_region)},
-    {"labels", NULL, NULL, "write its address, such as 0/3/7, on each node with room for it", parse_switch,
+    {"labels", NULL, NULL, "write the address of each node, such as 0/3/7, on the node if there is room", parse_switch,
      MEMBER("labels", &json_bool, labels), .standard = "off", .noun = "rule for labels"},
     /* Up to --lod 4, frames of 100,000 points look the same as without --lod, because the boxes that are left out
      * are only specks. */
@@ -385,7 +386,8 @@ static const view_option rows[] = {
      MEMBER("lod", &json_number, lod), .standard = "2", .member.max = VIEW_MAX_SIDE, .noun = "level of detail"},
     /* With the default budget, a frame needs at worst about 300 MB and a few seconds. */
     {"budget", "N", "a whole number below 2^53",
-     "at most N boxes, N points and N/1000 arrows a frame; the frame says what is left out (default 250000; 0: no "
+     "draw at most N boxes, N points and N/1000 arrows in a frame; the frame states what it leaves out (default "
+     "250000; 0: no "
      "limit)",
      parse_whole, MEMBER("budget", &json_uint64, budget), .standard = "250000", .member.max = JSON_LARGEST_WHOLE},
     {"aa", "N", "1, 2 or 4 samples on each side of a pixel",

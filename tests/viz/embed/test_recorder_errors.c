@@ -52,7 +52,7 @@ static void invalid_definitions_are_refused(void **state)
     REFUSE(folder, NULL, OCTREEL_NULL_ARGUMENT, "folder");
     REFUSE(folder, "", OCTREEL_BAD_FOLDER, "name is empty");
     REFUSE(camera, NULL, OCTREEL_NULL_ARGUMENT, "null");
-    REFUSE(camera, "drone", OCTREEL_BAD_OPTION, "no camera \"drone\"");
+    REFUSE(camera, "drone", OCTREEL_BAD_OPTION, "unknown camera \"drone\"");
     REFUSE(layers, "nodes,walls", OCTREEL_BAD_OPTION, "\"walls\"");
     REFUSE(color_by, "mood", OCTREEL_BAD_OPTION, "\"mood\"");
     REFUSE(color_points, "mood", OCTREEL_BAD_OPTION, "\"mood\"");
@@ -66,8 +66,8 @@ static void invalid_definitions_are_refused(void **state)
     REFUSE(fill, NULL, OCTREEL_NULL_ARGUMENT, "null");
     REFUSE(context, NULL, OCTREEL_NULL_ARGUMENT, "null");
     REFUSE(fill, "glow", OCTREEL_BAD_OPTION, "fill: unknown rasterizer \"glow\"");
-    REFUSE(show_tree, "mine", OCTREEL_BAD_OPTION, "no tree \"mine\"");
-    REFUSE(diagram, "above", OCTREEL_BAD_OPTION, "no diagram \"above\"");
+    REFUSE(show_tree, "mine", OCTREEL_BAD_OPTION, "unknown tree \"mine\"");
+    REFUSE(diagram, "above", OCTREEL_BAD_OPTION, "unknown diagram \"above\"");
     REFUSE(context, "glx", OCTREEL_BAD_OPTION, "context: unknown name \"glx\"");
     REFUSE(any_renderer, true, OCTREEL_BAD_OPTION, "any_renderer");
     REFUSE(width, 0, OCTREEL_BAD_OPTION, "0 x 90");
@@ -200,7 +200,7 @@ static void refuse_queries(octreel_recorder *recorder, const octree *tree)
         const octreel_tick_info about = {.queries = queries, .query_count = 2};
         const bool unlisted = rows[i].skip == OCTREE_SKIP_COINCIDENT || rows[i].kind == OCTREE_QUERY_KINDS;
         assert_refused(recorder, tree, &about, OCTREEL_BAD_QUERY,
-                       unlisted ? "queries[1]: unknown kind or skip" : "queries[1]: ");
+                       unlisted ? "queries[1]: unknown kind or unknown skip" : "queries[1]: ");
     }
 }
 

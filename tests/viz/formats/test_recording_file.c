@@ -314,7 +314,7 @@ static void camera_from_a_missing_recording_is_refused(void **state)
     command_result result = run_octreel(NULL, "record --camera-from %s -o %s", absent.path, film.path);
     assert_trouble(&result, "absent: no such file or folder");
     result = run_octreel(NULL, "record --fit everything -o %s", film.path);
-    assert_trouble(&result, "there is no fit \"everything\"; there are world, points");
+    assert_trouble(&result, "unknown fit \"everything\"; choose from world, points");
     assert_false(file_exists(film.path));
 }
 

@@ -224,7 +224,8 @@ static void header_with_bad_members_is_refused(void **state)
                                                       "found \"big\""},
         {HEADER "\"player\":{\"position\":[0,0]}}", "2: player.position: expected three numbers [x, y, z]"},
         {HEADER "\"player\":{\"body\":3}}", "2: player.body: expected true or false, found 3"},
-        {HEADER "\"player\":{\"position\":[0,0,-1001]}}", "2: player.position: the player is outside the world on z"},
+        {HEADER "\"player\":{\"position\":[0,0,-1001]}}",
+         "2: player.position: the player is outside the world; correct its coordinate z"},
         {HEADER "\"player\":{\"id\":9007199254740992}}", "2: player.id: expected a whole number from 0 to "
                                                          "9007199254740991, found 9007199254740992"},
         {HEADER "\"player\":{\"id\":-1}}",

@@ -120,7 +120,8 @@ static void invalid_values_are_refused(void **state)
         {"\"points\": [[1,2,3,4,\"#123456\"]]}",
          "points[0]: expected a point [x, y, z] or [x, y, z, id], found a list of 5"},
         {"\"columns\": [\"color\", \"class\"], \"points\": [[1,2,3,4,\"#123456\"]]}",
-         "points[0]: expected a point [x, y, z], [x, y, z, id], or this with a value for each of \"columns\", found a "
+         "points[0]: expected a point [x, y, z] or [x, y, z, id], or [x, y, z, id] followed by a value for each of "
+         "\"columns\", found a "
          "list of 5"},
         {"\"columns\": [\"colour\"], \"points\": []}",
          "columns[0]: expected one of \"color\", \"intensity\" and \"class\", found \"colour\""},

@@ -80,7 +80,7 @@ static void every_choice_is_read_by_its_name(void **state)
         }
         const int last = *chosen;
         for (size_t n = 0; n < sizeof unknown / sizeof unknown[0]; n++)
-            assert_false(parses(option, unknown[n], &v, "there is no "));
+            assert_false(parses(option, unknown[n], &v, "unknown "));
         assert_int_equal(*chosen, last);
     }
 }
@@ -91,8 +91,8 @@ static void values_out_of_range_are_refused(void **state)
         {"size", "640", "--size takes pixels as in 1280x720, not \"640\""},
         {"size", "640x", "--size"},
         {"size", "640x-1", "--size"},
-        {"fit", "box", "there is no fit \"box\"; there are world, points"},
-        {"layers", "nodes,walls,text", "there is no layer \"walls\"; there are world, nodes, "},
+        {"fit", "box", "unknown fit \"box\"; choose from world, points"},
+        {"layers", "nodes,walls,text", "unknown layer \"walls\"; choose from world, nodes, "},
         {"look", "30", "--look takes an azimuth from -360 to 360 and an elevation from -90 to 90 as in 30,22"},
         {"look", "30,90.5", "--look"},
         {"look", "361,0", "--look"},
