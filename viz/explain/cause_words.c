@@ -325,7 +325,7 @@ static void print_differing_tick_count(FILE *out, const cause *c)
     if (c->differing.count == 0) /* frames may still differ: shapes and arrows are not compared */
         fputs("the ticks that both sides have are equal", out);
     else if (c->differing.count == c->compared - c->differing.first)
-        fprintf(out, "every tick from %" PRIu64 " differs", c->differing.first);
+        fprintf(out, "every tick from %" PRIu64 " on differs", c->differing.first);
     else
         fprintf(out, "%" PRIu64 " of %" PRIu64 " ticks differ%s, the first is %" PRIu64, c->differing.count,
                 c->compared, verb_ending(c->differing.count), c->differing.first);

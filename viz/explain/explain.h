@@ -7,7 +7,7 @@
  * An example of a report, with the function that prints each line:
  *
  *     different: 5 of 5 frames                                        report.c
- *     another leaf capacity (4, was 2): every tick from 0 differs     the headline: print_headline() in explain.c
+ *     another leaf capacity (4, was 2): every tick from 0 on differs     the headline: print_headline() in explain.c
  *       frame_000001.png: 312 of 14400 pixels differ; ...             report.c
  *         tick 1: node 0/3/7 split, point 12 moved from ...           a pair: print_cause() in pair_look.c
  *         ...; 312 pixels: 180 of node 0/3/7, 132 of point 12         its pixels: trace_print()

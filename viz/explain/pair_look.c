@@ -130,7 +130,7 @@ static void print_why_frame_is_missing(FILE *out, const recorded *r, uint64_t ti
         fprintf(out, "%s has a gap at this tick: %s", r->side->path,
                 octree_session_gap(&r->replay.session.session, tick)->why);
     else if (!frame_is_due(tick, r->view.every))
-        fprintf(out, "%s has a frame every %" PRIu64 " ticks", r->side->path, r->view.every);
+        fprintf(out, "%s has a frame only every %" PRIu64 " ticks", r->side->path, r->view.every);
     else
         fprintf(out, "%s has no such frame: the recording is damaged or incomplete", r->side->path);
 }
@@ -150,7 +150,7 @@ static void print_same_tick(FILE *out, const explanation *e, const cause_facts *
     if (!other_view)
         fputs(session->count
                   ? "nothing differs in the tick itself; "
-                  : "the scene differs although session and view are equal: drawn by another version of octreel, or "
+                  : "the scene differs although session and view are equal: another version of octreel drew it, or "
                     "a file beside the frames was changed",
               out);
     else if (session->count)

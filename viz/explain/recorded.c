@@ -68,8 +68,8 @@ static bool read_line(recorded *r, uint64_t tick, octreel_error *error)
 {
     static const char *const words[] = {
         [LINE_WHOLE] = "",
-        [LINE_TORN] = "is torn within",
-        [LINE_LONG] = "has a line that is too long at",
+        [LINE_TORN] = "is incomplete: the file ends in the middle of",
+        [LINE_LONG] = "has a line that is too long for",
         [LINE_NONE] = "ends before",
         [LINE_TROUBLE] = "cannot be read at",
     };

@@ -98,8 +98,8 @@ static bool add_answer_label(scene *s, const octree_answer *answer, size_t place
 static void add_left_out_count(scene *s, size_t count, text_space *occupied)
 {
     const camera_window w = layout_space_area(s);
-    scene_label label =
-        scene_make_label(LEFT_OUT_ID, make_layer_style(LAYER_WRONG, STROKE_SOLID, 1), "and %zu more wrong", count);
+    scene_label label = scene_make_label(LEFT_OUT_ID, make_layer_style(LAYER_WRONG, STROKE_SOLID, 1),
+                                         "and %zu others that are wrong", count);
     const double half = (double)strlen(label.text) * s->text.width / 2;
     const double middle[2] = {w.x + w.width - half - s->text.width, w.y + s->text.height};
     if (count > 0 && text_space_reserve_text(occupied, s, label.text, middle, label.at))

@@ -110,8 +110,8 @@ static void report_left_out(FILE *out, const film_summary *summary)
 
 static void report_chunk(FILE *out, const film_summary *summary, const film_options *options)
 {
-    fprintf(out, "a chunk, from tick %" PRIu64 " to %" PRIu64 "; when all chunks are there: %s join ", options->first,
-            options->first + summary->ticks - 1, hint_program_name());
+    fprintf(out, "a chunk, from tick %" PRIu64 " to %" PRIu64 "; when all chunks are complete, run: %s join ",
+            options->first, options->first + summary->ticks - 1, hint_program_name());
     hint_write_shell_word(out, options->folder);
     putc('\n', out);
 }

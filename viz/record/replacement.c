@@ -87,7 +87,8 @@ static bool check_entry(const char *folder, const char *name, bool *past, octree
     if (!is_recording_file(name))
         return !folder_is_recording_file(name) || strcmp(name, FOLDER_ASIDE) == 0 ||
                error_set(error,
-                         "%s/%s: not a file of a recording, but has the name of one; move it away, or choose "
+                         "%s/%s: has the name of a recording's file, but is not a file of a recording; move it away, "
+                         "or choose "
                          "another folder (-o)",
                          folder, name);
     char *path = path_join(folder, name);

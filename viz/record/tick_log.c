@@ -48,7 +48,7 @@ static bool cut_torn_line_and_fail(tick_log *log, octreel_error *error)
     log->stream = NULL;
     const bool cut = truncate(log->path, log->whole) == 0;
     errno = reason;
-    return fail_with_write_error(log, error, cut ? "" : "; its last line is torn");
+    return fail_with_write_error(log, error, cut ? "" : "; its last line is incomplete");
 }
 
 /* Returns whether a line equals the next line of the earlier log, which can then stay in the file. */

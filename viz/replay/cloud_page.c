@@ -120,9 +120,9 @@ bool cloud_page_write(const cloud_page *c, FILE *page, octreel_error *error)
         return error_set(error, "this octreel was built without WebAssembly, so it cannot make pages of clouds; name a "
                                 "PNG file, or build octreel with clang, lld and wasi-libc");
     if (octree_count(c->made->tree) > POINT_BLOCK_MOST)
-        return error_set(error,
-                         "the cloud has %zu points, and a page holds at most %d; --world shows a part of the cloud",
-                         octree_count(c->made->tree), POINT_BLOCK_MOST);
+        return error_set(
+            error, "the cloud has %zu points, but a page holds at most %d; use --world to show a part of the cloud",
+            octree_count(c->made->tree), POINT_BLOCK_MOST);
     const bool ok = begin_page(c, &w, page, error) && add_tick(c, &w, error) && end_page(c, &w, error);
     page_release(&w);
     return ok;

@@ -235,18 +235,18 @@ bool inspect_advise(const inspection *i, const watcher *watch, inspect_advice *a
 static void print_advice_sentence(const inspect_advice *a, size_t present, FILE *out)
 {
     if (a->capacity == present)
-        fprintf(out, "advice: keep capacity %zu, no other one saves a tenth of the time", present);
+        fprintf(out, "advice: keep capacity %zu, because no other capacity saves a tenth of the time", present);
     else
         fprintf(out, "advice: --capacity %zu", a->capacity);
     if (a->epsilon == 0) {
-        fputs("; epsilon saves less than a tenth, so answers should be exact\n", out);
+        fputs("; epsilon saves less than a tenth of the time, so use exact searches (epsilon 0)\n", out);
         return;
     }
     for (int i = 0; i < ADVICE_EPSILONS; i++)
         if (a->epsilons[i].epsilon == a->epsilon)
             fprintf(out,
-                    "; if errors are allowed, epsilon %g makes the 8 nearest %.2f times as fast, and %.1f %% of them "
-                    "are the true ones\n",
+                    "; if errors are allowed, epsilon %g finds the 8 nearest points %.2f times as fast, and %.1f %% of "
+                    "them are the true neighbours\n",
                     a->epsilon, a->epsilons[0].eight_ns / a->epsilons[i].eight_ns, 100 * a->epsilons[i].true_share);
 }
 

@@ -11,7 +11,8 @@ bool replay_read(replay *r, const char *folder, uint64_t max_ticks, octreel_erro
     *r = (replay){.film.folder = folder};
     if (folder_contains(folder, "session.json.live") && !folder_contains(folder, "session.json"))
         return error_set(error,
-                         "%s: its program is still recording or was interrupted: octreel record --resume completes the "
+                         "%s: the program that records it is still running or was interrupted: octreel record --resume "
+                         "completes the "
                          "recording",
                          folder);
     if (!recording_read(folder, &r->film.view, &r->film.every, error) ||

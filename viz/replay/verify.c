@@ -69,7 +69,7 @@ static void check_frame_size(verifying *v, const char *path)
     if (!image_read_png(path, &frame, &ignored))
         return;
     if (frame.width != wanted->width || frame.height != wanted->height) {
-        add_finding(v, VERIFY_VIEW, 0, "recording.json says %d x %d pixels, and the first frame has %d x %d",
+        add_finding(v, VERIFY_VIEW, 0, "recording.json says %d x %d pixels, but the first frame has %d x %d",
                     wanted->width, wanted->height, frame.width, frame.height);
         v->stopped = true;
     }
@@ -124,7 +124,8 @@ static bool check_line(verifying *v, const film_step *step, octreel_error *error
                     v->replay.ticks - step->tick, v->replay.ticks, plural_ending(v->replay.ticks), COMPLETED);
     else
         add_finding(v, VERIFY_LINES, step->tick, "its line in ticks.jsonl %s%s",
-                    state == LINE_TORN ? "is torn: the file ends within it" : "is longer than it should be",
+                    state == LINE_TORN ? "is incomplete: the file ends in the middle of it"
+                                       : "is longer than it should be",
                     state == LINE_TORN ? COMPLETED : "");
     v->stopped = true;
     return true;
@@ -256,7 +257,7 @@ static bool check_extra_frames(verifying *v, octreel_error *error)
         const bool has_tick = frame_parse_name(first, &tick);
         verify_finding *finding =
             add_finding(v, VERIFY_FRAME, has_tick ? tick : 0, "%s is not a frame of this recording%s",
-                        make_printable(first), count > 1 ? ", nor are other files" : "");
+                        make_printable(first), count > 1 ? ", and neither are other files" : "");
         finding->has_tick = has_tick;
     }
     free(names);

@@ -83,7 +83,7 @@ static void report_different_values(const json_place *at, const json_t *found, c
     char place[128], texts[2][VALUE_TEXT];
     json_place_format(at, place, sizeof place);
     const bool scene = strcmp(place, "scene") == 0;
-    snprintf(finding->text, sizeof finding->text, "%s is %s in ticks.jsonl, and %s when it is played again%s",
+    snprintf(finding->text, sizeof finding->text, "%s is %s in ticks.jsonl, but %s when the tick is played again%s",
              scene ? "the digest of its scene" : place, format_value(found, texts[0]), format_value(expected, texts[1]),
              scene ? " (or another version of octreel wrote the line)" : "");
 }
@@ -154,7 +154,7 @@ static bool report_other_tick(const json_t *found, uint64_t tick, verify_finding
         return false;
     finding->kind = VERIFY_LINES;
     snprintf(finding->text, sizeof finding->text,
-             "ticks.jsonl has the line of tick %" JSON_INTEGER_FORMAT " where that of tick %" PRIu64 " belongs",
+             "ticks.jsonl has the line of tick %" JSON_INTEGER_FORMAT " where the line of tick %" PRIu64 " belongs",
              json_integer_value(number), tick);
     return true;
 }

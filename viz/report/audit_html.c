@@ -281,9 +281,9 @@ static void write_head(const page *p)
     fputs("</p>\n", p->out);
     audit_print_limits(p->out, "<p>Allowed: ", &v->report->limits, "</p>\n");
     fputs(p->base
-              ? "<p>Each point of a chart stands for one or several ticks and shows the worst answer of them; a click "
-                "opens its "
-                "frame. Large points are wrong answers. The page of the frame can play the game on from there.</p>\n"
+              ? "<p>Each point of a chart stands for one or several ticks and shows their worst answer. Click a point "
+                "to open its frame. Large points are wrong answers. On the page of the frame you can play on from its "
+                "tick.</p>\n"
               : "<p>This session has no frames. Record the session and audit the recording; then a click on a point "
                 "of the chart opens the frame of its tick.</p>\n",
           p->out);

@@ -37,7 +37,7 @@ static const char *reason_words(octree_wrong_kind kind)
         [OCTREE_WRONG_COUNT] = "a wrong number of neighbours",
         [OCTREE_WRONG_FARTHER] = "a neighbour too far away",
         [OCTREE_WRONG_MISSING] = "points are missing",
-        [OCTREE_WRONG_EXTRA] = "points that are outside",
+        [OCTREE_WRONG_EXTRA] = "points outside the query",
     };
     return words[kind];
 }
@@ -65,7 +65,7 @@ static void print_boundary(FILE *out, const octree_judgement *made, const char *
     static const char *const habits[OCTREE_BOUNDS_KINDS] = {
         [OCTREE_BOUNDS_CLOSED] = "includes it",
         [OCTREE_BOUNDS_OPEN] = "excludes it",
-        [OCTREE_BOUNDS_EITHER] = "includes only a part of it",
+        [OCTREE_BOUNDS_EITHER] = "includes only a part of the boundary",
     };
     const bool missing = made->on_boundary == OCTREE_WRONG_MISSING;
     const size_t count = missing ? made->missing_count : made->extra_count;
@@ -114,7 +114,7 @@ void audit_print_limits(FILE *out, const char *before, const audit_limits *limit
         fprintf(out, "ratio of distances up to %s", text);
     number_print(limits->recall, text);
     if (limits->by_recall)
-        fprintf(out, "%srecall from %s on", limits->by_ratio ? ", " : "", text);
+        fprintf(out, "%srecall of at least %s", limits->by_ratio ? ", " : "", text);
     fputs(after, out);
 }
 
@@ -122,7 +122,7 @@ void audit_print_limits(FILE *out, const char *before, const audit_limits *limit
 static void print_whether_within_limits(FILE *out, const audit_limits *limits, bool passes)
 {
     if (has_limits(limits))
-        fprintf(out, ", %s what is allowed", passes ? "within" : "beyond");
+        fprintf(out, ", %s the allowed limits", passes ? "within" : "beyond");
 }
 
 void audit_print_summary(FILE *out, const audit_verdict *v)

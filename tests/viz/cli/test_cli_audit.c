@@ -109,9 +109,8 @@ static void answers_with_their_bounds_are_right(void **state)
     result = run_octreel(NULL, "audit %s", session.path);
     assert_int_equal(result.status, 1);
     assert_contains(result.out, ": 4 answers in 2 ticks, 1 wrong\n");
-    assert_contains(result.out,
-                    "; the extra point lies on the boundary of the ball; if the index includes only a part of "
-                    "it, ask with \"bounds\": \"either\"");
+    assert_contains(result.out, "; the extra point lies on the boundary of the ball; if the index includes only a part "
+                                "of the boundary, ask with \"bounds\": \"either\"");
     command_release(&result);
 }
 
@@ -122,7 +121,7 @@ static void wrong_answers_that_differ_at_the_boundary_name_their_bounds(void **s
     static const char open_ball[] = "; all 3 missing points lie on the boundary of the ball; if the index excludes it, "
                                     "ask with \"bounds\": \"open\"",
                       mixed_ball[] = "; all 2 missing points lie on the boundary of the ball; if the index includes "
-                                     "only a part of it, ask with \"bounds\": \"either\"",
+                                     "only a part of the boundary, ask with \"bounds\": \"either\"",
                       open_box[] = "; the missing point lies on the boundary of the box; if the index excludes it, ask "
                                    "with \"bounds\": \"open\"";
     command_result result = run_octreel(NULL, "audit %s --junit %s --html %s", session.path, xml.path, page.path);
@@ -189,7 +188,7 @@ static void errors_within_limits_pass_and_are_reported(void **state)
         if (result.status != runs[i].status)
             fail_msg("%zu: --allow %s ends with %d: %s", i, runs[i].allowed, result.status, result.out);
         assert_non_null(
-            strstr(result.out, runs[i].status ? ", beyond what is allowed\n" : ", within what is allowed\n"));
+            strstr(result.out, runs[i].status ? ", beyond the allowed limits\n" : ", within the allowed limits\n"));
         assert_non_null(strstr(result.out, "\nallowed: "));
         command_release(&result);
     }
@@ -381,7 +380,7 @@ static void wrong_nodes_are_a_finding(void **state)
                                         "[9,9,9]},\"points\":[1,2]}]}\n");
     command_result result = run_octreel(NULL, "audit %s --allow recall=0", session.path);
     assert_int_equal(result.status, 1);
-    assert_non_null(strstr(result.out, "0 answers in 4 ticks, 3 wrong nodes, beyond what is allowed; wrong nodes "
+    assert_non_null(strstr(result.out, "0 answers in 4 ticks, 3 wrong nodes, beyond the allowed limits; wrong nodes "
                                        "are never allowed\n"));
     assert_non_null(strstr(result.out, "nodes: 3 wrong in 3 ticks, first at tick 1; 3 times: a point is in no node "
                                        "(tick 1, point 3)"));
@@ -445,7 +444,7 @@ static void long_lists_of_missing_points_are_counted(void **state)
     command_release(&result);
     result = run_octreel(NULL, "audit %s --allow recall=0", session.path);
     assert_int_equal(result.status, 1);
-    assert_non_null(strstr(result.out, "\nallowed: recall from 0 on\n"));
+    assert_non_null(strstr(result.out, "\nallowed: recall of at least 0\n"));
     command_release(&result);
 }
 

@@ -24,9 +24,10 @@ static void errors_that_no_limit_allows_come_first(void **state)
                *twice = strstr(result.out, "\n  tick 7, answers[0]: names a point twice (2)"),
                *missing = strstr(result.out, "\n  tick 1, answers[0]: points are missing");
     assert_true(unknown && twice && missing && unknown < twice && twice < missing);
-    assert_non_null(strstr(result.out, "; first wrong at tick 1, beyond what is allowed; 1 time: names an id that no "
-                                       "point has; 1 time: names a point twice; 4 times: points are missing; 4 times: "
-                                       "wrong only on the boundary of the ball\n"));
+    assert_non_null(strstr(result.out,
+                           "; first wrong at tick 1, beyond the allowed limits; 1 time: names an id that no "
+                           "point has; 1 time: names a point twice; 4 times: points are missing; 4 times: "
+                           "wrong only on the boundary of the ball\n"));
     command_release(&result);
 #undef BALL
 }

@@ -34,8 +34,9 @@ static void headline_is_the_second_line_and_causes_follow_their_frames(void **st
     command_result result = run_octreel(NULL, "diff %s %s --each --causes 2", p.a.path, p.b.path);
     assert_int_equal(result.status, 1);
     assert_string_equal(result.err, "");
-    assert_contains(result.out,
-                    "different: 5 of 5 frames\nanother leaf capacity (4, was 2): every tick from 0 differs\n  frame_");
+    assert_contains(
+        result.out,
+        "different: 5 of 5 frames\nanother leaf capacity (4, was 2): every tick from 0 on differs\n  frame_");
     assert_contains(result.out, "\n    tick 1: node");
     assert_null(strstr(result.out, "\n    tick 2: "));
     assert_contains(result.out, "\n  3 of these are left unexplained; --causes all explains all\n");
@@ -107,7 +108,7 @@ static void json_lists_the_facts(void **state)
     assert_int_equal(result.status, 1);
     json_t *all = json_read(result.out), *cause = json_member(all, "cause");
     assert_string_equal(json_string_value(json_member(all, "headline")),
-                        "another leaf capacity (4, was 2): every tick from 0 differs");
+                        "another leaf capacity (4, was 2): every tick from 0 on differs");
     const json_t *option = json_array_get(json_member(cause, "session"), 0);
     const json_t *change = json_array_get(json_member(option, "facts"), 0);
     assert_members(option, "where change count facts");

@@ -259,7 +259,7 @@ static void killed_stream_is_resumed(void **state)
     command_release(&result);
     close(s.write);
     result = run_octreel(NULL, "verify %s", s.folder.path);
-    assert_trouble(&result, "its program is still recording or was interrupted: octreel record --resume");
+    assert_trouble(&result, "the program that records it is still running or was interrupted: octreel record --resume");
     result = run_octreel(NULL, "record --resume -o %s", s.folder.path);
     assert_done(&result);
     command_release(&result);

@@ -42,7 +42,7 @@ static void frames_with_one_cause_are_one_finding_with_one_picture(void **state)
                                         place_in(*state, "out.md").path);
     assert_int_equal(result.status, 1);
     assert_contains(result.out,
-                    "different: 10 of 10 frames\nanother leaf capacity (4, was 2): every tick from 0 differs\n"
+                    "different: 10 of 10 frames\nanother leaf capacity (4, was 2): every tick from 0 on differs\n"
                     "  frame_000000.png: ");
     assert_contains(result.out, "\n    and 9 more frames with this finding: ticks 1 to 9\ncompared exactly\n");
     command_release(&result);
@@ -99,7 +99,7 @@ static void github_gets_one_annotation_at_the_changed_file(void **state)
     command_result result = run_octreel(&actions, "diff %s %s --json", t.a.path, t.b.path);
     snprintf(begin, sizeof begin,
              "::error file=%s/frame_000000.png,title=octreel diff%%3A ticks 0 to 9::another leaf capacity (4, was 2): "
-             "every tick from 0 differs. frame_000000.png: ",
+             "every tick from 0 on differs. frame_000000.png: ",
              t.b.path);
     assert_true(strncmp(result.err, begin, strlen(begin)) == 0);
     assert_ptr_equal(strchr(result.err, '\n'), result.err + strlen(result.err) - 1);

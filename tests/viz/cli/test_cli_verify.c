@@ -63,8 +63,8 @@ static void finding_is_one_line_and_exit_status_is_1(void **state)
     assert_int_equal(result.status, 1);
     assert_string_equal(result.err, "");
     snprintf(line, sizeof line,
-             "%s: tick 4 differs in what happened: events[0] is \"x\" in ticks.jsonl, and \"moved\" when it is played "
-             "again\n",
+             "%s: tick 4 differs in what happened: events[0] is \"x\" in ticks.jsonl, but \"moved\" when the tick is "
+             "played again\n",
              folder.path);
     assert_string_equal(result.out, line);
     command_release(&result);

@@ -66,25 +66,25 @@ static void each_option_is_named_with_both_values(void **state)
     (void)state;
     assert_change_headline(set_world,
                            "another world ((-10, -10, -10) to (10, 10, 12.5), was (-10, -10, -10) to (10, 10, 10)): "
-                           "every tick from 0 differs");
-    assert_change_headline(set_capacity, "another leaf capacity (8, was 2): every tick from 0 differs");
-    assert_change_headline(set_depth, "another depth (0, was 5): every tick from 0 differs");
+                           "every tick from 0 on differs");
+    assert_change_headline(set_capacity, "another leaf capacity (8, was 2): every tick from 0 on differs");
+    assert_change_headline(set_depth, "another depth (0, was 5): every tick from 0 on differs");
     assert_change_headline(set_rule, "another rule for full leaves (grow, was refuse): " SAME_TICKS);
-    assert_change_headline(set_player, "another player's id (77, was 100): every tick from 0 differs");
+    assert_change_headline(set_player, "another player's id (77, was 100): every tick from 0 on differs");
     assert_change_headline(set_start,
-                           "another start of the player ((0.5, 0, 0), was (0, 0, 0)): every tick from 0 differs");
+                           "another start of the player ((0.5, 0, 0), was (0, 0, 0)): every tick from 0 on differs");
     assert_change_headline(set_minus_zero, "another start of the player ((-0, 0, 0), was (0, 0, 0)): " SAME_TICKS);
-    assert_change_headline(set_step, "another step of the player (0.25, was 1): every tick from 1 differs");
-    assert_change_headline(set_box, "another collision box (4, was 0.5): every tick from 0 differs");
-    assert_change_headline(set_sweep, "another swept collision test (on, was off): every tick from 0 differs");
+    assert_change_headline(set_step, "another step of the player (0.25, was 1): every tick from 1 on differs");
+    assert_change_headline(set_box, "another collision box (4, was 0.5): every tick from 0 on differs");
+    assert_change_headline(set_sweep, "another swept collision test (on, was off): every tick from 0 on differs");
 }
 
 static void options_come_before_their_consequences(void **state)
 {
     (void)state;
     assert_change_headline(
-        set_two, "another leaf capacity (8, was 2), another step of the player (0.25, was 1): every tick from 0 "
-                 "differs");
+        set_two,
+        "another leaf capacity (8, was 2), another step of the player (0.25, was 1): every tick from 0 on differs");
 }
 
 /* ---- The kind of player --------------------------------------------------------------------------------------- */
@@ -129,27 +129,28 @@ static void move_body_of_no_player(variant *v)
 static void different_kind_of_player_is_named(void **state)
 {
     (void)state;
-    assert_change_headline(set_nobody, "another kind of player (none, was keys): every tick from 0 differs");
-    assert_change_headline(set_body,
-                           "another player's id (1, was 100), another kind of player (body, was keys): every tick from "
-                           "0 differs");
+    assert_change_headline(set_nobody, "another kind of player (none, was keys): every tick from 0 on differs");
+    assert_change_headline(
+        set_body,
+        "another player's id (1, was 100), another kind of player (body, was keys): every tick from 0 on differs");
     assert_change_headline_from(set_nobody, set_keys,
-                                "another kind of player (keys, was none): every tick from 0 differs");
+                                "another kind of player (keys, was none): every tick from 0 on differs");
     assert_change_headline_from(set_nobody, set_body,
-                                "another kind of player (body, was none): every tick from 0 differs");
+                                "another kind of player (body, was none): every tick from 0 on differs");
     assert_change_headline_from(set_body, set_nobody,
-                                "another kind of player (none, was body): every tick from 0 differs");
+                                "another kind of player (none, was body): every tick from 0 on differs");
 }
 
 /* Nobody has no step, and a body none that is read. */
 static void members_that_a_kind_of_player_ignores_are_not_named(void **state)
 {
     (void)state;
-    assert_change_headline(set_nobody_with_all, "another kind of player (none, was keys): every tick from 0 differs");
+    assert_change_headline(set_nobody_with_all,
+                           "another kind of player (none, was keys): every tick from 0 on differs");
     assert_change_headline_from(set_nobody, set_nobody_with_all, "");
     assert_change_headline_from(set_body, set_step, "");
     assert_change_headline_from(set_body, set_start, "");
-    assert_change_headline_from(set_body, set_box, "another collision box (4, was 0.5): every tick from 0 differs");
+    assert_change_headline_from(set_body, set_box, "another collision box (4, was 0.5): every tick from 0 on differs");
 }
 
 /* ---- Points -------------------------------------------------------------------------------------------------- */

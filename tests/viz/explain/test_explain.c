@@ -42,7 +42,7 @@ static void different_capacity_is_the_headline_and_its_nodes_are_the_causes(void
     session.tree.leaf_capacity = 3;
     const place b = film_into(*state, "b", &session, NULL);
     comparison_of made = assert_explained(&a, &b, 10);
-    assert_string_equal(made.why.headline, "another leaf capacity (3, was 2): every tick from 0 differs");
+    assert_string_equal(made.why.headline, "another leaf capacity (3, was 2): every tick from 0 on differs");
     assert_int_equal(count_causes(&made), TICKS);
     assert_contains(find_cause_text(&made, "frame_000002.png"), "tick 2: node");
     assert_contains(find_cause_text(&made, "frame_000002.png"), " divided only in the reference");
@@ -177,9 +177,9 @@ static void different_seed_is_the_cause_instead_of_its_points(void **state)
 {
     const place a = film_sample(*state, "a", 1, 1), b = film_sample(*state, "b", 2, 1);
     const place c = film_sample(*state, "c", 1, 7), d = place_in(*state, "d");
-    assert_headline(&a, &b, "another seed of the points (2, was 1): every tick from 0 differs");
+    assert_headline(&a, &b, "another seed of the points (2, was 1): every tick from 0 on differs");
     assert_headline(&a, &c,
-                    "another seed of the velocities (7, was 1): every tick from 1 differs; frames differ from "
+                    "another seed of the velocities (7, was 1): every tick from 1 on differs; frames differ from "
                     "tick 0 on");
     octreel_error error;
     session_file again;
@@ -222,7 +222,7 @@ static void lengths_of_recordings_are_reported(void **state)
     assert_contains(made.why.headline,
                     "another last tick (2, was 4); the ticks that both sides have are equal; another "
                     "interval of frames (2, was 1)");
-    assert_contains(find_cause_text(&made, "frame_000001.png"), "b has a frame every 2 ticks");
+    assert_contains(find_cause_text(&made, "frame_000001.png"), "b has a frame only every 2 ticks");
     assert_contains(find_cause_text(&made, "frame_000004.png"), "b ends at tick 2");
     assert_int_equal(unlink(frame_place(b.path, 2).path), 0);
     comparison_release(&made);
@@ -241,7 +241,7 @@ static void edited_line_is_detected(void **state)
     edit_line(b.path, 2, "\"hits\": []", "\"hits\": [7]");
     comparison_of made = assert_explained(&a, &b, 10);
     assert_contains(made.why.headline, "b/ticks.jsonl at tick 2 differs from what its session gives: hits[0] is 7 in "
-                                       "ticks.jsonl, and missing when it is played again");
+                                       "ticks.jsonl, but missing when the tick is played again");
     assert_int_equal(made.result.verdict, DIFF_SAME);
     comparison_release(&made);
     made = assert_explained(&b, &a, 10); /* whichever side it is on */
@@ -279,7 +279,7 @@ static void missing_and_torn_lines_are_reported(void **state)
     comparison_release(&made);
     replace_line(b.path, TICKS - 2, "{\"tick\": 3");
     made = assert_explained(&a, &b, 10);
-    assert_contains(made.why.headline, "b/ticks.jsonl is torn within tick 3");
+    assert_contains(made.why.headline, "b/ticks.jsonl is incomplete: the file ends in the middle of tick 3");
     comparison_release(&made);
 }
 

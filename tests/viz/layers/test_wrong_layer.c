@@ -233,7 +233,7 @@ static void texts_at_one_place_do_not_overlap(void **state)
         const double middle[2] = {label->at[0] + (double)strlen(label->text) * s.text.width / 2,
                                   label->at[1] + s.text.height / 2.0};
         assert_true(!label->in_world && text_space_reserve_text(&taken, &s, label->text, middle, corner));
-        words += sscanf(label->text, "and %zu more wrong", &left_out) != 1;
+        words += sscanf(label->text, "and %zu others that are wrong", &left_out) != 1;
     }
     assert_true(left_out > 0);
     assert_int_equal(words + left_out, 3 + SAME + 4); /* and all points, of which no node has one */

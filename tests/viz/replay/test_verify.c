@@ -78,7 +78,7 @@ static void session_with_other_keys_is_found_with_the_first_tick_that_differs(vo
     assert_int_equal(report.findings[1].kind, VERIFY_FACTS);
     assert_string_equal(report.findings[1].fact, "key");
     assert_int_equal(report.findings[1].tick, 5);
-    assert_non_null(strstr(report.findings[1].text, "\"w\" in ticks.jsonl, and \"d\""));
+    assert_non_null(strstr(report.findings[1].text, "\"w\" in ticks.jsonl, but \"d\""));
 }
 
 static void changed_session_with_equal_ticks_is_found(void **state)
@@ -117,7 +117,7 @@ static void view_of_another_size_is_found_without_drawing(void **state)
     for (int i = 0; i < 2; i++) {
         const place folder = film_short(*state);
         edit_file(folder.path, "recording.json", sizes[i][0], sizes[i][1]);
-        const verify_report report = assert_found(&folder, VERIFY_VIEW, 0, "and the first frame has 160 x 90");
+        const verify_report report = assert_found(&folder, VERIFY_VIEW, 0, "but the first frame has 160 x 90");
         assert_string_equal(report.drawn_now, "");
         empty_test_folder(state);
     }
@@ -142,7 +142,7 @@ static void change_of_the_frame_interval_is_found(void **state)
     assert_int_equal(report.findings[0].tick, 3);
     assert_int_equal(report.findings[1].kind, VERIFY_FRAME);
     assert_non_null(strstr(report.findings[1].text, "frame_000003.png"));
-    assert_non_null(strstr(report.findings[1].text, "nor are other files"));
+    assert_non_null(strstr(report.findings[1].text, "and neither are other files"));
 }
 
 /* ---- Trouble ------------------------------------------------------------------------------------------------ */

@@ -13,20 +13,20 @@ static void every_changed_fact_is_named(void **state)
         size_t line;
         const char *from, *to, *fact, *part;
     } rows[] = {
-        {2, "\"key\": \"d\"", "\"key\": \"a\"", "key", "\"a\" in ticks.jsonl, and \"d\" when"},
-        {2, "\"player\": [50", "\"player\": [51", "player", "player[0] is 51 in ticks.jsonl, and 50"},
+        {2, "\"key\": \"d\"", "\"key\": \"a\"", "key", "\"a\" in ticks.jsonl, but \"d\" when"},
+        {2, "\"player\": [50", "\"player\": [51", "player", "player[0] is 51 in ticks.jsonl, but 50"},
         {2, "[\"moved\"", "[\"moved\", \"full\"", "events", "events[1] is \"full\" in ticks.jsonl"},
-        {2, "[\"moved\"]", "[]", "events", "events[0] is missing in ticks.jsonl, and \"moved\""},
-        {2, "[\"moved\"]", "{\"a\": 1}", "events", "events is {\"a\":1} in ticks.jsonl, and [\"moved\"]"},
-        {2, "\"visits\": {", "\"visits\": [], \"v\": {", "visits", "visits is [] in ticks.jsonl, and {"},
+        {2, "[\"moved\"]", "[]", "events", "events[0] is missing in ticks.jsonl, but \"moved\""},
+        {2, "[\"moved\"]", "{\"a\": 1}", "events", "events is {\"a\":1} in ticks.jsonl, but [\"moved\"]"},
+        {2, "\"visits\": {", "\"visits\": [], \"v\": {", "visits", "visits is [] in ticks.jsonl, but {"},
         {1, "\"distance\": ", "\"distance\": 1", "answers", ".distance is 1"},
         {0, "\"nodes\": ", "\"nodes\": 9", "hit_cost", "hit_cost.nodes is 9"},
         {2, "\"visited\": ", "\"visited\": 9", "visits", "visits.visited is 9"},
         {0, "\"tree\": {\"points\": ", "\"tree\": {\"points\": 9", "tree", "tree.points is 9"},
         {0, "\"digest\": \"", "\"digest\": \"0", "tree", "tree.digest"},
         {3, "frame_000003", "frame_000004", "frame", "frame_000004"},
-        {4, "\"merges\": []", "\"merges\": [], \"more\": [1, 2]", "more", "more is [1,2] in ticks.jsonl, and missing"},
-        {4, "\"merges\": [], ", "", "merges", "merges is missing in ticks.jsonl, and []"},
+        {4, "\"merges\": []", "\"merges\": [], \"more\": [1, 2]", "more", "more is [1,2] in ticks.jsonl, but missing"},
+        {4, "\"merges\": [], ", "", "merges", "merges is missing in ticks.jsonl, but []"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         const place folder = film_short(*state);
@@ -67,9 +67,9 @@ static void malformed_lines_are_found(void **state)
         {"{\"tick\": 5, \"tick\": 5}\n", "not JSON"},
         {"{\"tick\": 1e400}\n", "not JSON"},
         {"{\"tick\": \"\\u001b[2J\"}\n", "tick is \"\\u001B[2J\" in"},
-        {"", "has the line of tick 6 where that of tick 5 belongs"},
-        {"{\"tick\": -7}\n", "tick is -7 in ticks.jsonl, and 5"},
-        {"{\"tick\": 7}\n", "has the line of tick 7 where that of tick 5 belongs"},
+        {"", "has the line of tick 6 where the line of tick 5 belongs"},
+        {"{\"tick\": -7}\n", "tick is -7 in ticks.jsonl, but 5"},
+        {"{\"tick\": 7}\n", "has the line of tick 7 where the line of tick 5 belongs"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         const place folder = film_short(*state);
@@ -111,7 +111,7 @@ static void missing_torn_and_surplus_lines_are_found(void **state)
         assert_non_null(file);
         fwrite(last, 1, strlen(last) - cut, file);
         assert_int_equal(fclose(file), 0);
-        assert_found(&folder, VERIFY_LINES, SHORT_TICKS - 1, "torn");
+        assert_found(&folder, VERIFY_LINES, SHORT_TICKS - 1, "is incomplete");
         file_write(lines.path, text, size);
         free(text);
     }
