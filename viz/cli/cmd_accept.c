@@ -29,23 +29,24 @@ static bool read_reason(const command_option *option, const char *text, void *in
 
 static const command_option options[] = {
     {"from", "FILE",
-     "accept the frames that FILE lists, one name a line; the page of octreel diff -o saves the ticked findings as "
-     "accept.txt; - is standard input",
+     "accept only the frames that FILE lists, one name on each line; - is standard input. The page of octreel diff -o "
+     "saves the findings that you tick as such a list, accept.txt",
      .read = read_name, OPTION_VALUE(arguments, from)},
     FLAT_OPTION(arguments, flat),
     {"store", "DIR",
-     "also save the pictures in DIR, each named by the digest of its pixels; with them, octreel diff --store can show "
-     "the expected picture and compare within a tolerance",
+     "also save the pictures in DIR, each named by the digest of its pixels. octreel diff --store DIR then shows the "
+     "expected pictures and can compare within a tolerance",
      .read = read_folder, OPTION_VALUE(arguments, store)},
     FORCE_OPTION(arguments, force, "save pictures in DIR even if it is or contains the current folder"),
     JSON_OPTION(arguments, json, "print a summary as JSON, with the names of all changed frames"),
     {.help = "Baselines. A baseline is a text file for git with one digest for each frame and the reason for each "
              "change; octreel help baseline describes it:"},
-    {"reason", "TEXT", "the reason for the change, one line; if REFERENCE does not exist, a baseline is created",
+    {"reason", "TEXT",
+     "the reason for the change, one line of text. If REFERENCE does not exist, a baseline is created",
      .read = read_reason, OPTION_VALUE(arguments, reason)},
     {"date", "DATE", "the date of the change, as YYYY-MM-DD (default: today)", .read = read_date,
      OPTION_VALUE(arguments, date)},
-    {"variant", NULL, "keep the digests that were accepted before: a frame then passes if it equals any of them",
+    {"variant", NULL, "keep the previously accepted digests: a frame then passes if it matches any of its digests",
      .read = read_flag, OPTION_VALUE(arguments, variant)},
     {0},
 };
@@ -110,12 +111,12 @@ const command command_accept = {
         "Copy frames from NEW to REFERENCE: all frames, or only the named ones. NEW is a PNG, a folder of PNGs with "
         "its subfolders, a recording, or - for a PNG from standard input. REFERENCE is one of these or a baseline, "
         "and is created if it does not exist. FRAME is a path below NEW, as in menu/1.png. References with the same "
-        "pixels are not changed. A reference without a frame in NEW is removed if all frames are accepted or if it "
-        "is named. The differences are printed, and subfolders are searched, as by octreel diff. Look at the "
-        "pictures first.\n",
+        "pixels are not changed. A reference without a frame in NEW is removed if you accept all frames or name this "
+        "reference. Like octreel diff, this command prints the differences and searches subfolders. Look at the "
+        "pictures before you accept them.\n",
     .more = "Several processes may accept into one reference at the same time; each sees the changes of the others. "
-            "Nothing is accepted when the disk is full, and nothing from a recording that is damaged or not finished, "
-            "because the references of its missing frames would be removed. Nothing is accepted when the environment "
+            "Nothing is accepted when the disk is full. Nothing is accepted from a damaged or unfinished recording, "
+            "because this would remove the references of its missing frames. Nothing is accepted when the environment "
             "variable CI is set: a CI test that accepts its own results tests nothing.\n",
     .statuses = {"the frames are accepted", NULL, "error; nothing is accepted"},
     .examples =
@@ -125,7 +126,7 @@ const command command_accept = {
         "octreel accept golden frames frame_000041.png frame_000042.png\n"
         "# create or update a baseline, and save the pictures outside of git\n"
         "octreel accept baseline.txt frames --reason \"the letters are larger\" --store pictures\n"
-        "# accept the findings that were ticked in the page, beside the old digests\n"
+        "# accept the findings that you ticked in the page, and keep the old digests\n"
         "octreel accept baseline.txt frames --from accept.txt --variant --reason \"Mesa 26 rounds otherwise\"\n",
     .environment = "  CI  if set, nothing is accepted\n",
     .min_arguments = 2,

@@ -49,10 +49,10 @@ static bool read_page(const command_option *option, const char *text, void *into
 
 static const command_option options[] = {
     {"allow", "LIMITS",
-     "accept approximate answers within limits: ratio=1.01, a neighbour at most 1.01 times as far away as the true "
-     "one; recall=0.99, at least 0.99 of all true points named; or both, separated by a comma. Always wrong are "
-     "unknown ids, points named twice, points outside the query, skipped answers and wrong nodes. A neighbour query "
-     "without any point in its answer has an infinite ratio",
+     "accept approximate answers within limits. ratio=1.01: a neighbour may be at most 1.01 times as far away as the "
+     "true neighbour. recall=0.99: the answers must name at least 0.99 of all true points. A comma separates two "
+     "limits. Always wrong are unknown ids, points named twice, points outside the query, points that the query "
+     "excludes, and wrong nodes. An empty answer to a neighbour query has an infinite ratio",
      .read = read_limits, OPTION_VALUE(arguments, limits)},
     {"html", "FILE.html|DIR",
      "write a page, FILE.html or DIR/audit.html: recall and ratio over time, with a link from every tick to its frame, "
@@ -63,7 +63,8 @@ static const command_option options[] = {
     MAX_TICKS_OPTION(arguments, max_ticks),
     FORCE_OPTION(arguments, force, FORCE_FILES),
     JSON_OPTION(arguments, json,
-                "print JSON; a ratio of null is infinite: the true neighbour is at the target, or none was named"),
+                "print JSON. A ratio of null is infinite: the true neighbour is at the target, or the answer names no "
+                "neighbour"),
     {0},
 };
 
@@ -158,17 +159,19 @@ const command command_audit = {
     .line = "check the answers of a foreign index against the exact answers",
     .usage = "RECORDING|SESSION [OPTION ...]",
     .about =
-        "Replay a session whose queries carry the answers of a foreign index, your own, and compare each answer with "
-        "the exact one. For each kind of query this prints the number of answers and of wrong answers; their recall, "
-        "the share of the true points that were named; the ratio of a neighbour's distance to that of the true "
-        "neighbour of the same rank, at worst and for 99 of 100 answers; the first tick with a wrong answer; the three "
+        "Replay a session whose queries carry the answers of a foreign index (an index of your own), and compare each "
+        "answer with "
+        "the exact one. For each kind of query this prints the number of answers and of wrong answers; the recall of "
+        "the answers (the share of the true points that they name); the ratio of a neighbour's distance to the "
+        "distance of the true neighbour of the same rank (the worst ratio, and the largest ratio in the best 99 of 100 "
+        "answers); the first tick with a wrong answer; the three "
         "worst cases with their numbers; and the wrong foreign nodes. If all missing or all extra points of an answer "
         "lie exactly on the boundary of a box or a ball, the report names the \"bounds\" that accept these points. "
         "Nothing is drawn and no file is changed. SESSION may be -, standard input; octreel help session shows how a "
         "query carries an answer.\n",
     .more = "One of --html FILE, --junit FILE and --json may write to standard output; FILE is then -.\n",
-    .statuses = {"all answers are right or within --allow", "wrong answers",
-                 "error, also when no query carries an answer"},
+    .statuses = {"all answers are right, or within the limits of --allow", "wrong answers",
+                 "error, or the session has neither answers nor nodes of a foreign index"},
     .examples = "# print a table of right and wrong answers\n"
                 "octreel audit flight\n"
                 "# write the page flight/audit.html and a report for a CI job\n"

@@ -67,10 +67,9 @@ static bool read_rectangle(const command_option *option, const char *text, void 
     for (int i = 0; ok && i < 4; i++, at++)
         ok = whole_number_parse(&at, INT32_MAX, &values[i]) && *at == (i < 3 ? ',' : 0);
     if (!ok || values[2] == 0 || values[3] == 0)
-        return print_refusal(
-            "--%s takes left, top, width and height in pixels, such as 10,20,300,40, each at most %d and the "
-            "last two at least 1, not \"%s\"",
-            option->name, INT32_MAX, text);
+        return print_refusal("--%s takes left, top, width and height in pixels, such as 10,20,300,40, each at most %d, "
+                             "width and height at least 1, not \"%s\"",
+                             option->name, INT32_MAX, text);
     image_rectangle *grown = realloc(a->ignored, (t->ignored_count + 1) * sizeof *grown);
     if (!grown)
         return print_refusal("out of memory for the rectangles of --%s", option->name);
@@ -142,27 +141,28 @@ static const command_option options[] = {
          "differ, the consequences in each tick, and the elements that are drawn at the different pixels. For other "
          "pictures, the only known cause is a different rendering. Causes never change the verdict:"},
     {"causes", "N",
-     "explain the first N different frames and ticks, and list N findings but at least 10; \"all\", or 0 for none "
-     "(default 10, and 50 for the page of -o)",
+     "explain the first N different frames and ticks. The report lists N findings, but at least 10. \"all\" explains "
+     "everything, 0 explains nothing (default 10, and 50 for the page of -o)",
      .read = read_causes, .size = sizeof(uint64_t), .max = UINT32_MAX},
     MAX_TICKS_OPTION(arguments, max_ticks),
     {"each", NULL,
-     "report one finding for each frame. Otherwise frames with the same cause are one finding, and so are frames of "
-     "unknown cause in which the same pixels differ by the same amounts",
+     "report one finding for each frame. Without this option, frames with the same cause are one finding. Frames of "
+     "unknown cause are one finding if the same pixels differ by the same amounts",
      .read = read_flag, OPTION_VALUE(arguments, each)},
     {.help = "Input and output:"},
     FLAT_OPTION(arguments, flat),
     {"store", "DIR",
      "with a baseline as REFERENCE: show the expected pictures that octreel accept --store has saved in DIR, and apply "
-     "the tolerances to them. Without a tolerance they never change the verdict",
+     "the tolerances to these pictures. Without a tolerance, the pictures never change the verdict",
      .read = read_name, OPTION_VALUE(arguments, options.store)},
     {"background", "RRGGBB", "colour behind transparent pixels (default ffffff, white)", .read = read_color,
      OPTION_VALUE(arguments, options.background)},
     {"output", "DIR",
-     "write evidence into DIR: report.html, one page with everything, in which you tick findings for octreel accept "
-     "--from; for the first frame of each finding NAME.expected.png, NAME.actual.png and NAME.difference.png "
-     "(different pixels glow, even by one level; tolerated pixels are blue), and with --flip NAME.flip.png, a map of "
-     "FLIP from black to pale yellow; and contact.png, small copies of all",
+     "write evidence into DIR. report.html is one page with everything, in which you tick findings for octreel accept "
+     "--from. NAME.expected.png, NAME.actual.png and NAME.difference.png show the first frame of each finding; in the "
+     "difference, all different pixels glow, however small their difference, and tolerated pixels are blue. With "
+     "--flip, "
+     "NAME.flip.png is a map of FLIP, from black to pale yellow. contact.png has small copies of all pictures",
      .read = read_folder, OPTION_VALUE(arguments, outputs[PAGE].folder)},
     FORCE_OPTION(arguments, force, FORCE_FILES),
     JSON_OPTION(arguments, json, "print JSON; share/octreel/diff.schema.json describes it"),
@@ -170,7 +170,7 @@ static const command_option options[] = {
      .read = read_file, OPTION_VALUE(arguments, outputs[JUNIT].path)},
     {"markdown", "FILE",
      "write a summary for the page of a CI job: the verdict and a table of differences. FILE may be -, standard "
-     "output, but only one of --markdown, --junit and --json may write there",
+     "output. Only one of --markdown, --junit and --json may write to standard output",
      .read = read_file, OPTION_VALUE(arguments, outputs[MARKDOWN].path)},
     {"annotate", NULL,
      "print GitHub annotations, which show differences beside a pull request, to standard error (default when the "
@@ -190,7 +190,7 @@ static int print_first_error(const diff_result *result, const explanation *why)
         i++;
     const char *sentence = result->pairs[i].trouble ? result->pairs[i].trouble : "out of memory";
     const size_t more = result->found[FOUND_UNREADABLE] - 1;
-    return more ? print_error("%s (and %zu more)", sentence, more) : print_error("%s", sentence);
+    return more ? print_error("%s (and %zu more that cannot be read)", sentence, more) : print_error("%s", sentence);
 }
 
 /* ---- Reports ------------------------------------------------------------------------------------------------- */
@@ -333,9 +333,9 @@ const command command_diff = {
              "frame that only one side has is a difference. Where a baseline accepts several digests of a frame, any "
              "of them passes. Recordings without frames are compared by their ticks.\n"
              "\n"
-             "In a folder, files and subfolders whose names begin with a dot are left out, and so are links to "
-             "folders, folders that octreel diff -o has written, the folder of --store, and the other side if it lies "
-             "in the folder. A recording in a subfolder is compared like other PNGs. Subfolders of a recording are "
+             "In a folder, octreel diff ignores files and subfolders whose names begin with a dot, links to folders, "
+             "folders that octreel diff -o has written, the folder of --store, and the other side if it lies in the "
+             "folder. A recording in a subfolder is compared like other PNGs. Subfolders of a recording are "
              "not searched.\n",
     .statuses = {"the same, or within the tolerances", "different", "error, such as an unreadable picture"},
     .examples = "# print whether two pictures are the same, pixel by pixel\n"

@@ -51,11 +51,12 @@ static const command_option options[] = {
      "the film: an animated PNG (.png, .apng, or - for standard output), or a video by ffmpeg (.mp4, .webm)",
      .read = read_film, OPTION_VALUE(arguments, output.path)},
     {"ticks", "A:B",
-     "show only the ticks from A to B - 1; A: and :B are open ended. The pictures of a folder that is no recording are "
-     "numbered from 0",
+     "show only the ticks from A to B - 1. The range A: ends with the last tick, and the range :B begins with the "
+     "first. In a folder that "
+     "is not a recording, the pictures are numbered from 0",
      .read = read_ticks, OPTION_VALUE(arguments, choice)},
-    {"every", "N", "show only every N-th of these frames", .read = read_whole, OPTION_VALUE(arguments, choice.every),
-     .min = 1, .max = 1000000000},
+    {"every", "N", "show only every N-th of the chosen frames", .read = read_whole,
+     OPTION_VALUE(arguments, choice.every), .min = 1, .max = 1000000000},
     {"speed", "N", "frames per second, 1 to " NUMBER_AS_TEXT(ANIMATION_MOST_RATE) " (default 15)", .read = read_whole,
      OPTION_VALUE(arguments, rate), .min = 1, .max = ANIMATION_MOST_RATE},
     {"crop", "X,Y,W,H", "show only the W x H pixels whose top left corner is (X, Y)", .read = read_crop,
@@ -83,7 +84,7 @@ static void report_film(const arguments *a, const animation_summary *s)
     if (s->stored < s->frames)
         fprintf(out, "; %zu equal%s the previous frame", s->frames - s->stored, verb_ending(s->frames - s->stored));
     if (s->colors == 0 && !animation_is_video(a->output.path))
-        fputs("; more than 256 colours, so it has no palette", out);
+        fputs("; more than 256 colours, so the film has no palette", out);
     putc('\n', out);
 }
 

@@ -116,12 +116,12 @@ static const command_option options[] = {
     {"nodes", "FILE.csv", "write all nodes as CSV; - is standard output, and the report then goes to standard error",
      .read = read_file, OPTION_VALUE(arguments, outputs[NODES].path)},
     {"advise", NULL,
-     "measure on these points which --capacity and which epsilon (octree_search.epsilon of the library) save time, and "
-     "what errors an epsilon causes; this takes about two seconds for a million points",
+     "measure which --capacity and which epsilon (octree_search.epsilon of the library) save time for these points, "
+     "and which errors each epsilon causes. This takes about two seconds for a million points",
      .read = read_flag, OPTION_VALUE(arguments, advise)},
     FORCE_OPTION(arguments, force, FORCE_FILES),
     SHARED_OPTIONS(query_option_row, arguments, queries),
-    JSON_OPTION(arguments, json, "print JSON; it lists every point of an answer"),
+    JSON_OPTION(arguments, json, "print JSON, which lists every point of an answer"),
     {.help = "How the picture looks:"},
     SHARED_OPTIONS(view_option_row, arguments, view_options),
     {.help = "How the picture is drawn:"},
@@ -343,8 +343,9 @@ static bool check_picture_options(const arguments *a)
                           : a->renderer.context != DRAW_AUTO    ? "context"
                                                                 : NULL;
     if (is_page(a) && drawing)
-        return print_refusal("--%s changes how a PNG is drawn, but %s is a page, which the browser draws", drawing,
-                             a->outputs[PICTURE].path);
+        return print_refusal(
+            "--%s changes how a PNG is drawn, but %s is a page, which the browser draws; leave out this option",
+            drawing, a->outputs[PICTURE].path);
     first = first ? first : drawing;
     if (a->outputs[PICTURE].path || !first)
         return true;
@@ -374,18 +375,19 @@ const command command_inspect = {
     .options = options,
     .line = "show how a point cloud subdivides: a picture, a page, statistics, nodes, queries",
     .usage = "CLOUD [-o PICTURE.png | -o PAGE.html] [OPTION ...]",
-    .about =
-        "Build an octree from a point cloud (" CLOUD_NAMES ") and print its statistics. With -o, "
-        "draw the tree as well, or make a page that shows the same picture and can turn it, zoom, name what is under "
-        "the mouse, measure and ask queries. CLOUD may be -, standard input. The format is recognized by the content, "
-        "not by "
-        "the name.\n",
+    .about = "Build an octree from a point cloud (" CLOUD_NAMES ") and print its statistics. With -o, "
+             "draw the tree as well, or make a page for a browser. The page shows the same picture, turns and zooms "
+             "it, names the element under the mouse, measures distances and asks queries. CLOUD may be -, standard "
+             "input. The format is recognized by the content, "
+             "not by "
+             "the name.\n",
     .more = "Text may begin with column names or, as .pts files do, with the number of points. Without column names, "
-            ".xyzrgb files have colours after the coordinates, .xyzn files normals, and .pts files that begin with the "
-            "number of points an intensity, a colour or both. Points are numbered from 0 in file order. Points without "
+            "the columns after the coordinates are colours in .xyzrgb files and normals in .xyzn files. In .pts files "
+            "that begin with the number of points, they are an intensity, a colour or both. Points are numbered from 0 "
+            "in file order. Points without "
             "finite coordinates and withheld LAS points are skipped, but keep their "
-            "numbers. LAZ and COPC need an octreel that was built with liblaszip (Debian 13 has it). Other builds need "
-            "this conversion first: pdal translate in.laz out.las\n",
+            "numbers. To read LAZ and COPC, octreel must be built with liblaszip (in Debian 13). Without liblaszip, "
+            "convert the file first: pdal translate in.laz out.las\n",
     .statuses = {"done", NULL, "error"},
     .examples = "# draw the tree of a scan whose leaves hold at most 32 points\n"
                 "octreel inspect scan.pcd -o tree.png --capacity 32\n"

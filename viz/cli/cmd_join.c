@@ -51,7 +51,7 @@ const command command_join = {
     .about = "Check that DIR holds all chunks of a recording (octreel record --ticks A:B -o DIR) and that they fit "
              "together: every tick has its line, every frame is whole and belongs to its tick and session. Then write "
              "ticks.jsonl and index.html, so that DIR is the same as if one process had filmed it. Missing ticks are "
-             "named. Nothing is played or drawn; octreel verify does that.\n",
+             "named. octreel join does not replay the session or redraw frames; octreel verify does both.\n",
     .more = "The summary of --json has the members \"folder\", \"ticks\", \"frames\", \"gaps\" and \"left_out\"; "
             "octreel record --help describes them.\n",
     .statuses = {"the recording is complete", NULL, "error or stopped; DIR is unchanged"},

@@ -24,16 +24,17 @@ typedef struct arguments {
 
 static const command_option options[] = {
     {"radius", "N",
-     "where nothing is drawn at the pixel, report the nearest drawn pixel at most N pixels away (default 8; 0: report "
+     "if nothing is drawn at the pixel, report the nearest drawn pixel at most N pixels away (default 8; 0: report "
      "nothing)",
      .read = read_whole, OPTION_VALUE(arguments, pick.radius), .max = VIEW_MAX_SIDE},
     MAX_TICKS_OPTION(arguments, pick.max_ticks),
     SHARED_OPTIONS(renderer_option_row, arguments, pick.renderer),
-    JSON_OPTION(arguments, json,
-                "print JSON: the kind, layer, node or point and a sentence for each element, topmost first. Of the "
-                "`samples` of a pixel, an element has painted `painted` and is visible in `shown`. A `node` that is "
-                "explained also has `capacity`, `split` (at this tick), the ids of `arrived` and `left` points and, "
-                "unless its cell exists since tick 0, `made_by`"),
+    JSON_OPTION(
+        arguments, json,
+        "print JSON: the kind, layer, node or point and a sentence for each element, topmost first. A pixel has "
+        "`samples` samples; an element was painted in `painted` of them and is visible in `shown` of them. An "
+        "explained `node` also has `capacity`, `split` (at this tick), the ids of `arrived` and `left` points and, "
+        "unless its cell exists since tick 0, `made_by`"),
     {0},
 };
 

@@ -27,7 +27,7 @@ typedef struct arguments {
 static const command_option options[] = {
     {"output", "FILE",
      "the page to write; - is standard output (default: the name of SESSION with .html, in the current folder, or "
-     "octreel.html). Without --force an existing file is overwritten only if it is such a page",
+     "octreel.html). Without --force, an existing file is overwritten only if octreel made it",
      .read = read_file, OPTION_VALUE(arguments, page)},
     FORCE_OPTION(arguments, force, FORCE_FILES),
     {"keys", "KEYS", "play these keys instead of the session's: " KEYS_HELP, .read = read_text,
@@ -156,7 +156,8 @@ const command command_play = {
     .line = "make a web page that plays a session, without recording frames",
     .usage = "[SESSION] [-o FILE.html] [OPTION ...]",
     .about = "Write one HTML file that plays a session in a browser and needs no other file. The page draws any tick, "
-             "turns and zooms, names what is under the mouse, and with the keys of the game you play on from any tick. "
+             "turns and zooms the scene, and names the element under the mouse. With the keys of the game, you play on "
+             "from any tick. "
              "Without SESSION, the "
              "example that octreel record films is used. SESSION may be -, standard input; octreel help session "
              "describes the file.\n",

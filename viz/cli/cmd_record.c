@@ -42,8 +42,10 @@ static const command_option options[] = {
     {"no-frames", NULL, "draw no frames: write the session, its ticks, and a page that draws them itself",
      .read = read_flag, OPTION_VALUE(arguments, no_frames)},
     {"ticks", "A:B",
-     "film one chunk, the ticks from A to B - 1 (A: and :B are open ended, and B may lie beyond the last tick). "
-     "Several processes or machines can film chunks into one folder; octreel join then completes the recording",
+     "film one chunk, the ticks from A to B - 1. The range A: ends with the last tick, the range :B begins with the "
+     "first, and B may lie "
+     "beyond the last tick. Several processes or machines can film chunks into one folder; octreel join then completes "
+     "the recording",
      .read = read_ticks, OPTION_VALUE(arguments, film)},
     MAX_TICKS_OPTION(arguments, film.max_ticks),
     {"jobs", "N",
@@ -55,8 +57,8 @@ static const command_option options[] = {
      "are used. Refuses a folder that holds files of another recording",
      .read = read_flag, OPTION_VALUE(arguments, film.resume)},
     {"replace", NULL,
-     "overwrite the recording in DIR. The old recording stays until the first tick is filmed, other files in DIR stay "
-     "for good, and a folder that holds no recording is refused",
+     "overwrite the recording in DIR. The old recording stays until the first tick is filmed. Other files in DIR are "
+     "kept. A folder without a recording is refused",
      .read = read_flag, OPTION_VALUE(arguments, film.replace)},
     FORCE_OPTION(arguments, force, "film into DIR even if it is or contains the current folder"),
     JSON_OPTION(arguments, json, "print a summary as JSON to standard output"),
@@ -254,7 +256,8 @@ const command command_record = {
     .more =
         "Ctrl-C finishes the current frame and prints how to continue; after five seconds it ends the program in any "
         "case. When a session from standard input breaks off, is malformed or is stopped, the ticks before that point "
-        "are a complete recording. After a kill every file is whole, and --resume completes the recording. After a "
+        "are a complete recording. If the program is killed, every file is whole, and --resume completes the "
+        "recording. After a "
         "power cut a file may be damaged, because files are not synced to the disk (that would cost about 3 ms a "
         "frame); octreel verify finds such files.\n"
         "\n"
@@ -263,11 +266,11 @@ const command command_record = {
         "  \"folder\"      the folder of the recording\n"
         "  \"ticks\"       number of ticks filmed; for a chunk, its own\n"
         "  \"frames\"      number of frames of these ticks, including frames that existed before\n"
-        "  \"gaps\"        number of ticks of which nothing is known\n"
-        "  \"checked\"     number of frames that OSMesa drew too, with the same pixels\n"
+        "  \"gaps\"        number of gaps, which are ticks without data\n"
+        "  \"checked\"     number of frames that OpenGL also drew, with the same pixels\n"
         "  \"checked_by\"  \"osmesa\" or \"egl\"; null if no frame was checked\n"
         "  \"left_out\"    number of elements in all frames that are too far away to be drawn\n"
-        "  \"over_budget\", \"below_lod\"  number of frames that leave out elements because of --budget or --lod\n"
+        "  \"over_budget\", \"below_lod\"  numbers of frames that leave out elements because of --budget and of --lod\n"
         "  \"refusals\"    number of refused points, edits and steps, without steps that leave the world\n"
         "  \"seconds\"     time taken\n"
         "  \"frames_per_second\"  speed, without frames that existed before\n"

@@ -52,12 +52,14 @@ const command command_verify = {
     .options = options,
     .line = "replay a recording and check that every tick and frame is identical",
     .usage = "RECORDING [OPTION ...]",
-    .about = "Replay the session of a recording, redraw every frame with OpenGL, and compare tick by tick. This prints "
-             "that everything is identical, or the first tick that differs and what differs: the session, the facts of "
-             "the tick in ticks.jsonl, the scene (what is drawn), or only the pixels, with both renderers. It also "
-             "names missing, torn and surplus frames and lines. Gaps, ticks that a program which records itself did "
-             "not supply, are counted with their reason and are no finding. A recording without frames is checked by "
-             "its ticks. No file is changed.\n",
+    .about =
+        "Replay the session of a recording, redraw every frame with OpenGL, and compare tick by tick. The result is "
+        "that everything is identical, or it names the first tick that differs and the difference: the session, the "
+        "facts of the tick in ticks.jsonl, the scene (the drawn elements), or only the pixels. If only pixels differ, "
+        "it names the renderers of the recording and of this run. It also names missing, incomplete and surplus frames "
+        "and lines. A gap is a tick that a program which records itself could not supply. Gaps are counted with their "
+        "reason and are not findings. A recording without frames is checked by "
+        "its ticks. No file is changed.\n",
     .more = "Members of the JSON of --json:\n"
             "\n"
             "  \"folder\"      the recording\n"
@@ -66,8 +68,8 @@ const command command_verify = {
             "  \"gaps\"        number of these ticks that are gaps\n"
             "  \"findings\"    at most one for the session, one for the first tick that differs, and one for surplus "
             "files. \"in\" is the place: \"session\" (session.json is not the one that was filmed), \"view\" "
-            "(recording.json and the frames have different sizes), \"lines\" (ticks.jsonl has a missing, torn or "
-            "surplus line), \"facts\" (what happened), \"scene\" (what is drawn), \"frame\" (missing, torn, "
+            "(recording.json and the frames have different sizes), \"lines\" (ticks.jsonl has a missing, incomplete or "
+            "surplus line), \"facts\" (what happened), \"scene\" (what is drawn), \"frame\" (missing, incomplete, "
             "surplus, or a picture of another tick) or \"pixels\". \"tick\" is the tick, \"fact\" the member of the "
             "tick's line, \"pixels\" the number of different pixels, and \"text\" a sentence; each is present where "
             "it applies\n"

@@ -104,7 +104,7 @@ command_option_reader read_quiet;  /* for --quiet: is_quiet() then returns true 
 
 #define FILL_OPTION(type, member)                                                                                      \
     {                                                                                                                  \
-        "fill", "WITH", "the rasterizer; the pixels are the same (--any-renderer implies gl): one of",                 \
+        "fill", "WITH", "the rasterizer, which does not change the pixels (--any-renderer implies gl): one of",        \
             .read = read_choice, OPTION_VALUE(type, member), .names = draw_fill_name, .words = draw_fill_words_at      \
     }
 

@@ -35,8 +35,9 @@ static bool check_pixels(const octreel_pixels *p, const char *which, octreel_err
                          (int)p->format);
     const size_t row = find_row_size(&layouts[p->format], p->width);
     return p->stride == 0 || p->stride >= row ||
-           error_set(error, "%s: the stride is %zu bytes, but a row has %zu; use 0 for rows without gaps", which,
-                     p->stride, row);
+           error_set(error,
+                     "%s: the stride is %zu bytes, but a row of pixels has %zu; use 0 if no bytes lie between the rows",
+                     which, p->stride, row);
 }
 
 /* Copy a row. Samples are put into the order r, g, b, alpha; only OCTREEL_BGRA8 has another. */

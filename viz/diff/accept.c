@@ -79,11 +79,11 @@ static bool open_sides(accepting *a, octreel_error *error)
     if (!diff_side_open(&a->reference, o->reference, &in_reference, error))
         return false;
     if (a->reference.kind == DIFF_RECORDING && a->frames.kind == DIFF_FOLDER)
-        return error_set(
-            error,
-            "the reference %s is a recording, but %s holds only frames, which its ticks would not match; record the "
-            "session again and accept that recording",
-            o->reference, o->frames);
+        return error_set(error,
+                         "the reference %s is a recording, but %s holds only frames, so the ticks of the reference "
+                         "would not match them; record the "
+                         "session again and accept that recording",
+                         o->reference, o->frames);
     if (a->reference.kind == DIFF_FOLDER && a->reference.count == 0 && a->frames.kind == DIFF_RECORDING)
         a->reference = make_empty_side(o->reference, DIFF_RECORDING, a->frames.no_frames);
     return true;

@@ -65,7 +65,7 @@ static bool check_baseline(const diff_side *side, bool is_reference, const diff_
                              ? "add --store DIR, the folder in which octreel accept --store DIR saved the pictures"
                              : "compare the pictures themselves");
     return is_same_color(side->background, options->background) ||
-           error_set(error, "%s: made over another background; add --background %02x%02x%02x", side->path,
+           error_set(error, "%s: was made over another background colour; add --background %02x%02x%02x", side->path,
                      side->background.r, side->background.g, side->background.b);
 }
 
@@ -74,8 +74,8 @@ bool diff_check(const diff_side *a, const diff_side *b, const diff_options *opti
     const diff_side *const sides[2] = {a, b};
     if (a->no_frames != b->no_frames)
         return error_set(error,
-                         "%s was recorded without frames and can be compared only with another recording without "
-                         "frames, which %s is not",
+                         "%s is a recording without frames, but %s is not; give two recordings without frames, or two "
+                         "sides with frames",
                          a->no_frames ? a->path : b->path, a->no_frames ? b->path : a->path);
     if ((a->kind == DIFF_PICTURE || b->kind == DIFF_PICTURE) && !is_single_pair(a, b))
         return error_set(error, "cannot compare one picture with a %s of several pictures: %s and %s",

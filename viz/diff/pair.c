@@ -266,8 +266,8 @@ static bool compare_digests_of_kind(diff_pair *pair, image_digest_kind kind, ima
 
 static void compare_digests(diff_pair *pair, const diff_options *options)
 {
-    octreel_error error = {
-        "the digests of the two sides are of different kinds and cannot be compared: accept the frames of one again"};
+    octreel_error error = {"the digests of the two sides are of different kinds and cannot be compared: accept the "
+                           "frames of one side again"};
     bool any = false;
     for (int kind = 0; kind < IMAGE_DIGEST_KINDS && !(any && pair->finding == FOUND_SAME_PIXELS); kind++) {
         octreel_error trouble;

@@ -103,7 +103,7 @@ static void errors_are_printed_with_status_2(void **state)
         {"--ignore 1,2,0,4", "--ignore takes left, top, width and height"},
         {"--ignore 1,2,3,4,5", "--ignore takes left, top, width and height"},
         {"--ignore 0,0,99999999999,1", "each at most 2147483647"},
-        {"--ignore 0,0,0,0", "the last two at least 1"},
+        {"--ignore 0,0,0,0", "width and height at least 1"},
         {"--ignore-layer nix", "--ignore-layer: unknown layer \"nix\""},
         {"--ignore-layer nodes,points", "--ignore-layer needs a recording"},
         {"--ignore-layer text --ignore-layer nodes", "--ignore-layer can be given once"},
@@ -146,7 +146,7 @@ static void unreadable_frames_are_listed(void **state)
     assert_int_equal(truncate(place_below(b.path, "2.png").path, 120), 0);
     command_result result = run_octreel(NULL, "diff %s %s", a.path, b.path);
     assert_int_equal(result.status, 2);
-    assert_non_null(strstr(result.err, "1.png: the file is truncated (and 1 more)\n"));
+    assert_non_null(strstr(result.err, "1.png: the file is truncated (and 1 more that cannot be read)\n"));
     assert_non_null(strstr(result.out, "trouble: 2 frames, 2 cannot be read\n  1.png: cannot be read: "));
     assert_non_null(strstr(result.out, "\n  2.png: cannot be read: "));
     command_release(&result);

@@ -144,7 +144,7 @@ static void more_than_256_colours_give_rgb(void **state)
     }
     command_result result = run_in(own, "\"$1\" film rgb -o rgb.png");
     assert_done(&result);
-    assert_non_null(strstr(result.out, "; more than 256 colours, so it has no palette\n"));
+    assert_non_null(strstr(result.out, "; more than 256 colours, so the film has no palette\n"));
     command_release(&result);
     apng_film film = apng_read(place_in(own, "rgb.png").path);
     assert_int_equal(film.colors, 0);

@@ -94,14 +94,14 @@ static void junit_has_a_case_for_the_ticks(void **state)
 static void recordings_with_and_without_frames_are_not_compared(void **state)
 {
     static const char *const rows[][2] = {
-        {"diff a film", "without frames, which film is not"},
-        {"diff film a", "without frames, which film is not"},
-        {"diff a film/frame_000000.png", "a was recorded without frames"},
-        {"accept film a", "a was recorded without frames"},
-        {"accept a film", "a was recorded without frames"},
+        {"diff a film", "a is a recording without frames, but film is not"},
+        {"diff film a", "a is a recording without frames, but film is not"},
+        {"diff a film/frame_000000.png", "a is a recording without frames, but film/frame_000000.png is not"},
+        {"accept film a", "a is a recording without frames, but film is not"},
+        {"accept a film", "a is a recording without frames, but film is not"},
         {"accept a b frame_000000.png", "no frame frame_000000.png"},
-        {"diff a .", "without frames, which . is not"},
-        {"accept new.txt a --reason x", "a was recorded without frames"},
+        {"diff a .", "a is a recording without frames, but . is not"},
+        {"accept new.txt a --reason x", "a is a recording without frames, but new.txt is not"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         command_result result = run_in(*state, rows[i][0]);

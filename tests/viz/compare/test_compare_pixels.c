@@ -307,7 +307,7 @@ static void invalid_pixels_are_refused(void **state)
     assert_trouble(&bad, &good, NULL, "6 is not a pixel format");
     bad = good;
     bad.stride = 7;
-    assert_trouble(&bad, &good, NULL, "the stride is 7 bytes, but a row has 8");
+    assert_trouble(&bad, &good, NULL, "the stride is 7 bytes, but a row of pixels has 8");
     assert_int_equal(octreel_compare_pixels(&bad, &good, NULL, NULL), OCTREEL_VERDICT_TROUBLE);
 }
 
