@@ -108,7 +108,6 @@ static const struct {
     {"diff-nodes-json", "diff nodes nodes_other --each --json"},
     {"diff-ticks", "diff ticks ticks_other --json"},
     {"diff-layers", "diff film other --ignore-layer nodes,text --antialias --max-delta 0.1"},
-    {"diff-flip", "diff film other --flip 0.001 --ignore 0,0,9,9 -o evidence"},
     {"diff-folders", "diff frames frames_other -o evidence"},
     {"diff-reports", "diff film other --json --junit diff.xml --markdown diff.md -o evidence"},
     {"audit", "audit answers.json"},
@@ -128,6 +127,7 @@ static const struct {
     {"diff-baseline", "diff film.baseline other --store pictures -o evidence"},
     {"help", "help session"},
     {"manual", "help --man record"},
+    {"diff-flip", "diff film other --flip 0.001 --ignore 0,0,9,9 -o evidence"},
 };
 
 enum { COMMANDS = sizeof commands / sizeof commands[0] };
