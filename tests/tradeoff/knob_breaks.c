@@ -182,12 +182,14 @@ static size_t count_verdict(const table *t, const char *variant, int verdict)
 static void tell(const table *t, FILE *out)
 {
     const size_t octreel = table_count(t, (pick){.variant = "octreel", .setting = NAN});
-    fprintf(out,
-            "Each library has %zu tests with difficult points, such as coordinates of 1e300 or NaN. Octreel is right "
-            "in %zu "
-            "of %zu, and refuses %zu whose points are not finite. The other libraries are right in %zu of their %zu.",
-            octreel, count_verdict(t, "octreel", RIGHT), octreel, count_verdict(t, "octreel", REFUSED),
-            count_verdict(t, NULL, RIGHT) - count_verdict(t, "octreel", RIGHT), t->count - octreel);
+    const size_t right = count_verdict(t, "octreel", RIGHT), refused = count_verdict(t, "octreel", REFUSED);
+    const size_t others = t->count - octreel, wrong = octreel - right - refused;
+    fprintf(
+        out,
+        "Octreel and %zu other libraries ran the same %zu tests with difficult points, such as coordinates of 1e300 or "
+        "NaN. Octreel is right in %zu, refuses %zu (points that are not finite), and is wrong in %zu. The others are "
+        "right in %zu of %zu.",
+        octreel ? others / octreel : 0, octreel, right, refused, wrong, count_verdict(t, NULL, RIGHT) - right, others);
 }
 
 static void defend(const table *t, FILE *out)

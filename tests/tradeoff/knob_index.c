@@ -301,20 +301,21 @@ static void tell_lead(const table *t, const char *kind, bool first, FILE *out)
 static void tell(const table *t, FILE *out)
 {
     const pick exact = {.variant = "octreel", .setting = 0}, near = {.variant = "octreel", .setting = 1};
-    fputs("How many times as fast exact queries are as with the fastest other library in the same scene (above 1, "
-          "Octreel "
-          "is faster), as the median of the scenes (lowest to highest scene):",
-          out);
+    fputs(
+        "Speed relative to the fastest other library in each scene (above 1: Octreel is faster), as the median of the "
+        "scenes, with the range in brackets:",
+        out);
     for (size_t i = 0; i < sizeof asking_kinds / sizeof asking_kinds[0]; i++) {
         char kind[32];
         snprintf(kind, sizeof kind, "/ %s", asking_kinds[i].name);
         tell_lead(t, kind, i == 0, out);
     }
-    fprintf(
-        out,
-        ". With epsilon = 1 (a neighbour may be up to twice as far as the true one), Octreel is %.2f times as fast as "
-        "with exact answers, and %.1f %% of its neighbours are still the true ones.",
-        table_ratio(t, near, exact, "per_second"), 100 * table_sum(t, near, "recall") / (double)table_count(t, near));
+    fprintf(out,
+            ". Approximate answers: with epsilon = 1 (a neighbour may be up to twice as far as the true one), Octreel "
+            "is %.2f times as fast as "
+            "with exact answers, and %.1f %% of its neighbours are still the true ones.",
+            table_ratio(t, near, exact, "per_second"),
+            100 * table_sum(t, near, "recall") / (double)table_count(t, near));
 }
 
 static void defend(const table *t, FILE *out)
