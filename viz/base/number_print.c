@@ -46,8 +46,8 @@ static const uint64_t powers[] = {1,           10,           100,           1000
  * and the remaining fraction. */
 typedef struct expansion {
     uint64_t digits;
-    /* the number of significant digits found so far; a negative number -n: n zeros directly after the decimal point are
-     * still to be skipped */
+    /* if >= 0, the number of significant digits found so far; if negative, minus the number of zeros after the decimal
+     * point that are still to be skipped */
     int count;
     int places; /* the number of digits after the decimal point */
     /* the part of the number after the digits found so far, as a fraction of one unit of the last digit; FRACTION_ONE

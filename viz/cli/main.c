@@ -95,7 +95,8 @@ static int report_unknown_word(const char *word, bool help)
                        hint_format(&h, "", meant), hint_program_name(), help ? "topics" : "commands");
 }
 
-/* Prints the help of a command or topic. With `manual`, prints its manual as the input of man(1). */
+/* Prints the help of a command or topic. With `manual`, prints the manual page in roff, the format that man(1) reads.
+ */
 static int print_help(const char *name, bool manual)
 {
     const help_topic *topic = find_help_topic(name);

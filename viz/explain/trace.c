@@ -140,7 +140,7 @@ static uint64_t hash_part(const void *part)
 
 static const hash_map_item_type part_type = {sizeof(trace_part), hash_part, are_parts_equal};
 
-static bool count_pixel_of_part(tracing *t, const trace_part *part)
+static bool add_pixel_to_part(tracing *t, const trace_part *part)
 {
     trace *made = &t->made;
     const uint32_t place = hash_map_find(&t->map, &part_type, made->parts, part);
@@ -173,7 +173,7 @@ static bool count_pixels_of_parts(tracing *t, const image_tolerance *tolerance)
             if ((a.r == b.r && a.g == b.g && a.b == b.b) || image_is_pixel_ignored(tolerance, frames[0].width, x, y))
                 continue;
             const trace_part part = find_part_at_pixel(t, (size_t)x, (size_t)y);
-            if (!count_pixel_of_part(t, &part))
+            if (!add_pixel_to_part(t, &part))
                 return false;
         }
     if (t->made.count)

@@ -93,7 +93,7 @@ static image_color mean_color(const image *of, const uint8_t *own, size_t corner
     return (image_color){(uint8_t)(sums[0] / count), (uint8_t)(sums[1] / count), (uint8_t)(sums[2] / count)};
 }
 
-/* Shrink by the factor 1: only find the colours. */
+/* The factor is 1: nothing is shrunk, and only the colours of the pixels are found. */
 static void find_pixel_colors(const image *from, const uint8_t *own, uint8_t *out)
 {
     const size_t count = (size_t)from->width * (size_t)from->height;

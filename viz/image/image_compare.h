@@ -19,7 +19,7 @@ typedef struct image_tolerance {
     uint64_t max_pixels; /* forgive up to this many differing pixels that no other rule forgives */
     double max_delta;    /* forgive pixels whose two colours have at most this distance, in IMAGE_DELTA_UNIT */
     bool antialias;      /* true: forgive pixels on anti-aliased edges */
-    /* true: forgive all differences of an image whose mean FLIP, seen at this resolution, is at most max_flip */
+    /* true: forgive all differences of an image if its mean FLIP at pixels_per_degree is at most max_flip */
     bool flip;
     double max_flip, pixels_per_degree;
     const image_rectangle *ignored; /* rectangles whose pixels are not compared */

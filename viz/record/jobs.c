@@ -228,8 +228,8 @@ static void stop_jobs(job_pool *pool)
     pool->stopped = true;
 }
 
-/* Wait for the end of a job. The job's socket is closed first, which ends a job that waits for the starter. Returns
- * false if the exit status of the job is unknown. */
+/* Wait for the end of a job. The job's socket is closed first: a job that waits for a message of this process then
+ * ends. Returns false if the exit status of the job is unknown. */
 static bool close_and_wait_for_job(job *j, int *status)
 {
     pid_t ended;

@@ -149,8 +149,8 @@ static void draw_sheet(image *sheet, const diff_report *report, size_t failing)
     snprintf(line, sizeof line, "%s%s%s", report->groups->verdict, headline ? ": " : "", headline ? headline : "");
     draw_text(sheet, GAP, GAP, LETTERS, line, text_color);
     for (int i = 0; i < COLUMNS; i++)
-        draw_text(sheet, GAP + i * (CELL_WIDTH + GAP), GAP + LINE + GAP / 2, 40, evidence_word((evidence_picture)i),
-                  faint_color);
+        draw_text(sheet, GAP + i * (CELL_WIDTH + GAP), GAP + LINE + GAP / 2, 40,
+                  evidence_picture_name((evidence_picture)i), faint_color);
     for (size_t i = 0; i < report->groups->count && row < CONTACT_SHEET_ROWS; i++)
         if (frame_group_fails(&report->groups->groups[i], report->result))
             draw_row(sheet, report, &report->groups->groups[i], HEAD + GAP + (int)row++ * ROW);

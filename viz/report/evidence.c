@@ -26,7 +26,7 @@ static const char marker_text[] =
 
 /* ---- Names --------------------------------------------------------------------------------------------------- */
 
-const char *evidence_word(evidence_picture picture)
+const char *evidence_picture_name(evidence_picture picture)
 {
     static const char *const words[] = {
 #define EVIDENCE_WORD(name, word) word,
@@ -61,7 +61,7 @@ char *evidence_file_name(const char *frame, evidence_picture picture)
         snprintf(digest, sizeof digest, "~%016" PRIx64, octree_digest_bytes(OCTREE_DIGEST_START, frame, strlen(frame)));
     if (name)
         snprintf(name, size, "%.*s%.*s%s.%s%s", (int)(file - frame), frame,
-                 (int)(fits ? stem : length_of_fitting_stem(file)), file, digest, evidence_word(picture),
+                 (int)(fits ? stem : length_of_fitting_stem(file)), file, digest, evidence_picture_name(picture),
                  file[stem] ? file + stem : ".png");
     return name;
 }
@@ -74,7 +74,7 @@ static bool is_evidence_picture_name(const char *name)
         length -= sizeof part - 1;
     for (int i = 0; i < EVIDENCE_PICTURES; i++) {
         char end[32];
-        const size_t size = (size_t)snprintf(end, sizeof end, ".%s.png", evidence_word((evidence_picture)i));
+        const size_t size = (size_t)snprintf(end, sizeof end, ".%s.png", evidence_picture_name((evidence_picture)i));
         if (length > size && strncasecmp(name + length - size, end, size) == 0)
             return true;
     }

@@ -24,7 +24,7 @@ typedef enum evidence_picture {
         EVIDENCE_PICTURES
 } evidence_picture;
 
-const char *evidence_word(evidence_picture picture);
+const char *evidence_picture_name(evidence_picture picture);
 
 /* Return the file name of a frame's picture of evidence, or null if memory runs out. The caller frees the name. */
 char *evidence_file_name(const char *frame, evidence_picture picture);

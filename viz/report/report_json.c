@@ -134,7 +134,7 @@ static void write_evidence(json_writer *w, const diff_report *report, size_t i)
     for (int picture = 0; picture < EVIDENCE_PICTURES; picture++) {
         char *path = evidence_path(report->evidence, report->result, i, (evidence_picture)picture);
         if (path)
-            json_write_text_member(w, evidence_word((evidence_picture)picture), path);
+            json_write_text_member(w, evidence_picture_name((evidence_picture)picture), path);
         free(path);
     }
     json_write_end_object(w);

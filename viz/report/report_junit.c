@@ -51,7 +51,7 @@ static void write_picture_paths(FILE *out, const diff_report *report, size_t i)
     for (int picture = 0; picture < EVIDENCE_PICTURES; picture++) {
         char *path = evidence_path(report->evidence, report->result, i, (evidence_picture)picture);
         if (path) {
-            fprintf(out, "%s: ", evidence_word((evidence_picture)picture));
+            fprintf(out, "%s: ", evidence_picture_name((evidence_picture)picture));
             write_escaped_xml(out, "", path);
             putc('\n', out);
         }

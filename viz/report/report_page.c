@@ -127,7 +127,7 @@ static void write_recordings(json_writer *w, const diff_report *report)
                            ? link_make_relative_path(report->evidence->folder, sides[i]->path)
                            : NULL;
         if (folder)
-            json_write_text_member(w, evidence_word(i ? EVIDENCE_ACTUAL : EVIDENCE_EXPECTED), folder);
+            json_write_text_member(w, evidence_picture_name(i ? EVIDENCE_ACTUAL : EVIDENCE_EXPECTED), folder);
         free(folder);
     }
     json_write_end_object(w);
@@ -175,7 +175,7 @@ static void write_file_names(json_writer *w, const diff_report *report, size_t i
         if (report->evidence->pictures[i] & 1u << picture)
             name = evidence_file_name(diff_pair_name(&report->result->pairs[i]), (evidence_picture)picture);
         if (name)
-            json_write_text_member(w, evidence_word((evidence_picture)picture), name);
+            json_write_text_member(w, evidence_picture_name((evidence_picture)picture), name);
         free(name);
     }
     json_write_end_object(w);
@@ -234,7 +234,7 @@ static bool write_picture(const page *p, size_t n, evidence_picture picture, oct
         return false;
     }
     fprintf(p->out, "<img data-frame=\"%zu\" data-picture=\"%s\" src=\"data:image/png;base64,", n,
-            evidence_word(picture));
+            evidence_picture_name(picture));
     base64_encode(in, p->out);
     fputs("\">\n", p->out);
     const bool ok = !ferror(in) || error_set(error, "%s: cannot be read: %s", path, strerror(errno));

@@ -171,7 +171,7 @@ bool kept_tree_begin_walk(kept_tree *k, const octree *tree, const kept_look *loo
     k->look = *look;
     if (!usable)
         return false;
-    k->names = digest_hash_names();
+    k->names = make_digest_names();
     const kept_list before = k->before;
     k->before = k->now;
     k->now = before;

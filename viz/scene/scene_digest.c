@@ -19,7 +19,7 @@ static uint64_t hash_element_name(const char *what, const char *name)
     return octree_digest_bytes(octree_digest_bytes(OCTREE_DIGEST_START, what, strlen(what)), name, strlen(name));
 }
 
-digest_names digest_hash_names(void)
+digest_names make_digest_names(void)
 {
     digest_names n;
     for (int i = 0; i < LAYER_ALL; i++)
@@ -137,7 +137,7 @@ static uint64_t digest_panel(const digest_names *n, const scene_panel *panel)
 
 uint64_t scene_digest(const scene *s)
 {
-    const digest_names names = digest_hash_names();
+    const digest_names names = make_digest_names();
     const digest_runs none = {.count = 0}, boxes = s->kept ? s->kept->box_runs : none,
                       markers = s->kept ? s->kept->marker_runs : none;
     uint64_t digest = digest_view(s);

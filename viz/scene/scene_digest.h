@@ -21,7 +21,7 @@ typedef struct digest_names {
     uint64_t layers[LAYER_ALL], roles[ROLE_OWN + 1];
 } digest_names;
 
-digest_names digest_hash_names(void);
+digest_names make_digest_names(void);
 
 uint64_t digest_box(const digest_names *n, const scene_box *box);
 uint64_t digest_marker(const digest_names *n, const scene_marker *marker);

@@ -189,7 +189,7 @@ typedef struct octree_visit {
     /* what the searches did with the node. If searches differ: VISITED if one of them visited the node, else TAKEN if
      * one took it whole, else PRUNED */
     octree_trace_kind touch;
-    bool taken; /* true: at least one search took the node whole */
+    bool taken; /* true: at least one search accepted all points of the node without comparing them */
 } octree_visit;
 
 /* The state after one tick, and the events of the tick. The game owns the arrays; they are valid until the game's next

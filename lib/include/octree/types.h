@@ -161,7 +161,7 @@ typedef struct octree_def {
 
 /* A reader's position in a tree's change log. If all members are zero, the reader has read nothing yet. */
 typedef struct octree_cursor {
-    size_t log;        /* the name of the log that the reader has read */
+    size_t log;        /* the number that identifies the log which the reader has read; 0: none */
     uint64_t position; /* the number of the first change that the reader has not read */
 } octree_cursor;
 

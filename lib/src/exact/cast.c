@@ -99,7 +99,7 @@ typedef struct fraction {
 } fraction;
 
 /* Returns the time of entering (side -1) or leaving (side 1) on an axis on which the box moves. */
-static fraction find_time(const cast *c, const octree_body *e, int axis, int side)
+static fraction find_time_at_face(const cast *c, const octree_body *e, int axis, int side)
 {
     const int sign = c->sign[axis];
     return (fraction){{sign * e->position[axis], -sign * c->origin[axis], side * e->half[axis], side * c->half[axis]},
@@ -150,7 +150,7 @@ static bool find_entry(const cast *c, const octree_body *e, fraction *entry)
     for (int i = 0; i < 3; i++) {
         if (c->sign[i] == 0)
             continue;
-        const fraction time = find_time(c, e, i, -1);
+        const fraction time = find_time_at_face(c, e, i, -1);
         if (found ? compare_times(c, &time, entry) > 0 : sign_of_time(&time) > 0)
             *entry = time;
         found = found || sign_of_time(&time) > 0;
@@ -168,7 +168,7 @@ static bool test_exactly(const cast *c, const octree_body *e)
     for (int i = 0; i < 3; i++) {
         if (c->sign[i] == 0)
             continue;
-        const fraction exit = find_time(c, e, i, 1);
+        const fraction exit = find_time_at_face(c, e, i, 1);
         if (enters ? compare_times(c, &entry, &exit) > 0 : sign_of_time(&exit) < 0)
             return false;
     }
@@ -248,6 +248,6 @@ double cast_first_time(const cast *c, const octree_body *e)
     if (certain ? axis < 0 : !find_entry(c, e, &entry))
         return 0;
     if (certain)
-        entry = find_time(c, e, axis, -1);
+        entry = find_time_at_face(c, e, axis, -1);
     return divide(c, &entry);
 }

@@ -95,7 +95,7 @@ double metric_compute_squares(const metric *m, const octree_point *points, unsig
 /* ---- Exact comparison ---------------------------------------------------------------------------------------- */
 
 /* Points on a grid have many neighbours at the same distance, so ties must not be slow. Coordinates that are compared
- * usually have similar exponents, so that they are integers of at most 2^60 times a common power of two. Products of
+ * usually have similar exponents: each is n * 2^e with one common e and |n| <= 2^60. Products of
  * such integers are added in 128 bits, in a tenth of the time of an exact_sum. */
 typedef struct wide_sum {
     int64_t high;

@@ -95,7 +95,7 @@ static int sign_of_relative_motion(const ends *e)
 }
 
 /* Returns whether side * (point - middle) <= size, by exact comparison. `side` is 1 or -1. */
-static bool is_within_size(double point, double middle, int side, double size)
+static bool is_within_half_size(double point, double middle, int side, double size)
 {
     return exact_sign_of_sum((double[]){size, -side * point, side * middle}, 3) >= 0;
 }
@@ -133,7 +133,8 @@ static bool test_contact_exactly(const sweep *box, const double from[3], const d
         /* On an axis without relative motion, the point has one position relative to the box. One of the two tests
          * compares this position with the box's upper face, the other test with its lower face. */
         const int side = direction[i] ? direction[i] : 1;
-        if (!is_within_size(e[i].q, e[i].b, side, box->size) || !is_within_size(e[i].p, e[i].a, -side, box->size))
+        if (!is_within_half_size(e[i].q, e[i].b, side, box->size) ||
+            !is_within_half_size(e[i].p, e[i].a, -side, box->size))
             return false;
     }
     for (int i = 0; i < 3; i++)

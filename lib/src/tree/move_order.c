@@ -265,7 +265,7 @@ static size_t max_paired_points_in_one_cell(const octree_point *points, uint32_t
 }
 
 /* Returns an upper bound of the number of points in one indivisible cell, among all points of two leaves. */
-static size_t max_points_in_one_cell(const node *old, const node *made, const double distance[3])
+static size_t max_points_per_sort_cell(const node *old, const node *made, const double distance[3])
 {
     const octree_point *before = leaf_points(old), *after = leaf_points(made);
     const uint32_t odd = old->count % 2, made_odd = made->count % 2;
@@ -281,7 +281,7 @@ static bool can_overflow_in_nodes(const octree *tree, const node *old, const nod
     if (fits_leaf(tree, (size_t)old->count + made->count))
         return false;
     if (old->octants == 0 && made->octants == 0)
-        return !fits_leaf(tree, max_points_in_one_cell(old, made, distance));
+        return !fits_leaf(tree, max_points_per_sort_cell(old, made, distance));
     for (unsigned octant = 0; octant < 8; octant++) {
         const node *before = old->octants ? child_at(old, octant) : old;
         const node *after = made->octants ? child_at(made, octant) : made;

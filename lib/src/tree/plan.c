@@ -116,8 +116,8 @@ bool get_next_job_result(batch *b, node *made)
     return true;
 }
 
-/* Build the node of one large leaf by jobs of its own. The job list of the whole batch is set aside and restored
- * afterwards. */
+/* Build the node of one large leaf in parallel, with a job list of its own. The job list of the whole batch is set
+ * aside and restored afterwards. */
 bool build_node_by_tasks(batch *b, cell c, span items, node *made)
 {
     if (!b->division)
