@@ -164,7 +164,7 @@ static bool open_baseline(comparing *c, octreel_error *error)
     if (!diff_is_exact(&c->options))
         return error_set(error,
                          "%s: a baseline holds digests, which allow no tolerance; compare with a PNG file, or set "
-                         "max_delta, antialias, max_pixels and ignored_count to 0",
+                         "max_delta, flip, antialias, max_pixels and ignored_count to 0",
                          c->reference.path);
     c->has_baseline = true;
     c->baseline = (diff_side){.path = c->reference.path, .source = c->reference.path};

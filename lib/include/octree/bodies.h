@@ -104,7 +104,7 @@ uint64_t octree_bodies_digest(const octree_bodies *bodies);
  * storage about the first violation. Cost: O(n * M). */
 const char *octree_bodies_check(const octree_bodies *bodies);
 
-/* Returns the number of bytes that the set has allocated, trees included. Returns 0 for null. Cost: O(nodes). */
+/* Returns the number of bytes that the set has allocated, trees included. Returns 0 for null. Cost: O(1). */
 size_t octree_bodies_memory(const octree_bodies *bodies);
 
 /* The number of levels: level 0 has the largest bodies. */

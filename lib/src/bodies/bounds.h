@@ -53,4 +53,15 @@ static inline bool is_span_empty(const time_span *span)
     return span->enter > span->leave || span->enter > DBL_MAX;
 }
 
+/* Compute lower bounds for the bodies of the eight octants of a cell: of the squared distance from a target, both
+ * multiplied by a power of two; and of the time at which a cast touches them, HUGE_VAL if it never does. */
+void bound_squares_of_octants(const double target[3], double scale, const cell_halves *h, double bounds[8]);
+void bound_times_of_octants(const cast *c, const cell_halves *h, double bounds[8]);
+
+/* Returns the begin of a span, or HUGE_VAL if the span has no time. */
+static inline double begin_of_span(const time_span *span)
+{
+    return is_span_empty(span) ? HUGE_VAL : span->enter;
+}
+
 #endif

@@ -18,10 +18,10 @@ enum { PREFETCH_AHEAD = 8 };
 
 /* A change of a tree that is collected, but not made yet. */
 typedef struct pending {
-    size_t index;      /* the index of the body in the caller's arrays */
-    octree_point from; /* the point that is inserted, removed or moved; its id is the row */
-    octree_body old;   /* the body before a move */
+    size_t index; /* the index of the body in the caller's arrays */
+    uint32_t row;
     unsigned level;
+    octree_body body; /* the body that is inserted or removed; before a move, the body that is moved */
 } pending;
 
 typedef octree_status bulk_change(octree *tree, const octree_point *points, const double (*to)[3], size_t count);
@@ -45,16 +45,6 @@ static void set_status(bulk *b, size_t index, octree_status status)
     b->changed += status == OCTREE_OK;
 }
 
-static bool begin_bulk(bulk *b, size_t count)
-{
-    arena *memory = &b->set->memory;
-    b->room = count;
-    b->items = count <= SIZE_MAX / sizeof *b->items ? arena_allocate(memory, (count + 1) * sizeof *b->items) : NULL;
-    b->points = b->items ? arena_allocate(memory, (count + 1) * sizeof *b->points) : NULL;
-    b->to = b->points && b->moved ? arena_allocate(memory, (count + 1) * sizeof *b->to) : NULL;
-    return b->points && (b->to || !b->moved);
-}
-
 static void end_bulk(bulk *b)
 {
     arena *memory = &b->set->memory;
@@ -63,11 +53,23 @@ static void end_bulk(bulk *b)
     arena_free(memory, b->to, (b->room + 1) * sizeof *b->to);
 }
 
-static void collect(bulk *b, size_t index, uint32_t row, const octree_body *old, unsigned level)
+/* Allocate the lists of a bulk call. Returns false, without memory, if there is none. */
+static bool begin_bulk(bulk *b, size_t count)
 {
-    pending *p = &b->items[b->count++];
-    *p = (pending){.index = index, .old = *old, .level = level, .from.id = row};
-    memcpy(p->from.position, old->position, sizeof p->from.position);
+    arena *memory = &b->set->memory;
+    b->room = count;
+    b->items = count <= SIZE_MAX / sizeof *b->items ? arena_allocate(memory, (count + 1) * sizeof *b->items) : NULL;
+    b->points = b->items ? arena_allocate(memory, (count + 1) * sizeof *b->points) : NULL;
+    b->to = b->points && b->moved ? arena_allocate(memory, (count + 1) * sizeof *b->to) : NULL;
+    if (b->points && (b->to || !b->moved))
+        return true;
+    end_bulk(b);
+    return false;
+}
+
+static void collect(bulk *b, size_t index, uint32_t row, const octree_body *body, unsigned level)
+{
+    b->items[b->count++] = (pending){index, row, level, *body};
 }
 
 /* Gather the collected changes of a level. Returns their number. */
@@ -75,11 +77,13 @@ static size_t gather_level(bulk *b, unsigned level)
 {
     size_t count = 0;
     for (size_t i = 0; i < b->count; i++) {
-        if (b->items[i].level != level)
+        const pending *p = &b->items[i];
+        if (p->level != level)
             continue;
-        b->points[count] = b->items[i].from;
+        b->points[count].id = p->row;
+        memcpy(b->points[count].position, p->body.position, sizeof p->body.position);
         if (b->moved)
-            memcpy(b->to[count], b->moved[b->items[i].index].position, sizeof b->to[count]);
+            memcpy(b->to[count], b->moved[p->index].position, sizeof b->to[count]);
         count++;
     }
     return count;
@@ -146,9 +150,9 @@ static octree_status insert_points(octree *tree, const octree_point *points, con
 static void finish_insertion(bulk *b, const pending *p, bool made)
 {
     if (made)
-        change_reach(b->set, p->level, p->old.half, 1);
+        change_reach(b->set, p->level, p->body.half, 1);
     else
-        rows_remove(&b->set->rows, (uint32_t)p->from.id);
+        rows_remove(&b->set->rows, p->row);
 }
 
 static void add_row(bulk *b, size_t index)
@@ -222,10 +226,8 @@ octree_status octree_bodies_insert_many(octree_bodies *bodies, const octree_body
     if (status != OCTREE_OK)
         return status;
     bulk b = {.set = bodies, .from = added, .statuses = statuses};
-    if (!begin_bulk(&b, count)) {
-        end_bulk(&b);
+    if (!begin_bulk(&b, count))
         return OCTREE_NO_MEMORY;
-    }
     row_order order = make_order(bodies, added, count);
     for (size_t i = 0; i < count; i++) {
         if (order.indices && i + PREFETCH_AHEAD < count)
@@ -248,11 +250,11 @@ static octree_status remove_points(octree *tree, const octree_point *points, con
 static void finish_removal(bulk *b, const pending *p, bool made)
 {
     if (!made) {
-        rows_show(&b->set->rows, (uint32_t)p->from.id);
+        rows_show(&b->set->rows, p->row);
         return;
     }
-    change_reach(b->set, p->level, p->old.half, -1);
-    rows_free(&b->set->rows, (uint32_t)p->from.id);
+    change_reach(b->set, p->level, p->body.half, -1);
+    rows_free(&b->set->rows, p->row);
 }
 
 static void hide_row(bulk *b, size_t index)
@@ -276,10 +278,8 @@ octree_status octree_bodies_remove_many(octree_bodies *bodies, const octree_body
     if (status != OCTREE_OK)
         return status;
     bulk b = {.set = bodies, .from = removed, .statuses = statuses};
-    if (!begin_bulk(&b, count)) {
-        end_bulk(&b);
+    if (!begin_bulk(&b, count))
         return OCTREE_NO_MEMORY;
-    }
     for (size_t i = 0; i < count; i++) {
         prefetch_row_of(&b, i, count);
         hide_row(&b, i);
@@ -298,34 +298,20 @@ static octree_status move_points(octree *tree, const octree_point *points, const
 static void finish_move(bulk *b, const pending *p, bool made)
 {
     if (!made) {
-        rows_replace(&b->set->rows, (uint32_t)p->from.id, &p->old);
+        rows_replace(&b->set->rows, p->row, &p->body);
         return;
     }
-    if (is_same_position(p->old.half, b->moved[p->index].half))
+    if (is_same_position(p->body.half, b->moved[p->index].half))
         return;
-    change_reach(b->set, p->level, p->old.half, -1);
+    change_reach(b->set, p->level, p->body.half, -1);
     change_reach(b->set, p->level, b->moved[p->index].half, 1);
-}
-
-static octree_status check_move(const bulk *b, size_t index, uint32_t *row)
-{
-    octree_status status = check_body(b->set, &b->from[index]);
-    if (status == OCTREE_OK)
-        status = check_body(b->set, &b->moved[index]);
-    if (status != OCTREE_OK)
-        return status;
-    *row = rows_find(&b->set->rows, &b->from[index]);
-    if (*row == ROW_NONE)
-        return OCTREE_NOT_FOUND;
-    const uint32_t other = rows_find(&b->set->rows, &b->moved[index]);
-    return other == ROW_NONE || other == *row ? OCTREE_OK : OCTREE_DUPLICATE;
 }
 
 static void move_row(bulk *b, size_t index)
 {
     uint32_t row;
     const octree_body *moved = &b->moved[index];
-    const octree_status status = check_move(b, index, &row);
+    const octree_status status = find_moved_row(b->set, &b->from[index], moved, &row);
     if (status != OCTREE_OK) {
         set_status(b, index, status);
         return;
@@ -352,10 +338,8 @@ octree_status octree_bodies_move_many(octree_bodies *bodies, const octree_body *
     if (count > 0 && !to)
         return OCTREE_NULL_ARGUMENT;
     bulk b = {.set = bodies, .from = from, .moved = to, .statuses = statuses};
-    if (!begin_bulk(&b, count)) {
-        end_bulk(&b);
+    if (!begin_bulk(&b, count))
         return OCTREE_NO_MEMORY;
-    }
     for (size_t i = 0; i < count; i++) {
         prefetch_row_of(&b, i, count);
         move_row(&b, i);

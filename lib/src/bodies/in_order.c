@@ -28,10 +28,10 @@ typedef struct ordered_search {
     /* Returns the sign of the key of `a` minus that of `b`, in real numbers. */
     int (*compare)(const struct ordered_search *s, const octree_body *a, const octree_body *b);
     double (*finish)(const struct ordered_search *s, const octree_body *body); /* Returns octree_hit.at. */
-    const double *target;                                                      /* nearest */
-    double radius, scale;
-    cast cast;            /* cast */
-    const double *center; /* the target of OCTREE_SKIP_COINCIDENT; null: there is none */
+    const double *target;                                                      /* nearest: the target; null for casts */
+    double radius; /* HUGE_VAL: there is none, as in a cast */
+    double scale;
+    cast cast;
     body_call accept;
     octree_hit *hits; /* a heap; hits[0] has the greatest key. The key is octree_hit.at */
     size_t count, k;
@@ -46,12 +46,7 @@ typedef struct ordered_search {
 
 static void bound_distances(const ordered_search *s, const cell_halves *h, double bounds[8])
 {
-    double gaps[3][2];
-    for (int i = 0; i < 3; i++)
-        for (int half = 0; half < 2; half++)
-            gaps[i][half] = bound_gap(s->target[i], h->center[i][half], h->outer[i][half]) * s->scale;
-    for (unsigned o = 0; o < 8; o++)
-        bounds[o] = bound_square(gaps[0][o >> 2], gaps[1][o >> 1 & 1], gaps[2][o & 1]);
+    bound_squares_of_octants(s->target, s->scale, h, bounds);
 }
 
 static double bound_distance_at(const ordered_search *s, const double position[3])
@@ -62,25 +57,9 @@ static double bound_distance_at(const ordered_search *s, const double position[3
     return bound_square(gaps[0], gaps[1], gaps[2]);
 }
 
-static double begin_of_span(const time_span *span)
-{
-    return is_span_empty(span) ? HUGE_VAL : span->enter;
-}
-
 static void bound_times(const ordered_search *s, const cell_halves *h, double bounds[8])
 {
-    time_span spans[3][2];
-    for (int i = 0; i < 3; i++)
-        for (int half = 0; half < 2; half++) {
-            spans[i][half] = (time_span){0, s->cast.length};
-            narrow_span(&spans[i][half], &s->cast, i, h->center[i][half], h->outer[i][half]);
-        }
-    for (unsigned o = 0; o < 8; o++) {
-        const time_span *x = &spans[0][o >> 2], *y = &spans[1][o >> 1 & 1], *z = &spans[2][o & 1];
-        const time_span all = {larger(larger(x->enter, y->enter), z->enter),
-                               -larger(larger(-x->leave, -y->leave), -z->leave)};
-        bounds[o] = begin_of_span(&all);
-    }
+    bound_times_of_octants(&s->cast, h, bounds);
 }
 
 static double bound_time_at(const ordered_search *s, const double position[3])
@@ -97,7 +76,7 @@ static bool measure_distance(const ordered_search *s, const octree_body *body, k
 {
     const body_square square = body_measure(body, s->target, s->scale);
     *k = (key){square.value, square.error};
-    return s->radius > DBL_MAX || body_meets_ball(body, s->target, s->radius);
+    return true;
 }
 
 static int compare_distances(const ordered_search *s, const octree_body *a, const octree_body *b)
@@ -211,6 +190,11 @@ static bool is_too_far(const ordered_search *s, double bound)
     return bound > s->limit * s->shrink || bound > s->farthest || bound > DBL_MAX;
 }
 
+static bool is_within_radius(const ordered_search *s, const octree_body *body)
+{
+    return s->radius > DBL_MAX || body_meets_ball(body, s->target, s->radius);
+}
+
 static void scan_leaf(ordered_search *s, const node *leaf)
 {
     const octree_point *points = leaf_points(leaf);
@@ -222,7 +206,8 @@ static void scan_leaf(ordered_search *s, const node *leaf)
         if (is_too_far(s, s->bound_at(s, points[i].position)))
             continue;
         const octree_body *body = load_body(s->set, &points[i], &scratch);
-        if (s->measure(s, body, &k) && !(k.value - k.error > s->limit) && !is_skipped(s->meter.how, body, s->center))
+        if (s->measure(s, body, &k) && !(k.value - k.error > s->limit) && is_within_radius(s, body) &&
+            !is_skipped(s->meter.how, body, s->target))
             offer_body(s, body);
     }
 }
@@ -337,7 +322,6 @@ octree_status octree_bodies_nearest(const octree_bodies *bodies, const double ta
                         .finish = finish_distance,
                         .target = target,
                         .radius = radius,
-                        .center = target,
                         .accept = {accept, context},
                         .hits = hits,
                         .k = k,
@@ -377,6 +361,7 @@ octree_status octree_bodies_cast(const octree_bodies *bodies, const octree_regio
                         .accept = {accept, context},
                         .hits = hits,
                         .k = k,
+                        .radius = HUGE_VAL,
                         .limit = HUGE_VAL,
                         .farthest = HUGE_VAL,
                         .shrink = 1,

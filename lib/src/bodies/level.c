@@ -26,6 +26,15 @@ static int get_exponent(double value) /* of a value >= 0; its sign bit may be se
     return (int)(bits >> 52 & 0x7ff);
 }
 
+/* Halves are subtracted, because the extent may be beyond the range of doubles. */
+int find_exponent_of_world(const octree_box *world)
+{
+    double largest = 0;
+    for (int i = 0; i < 3; i++)
+        largest = larger(largest, world->max[i] / 2 - world->min[i] / 2);
+    return get_exponent(largest);
+}
+
 unsigned find_level(const octree_bodies *set, const double half[3])
 {
     const double largest = larger(larger(half[0], half[1]), half[2]);

@@ -3,7 +3,7 @@
 #include "set.h"
 #include "../exact/float_mode.h"
 #include "../query/search.h"
-#include "octree/digest.h"
+#include "../tree/walk.h"
 
 #include <stdlib.h>
 
@@ -14,18 +14,6 @@ octree_def octree_bodies_def_default(void)
     octree_def def = octree_def_default();
     def.leaf_capacity = 32;
     return def;
-}
-
-/* Returns the biased exponent of half the world's largest extent. Halves are subtracted, because the extent may be
- * beyond the range of doubles. */
-static int find_largest_exponent(const octree_box *world)
-{
-    double largest = 0;
-    for (int i = 0; i < 3; i++)
-        largest = larger(largest, world->max[i] / 2 - world->min[i] / 2);
-    uint64_t bits;
-    memcpy(&bits, &largest, sizeof bits);
-    return (int)(bits >> 52);
 }
 
 static octree_status create_set(const octree_allocator *allocator, octree_bodies **bodies)
@@ -62,7 +50,7 @@ octree_status octree_bodies_create(const octree_def *def, octree_bodies **bodies
     (*bodies)->def = clamped;
     if (def->leaf_capacity == OCTREE_AUTO)
         (*bodies)->def.leaf_capacity = OCTREE_AUTO;
-    (*bodies)->largest = find_largest_exponent(&def->world);
+    (*bodies)->largest = find_exponent_of_world(&def->world);
     (*bodies)->levels[OCTREE_BODY_LEVELS - 1].tree = anchor;
     return OCTREE_OK;
 }
@@ -75,9 +63,7 @@ octree_status octree_bodies_of_points(const octree *tree, const double half[3], 
     *bodies = NULL;
     if (!tree || !half)
         return OCTREE_NULL_ARGUMENT;
-    octree_status status = OCTREE_OK;
-    for (int i = 0; i < 3 && status == OCTREE_OK; i++)
-        status = check_length(half[i]);
+    octree_status status = check_half_extents(half);
     if (status == OCTREE_OK)
         status = create_set(&tree->def.allocator, bodies);
     if (status != OCTREE_OK)
@@ -125,14 +111,20 @@ void octree_bodies_destroy(octree_bodies *bodies)
 
 /* ---- Change a single body ----------------------------------------------------------------------------------- */
 
+octree_status check_half_extents(const double half[3])
+{
+    octree_status status = OCTREE_OK;
+    for (int i = 0; i < 3 && status == OCTREE_OK; i++)
+        status = check_length(half[i]);
+    return status;
+}
+
 octree_status check_body(const octree_bodies *set, const octree_body *body)
 {
     if (!body)
         return OCTREE_NULL_ARGUMENT;
-    octree_status status = check_position(anchor_of(set), body->position);
-    for (int i = 0; i < 3 && status == OCTREE_OK; i++)
-        status = check_length(body->half[i]);
-    return status;
+    const octree_status status = check_position(anchor_of(set), body->position);
+    return status == OCTREE_OK ? check_half_extents(body->half) : status;
 }
 
 static octree_status check_change_of_body(const octree_bodies *set, const octree_body *body)
@@ -210,20 +202,30 @@ static octree_status change_level(octree_bodies *set, const octree_body *from, c
     return status;
 }
 
+octree_status find_moved_row(const octree_bodies *set, const octree_body *from, const octree_body *to, uint32_t *row)
+{
+    octree_status status = check_body(set, from);
+    if (status == OCTREE_OK)
+        status = check_body(set, to);
+    if (status != OCTREE_OK)
+        return status;
+    *row = rows_find(&set->rows, from);
+    if (*row == ROW_NONE)
+        return OCTREE_NOT_FOUND;
+    const uint32_t other = rows_find(&set->rows, to);
+    return other == ROW_NONE || other == *row ? OCTREE_OK : OCTREE_DUPLICATE;
+}
+
 octree_status octree_bodies_move(octree_bodies *bodies, const octree_body *from, const octree_body *to)
 {
     RETURN_IN_DEFAULT_MODE(octree_status, octree_bodies_move, bodies, from, to);
-    octree_status status = check_change_of_body(bodies, from);
+    uint32_t row;
+    octree_status status = check_set_change(bodies);
     if (status == OCTREE_OK)
-        status = check_body(bodies, to);
+        status = find_moved_row(bodies, from, to, &row);
     if (status != OCTREE_OK)
         return status;
     const octree_body old = *from, moved = *to;
-    const uint32_t row = rows_find(&bodies->rows, &old), other = rows_find(&bodies->rows, &moved);
-    if (row == ROW_NONE)
-        return OCTREE_NOT_FOUND;
-    if (other != ROW_NONE && other != row)
-        return OCTREE_DUPLICATE;
     const unsigned begun = begin_set_callbacks(bodies);
     status = change_level(bodies, &old, &moved, row);
     end_callbacks(begun);
@@ -275,19 +277,11 @@ void octree_bodies_at(const octree_bodies *bodies, const octree_point *point, oc
     *body = *load_body(bodies, point, &scratch);
 }
 
-static bool compute_memory(const octree *tree, size_t *bytes)
-{
-    octree_stats stats;
-    if (tree && octree_statistics(tree, &stats) == OCTREE_OK)
-        *bytes += stats.memory;
-    return true;
-}
-
 size_t octree_bodies_memory(const octree_bodies *bodies)
 {
     size_t bytes = bodies ? bodies->memory.bytes : 0;
     for (unsigned i = 0; bodies && !bodies->points && i < OCTREE_BODY_LEVELS; i++)
-        compute_memory(bodies->levels[i].tree, &bytes);
+        bytes += bodies->levels[i].tree ? bodies->levels[i].tree->store.memory.bytes : 0;
     return bytes;
 }
 
@@ -316,14 +310,7 @@ uint64_t octree_bodies_digest(const octree_bodies *bodies)
         if (bodies->levels[i].tree)
             octree_walk(bodies->levels[i].tree, add_leaf_digests, &s);
     const octree_def *def = bodies->points ? &bodies->points->def : &bodies->def;
-    uint64_t digest = octree_digest_word(OCTREE_DIGEST_START, s.sum);
-    digest = octree_digest_word(digest, def->leaf_capacity);
-    digest = octree_digest_word(digest, def->max_depth);
-    for (int i = 0; i < 3; i++) {
-        digest = octree_digest_double(digest, def->world.min[i]);
-        digest = octree_digest_double(digest, def->world.max[i]);
-    }
-    return digest;
+    return digest_of_definition(def, s.sum);
 }
 
 /* ---- Check -------------------------------------------------------------------------------------------------- */
@@ -390,20 +377,12 @@ const char *octree_bodies_check(const octree_bodies *bodies)
     return bodies->points ? NULL : check_rows(bodies);
 }
 
-static int compare_doubles(const double a[3], const double b[3])
-{
-    for (int i = 0; i < 3; i++)
-        if (a[i] != b[i])
-            return a[i] < b[i] ? -1 : 1;
-    return 0;
-}
-
 int octree_compare_bodies(const void *a, const void *b)
 {
     const octree_body *x = a, *y = b;
     if (x->id != y->id)
         return x->id < y->id ? -1 : 1;
     RETURN_IN_DEFAULT_MODE(int, octree_compare_bodies, a, b);
-    const int order = compare_doubles(x->position, y->position);
-    return order ? order : compare_doubles(x->half, y->half);
+    const int order = compare_positions(x->position, y->position);
+    return order ? order : compare_positions(x->half, y->half);
 }

@@ -51,6 +51,9 @@ static inline unsigned begin_set_callbacks(const octree_bodies *set)
     return begun;
 }
 
+/* Returns the biased binary exponent of half the world's largest extent. */
+int find_exponent_of_world(const octree_box *world);
+
 /* Returns the level of a body with these half extents. */
 unsigned find_level(const octree_bodies *set, const double half[3]);
 
@@ -60,8 +63,14 @@ octree_status create_level(octree_bodies *set, unsigned number);
 /* Add the half extents of a body to the reach of its level (change = 1), or remove them (change = -1). */
 void change_reach(octree_bodies *set, unsigned number, const double half[3], int change);
 
+/* Check half extents. Returns OK, NOT_FINITE or BAD_SIZE. */
+octree_status check_half_extents(const double half[3]);
+
 /* Check the numbers of a body. Returns OK, NULL_ARGUMENT, NOT_FINITE, OUTSIDE or BAD_SIZE. */
 octree_status check_body(const octree_bodies *set, const octree_body *body);
+
+/* Check a move, and find the row of the moved body. Returns the statuses of check_body(), NOT_FOUND or DUPLICATE. */
+octree_status find_moved_row(const octree_bodies *set, const octree_body *from, const octree_body *to, uint32_t *row);
 
 /* Check whether a set can be changed. Returns OK, NULL_ARGUMENT, BAD_OPTION (it shows points) or BUSY. */
 octree_status check_set_change(const octree_bodies *set);

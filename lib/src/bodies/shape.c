@@ -68,20 +68,20 @@ static octree_box bounds_of_ball(const shape *s)
  * is excluded or inside. */
 static octant_masks relate_ball(const shape *s, const cell_halves *h, unsigned octants, bool contained)
 {
-    double near[3][2], far[3][2];
+    double near[8], far[3][2];
     const double square = s->region->radius * s->region->radius;
     const double above = square * (1 + 0x1p-50) + 0x1p-1000, below = square * (1 - 0x1p-40) - 0x1p-900;
     unsigned meets = 0, inside = 0;
+    bound_squares_of_octants(s->region->center, 1, h, near);
     for (int i = 0; i < 3; i++)
         for (int half = 0; half < 2; half++) {
             const double center = h->center[i][half];
-            near[i][half] = bound_gap(s->region->center[i], center, h->outer[i][half]);
             far[i][half] = fabs(s->region->center[i] - center) + (contained ? h->outer[i][half] : h->inner[i][half]);
         }
     for (unsigned left = octants; left; left &= left - 1) {
         const unsigned o = bits_lowest(left), x = o >> 2, y = o >> 1 & 1, z = o & 1;
         const double farthest = (far[0][x] * far[0][x] + far[1][y] * far[1][y]) + far[2][z] * far[2][z];
-        meets |= mask_if(!(bound_square(near[0][x], near[1][y], near[2][z]) > above), 1u << o);
+        meets |= mask_if(!(near[o] > above), 1u << o);
         inside |= mask_if(farthest < below && below <= DBL_MAX, 1u << o);
     }
     return (octant_masks){(uint8_t)meets, (uint8_t)inside};
@@ -179,22 +179,13 @@ static bool is_in_cast(const shape *s, const octree_body *body)
 
 static octant_masks relate_cast(const shape *s, const cell_halves *h, unsigned octants, bool contained)
 {
-    time_span spans[3][2];
+    double bounds[8];
     unsigned meets = 0;
     (void)contained;
-    for (int i = 0; i < 3; i++)
-        for (int half = 0; half < 2; half++) {
-            spans[i][half] = (time_span){0, s->cast.length};
-            narrow_span(&spans[i][half], &s->cast, i, h->center[i][half], h->outer[i][half]);
-        }
-    for (unsigned left = octants; left; left &= left - 1) {
-        const unsigned o = bits_lowest(left);
-        const time_span *x = &spans[0][o >> 2], *y = &spans[1][o >> 1 & 1], *z = &spans[2][o & 1];
-        const time_span all = {larger(larger(x->enter, y->enter), z->enter),
-                               -larger(larger(-x->leave, -y->leave), -z->leave)};
-        meets |= mask_if(!is_span_empty(&all), 1u << o);
-    }
-    return (octant_masks){(uint8_t)meets, 0};
+    bound_times_of_octants(&s->cast, h, bounds);
+    for (unsigned o = 0; o < 8; o++)
+        meets |= mask_if(bounds[o] <= DBL_MAX, 1u << o);
+    return (octant_masks){(uint8_t)(meets & octants), 0};
 }
 
 /* The end of the motion is rounded outwards: its error is below 4 * 2^-53 of the terms. */
@@ -261,14 +252,6 @@ octree_box shape_bounds(const shape *s)
 
 /* ---- Checks ------------------------------------------------------------------------------------------------- */
 
-static octree_status check_halves(const double half[3])
-{
-    octree_status status = OCTREE_OK;
-    for (int i = 0; i < 3 && status == OCTREE_OK; i++)
-        status = check_length(half[i]);
-    return status;
-}
-
 /* Check a vector that must not be zero. */
 static octree_status check_direction(const double v[3])
 {
@@ -295,14 +278,14 @@ static octree_status check_ray(const octree_region *region)
         status = check_direction(region->direction);
     if (status == OCTREE_OK)
         status = isnan(region->length) ? OCTREE_NOT_FINITE : region->length < 0 ? OCTREE_BAD_SIZE : OCTREE_OK;
-    return status == OCTREE_OK ? check_halves(region->half) : status;
+    return status == OCTREE_OK ? check_half_extents(region->half) : status;
 }
 
 static octree_status check_swept(const octree_region *region)
 {
     if (!is_finite_position(region->from) || !is_finite_position(region->to))
         return OCTREE_NOT_FINITE;
-    return check_halves(region->half);
+    return check_half_extents(region->half);
 }
 
 static octree_status check_ball(const octree_region *region)

@@ -9,7 +9,7 @@
  * side of a half-space a sum of products. The sum is first computed in doubles with a bound of its error. If the bound
  * does not decide, the sum is computed exactly (exact.h).
  *
- * Cost: some ten additions; an exact sum, some 100 ns, only if the shapes touch or nearly touch.
+ * Cost: some ten additions; an exact sum only if the shapes touch or nearly touch.
  */
 #include "body.h"
 #include "metric.h"

@@ -19,6 +19,15 @@ static inline bool is_same_position(const double a[3], const double b[3])
 #endif
 }
 
+/* Compare two positions by their coordinates, for sorting. Returns -1, 0 or 1. */
+static inline int compare_positions(const double a[3], const double b[3])
+{
+    for (int i = 0; i < 3; i++)
+        if (a[i] != b[i])
+            return a[i] < b[i] ? -1 : 1;
+    return 0;
+}
+
 static inline bool is_finite_position(const double p[3])
 {
     return isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]);

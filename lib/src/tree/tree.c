@@ -400,8 +400,5 @@ int octree_compare_points(const void *a, const void *b)
     if (p->id != q->id)
         return p->id < q->id ? -1 : 1;
     RETURN_IN_DEFAULT_MODE(int, octree_compare_points, a, b);
-    for (int i = 0; i < 3; i++)
-        if (p->position[i] != q->position[i])
-            return p->position[i] < q->position[i] ? -1 : 1;
-    return 0;
+    return compare_positions(p->position, q->position);
 }

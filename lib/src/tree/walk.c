@@ -325,16 +325,21 @@ static uint64_t sum_digests_below(const node *n, octree_address address)
     return sum;
 }
 
-uint64_t digest_of_tree(const octree *tree, uint64_t sum)
+uint64_t digest_of_definition(const octree_def *def, uint64_t sum)
 {
     uint64_t digest = octree_digest_word(OCTREE_DIGEST_START, sum);
-    digest = octree_digest_word(digest, tree->def.leaf_capacity);
-    digest = octree_digest_word(digest, tree->def.max_depth);
+    digest = octree_digest_word(digest, def->leaf_capacity);
+    digest = octree_digest_word(digest, def->max_depth);
     for (int i = 0; i < 3; i++) {
-        digest = octree_digest_double(digest, tree->def.world.min[i]);
-        digest = octree_digest_double(digest, tree->def.world.max[i]);
+        digest = octree_digest_double(digest, def->world.min[i]);
+        digest = octree_digest_double(digest, def->world.max[i]);
     }
     return digest;
+}
+
+uint64_t digest_of_tree(const octree *tree, uint64_t sum)
+{
+    return digest_of_definition(&tree->def, sum);
 }
 
 static bool digest_divided_node(const subtree *s, void *context)

@@ -22,4 +22,7 @@ void count_node(octree_stats *stats, const node *n, unsigned depth);
 uint64_t digest_node(const node *n, octree_address address);
 uint64_t digest_of_tree(const octree *tree, uint64_t sum);
 
+/* Returns the digest of a tree or set with this definition, from the sum of the digests of its contents. */
+uint64_t digest_of_definition(const octree_def *def, uint64_t sum);
+
 #endif
