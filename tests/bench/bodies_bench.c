@@ -45,12 +45,6 @@ typedef struct workload {
 
 /* ---- Workloads ---------------------------------------------------------------------------------------------- */
 
-static double draw(uint64_t *seed)
-{
-    *seed = *seed * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
-    return (double)(*seed >> 11) * 0x1p-53;
-}
-
 static double clamp(double x)
 {
     return x < -WORLD ? -WORLD : x > WORLD ? WORLD : x;
@@ -66,14 +60,14 @@ static void make_bodies(workload *w, octree_sample_kind set, body_sizes sizes, u
     for (size_t i = 0; i < w->count; i++) {
         octree_body *b = &w->bodies[i], *to = &w->to[i];
         *b = (octree_body){.id = i};
-        const double size = sizes == SIZES_EQUAL ? 0.4 : 2 * pow(1000, -draw(seed));
+        const double size = sizes == SIZES_EQUAL ? 0.4 : 2 * pow(1000, -octree_random_unit(seed));
         for (int k = 0; k < 3; k++) {
             b->position[k] = rows[i][k];
-            b->half[k] = spacing * size * (0.75 + draw(seed) / 2);
+            b->half[k] = spacing * size * (0.75 + octree_random_unit(seed) / 2);
         }
         *to = *b;
         for (int k = 0; k < 3; k++)
-            to->position[k] = clamp(b->position[k] + spacing * (draw(seed) - 0.5));
+            to->position[k] = clamp(b->position[k] + spacing * (octree_random_unit(seed) - 0.5));
     }
     free(rows);
 }
@@ -81,7 +75,7 @@ static void make_bodies(workload *w, octree_sample_kind set, body_sizes sizes, u
 /* A camera at a place: near and far planes, and four sides. */
 static void make_frustum(octree_half_space planes[PLANES], const double at[3], double depth, uint64_t *seed)
 {
-    const int axis = (int)(draw(seed) * 3);
+    const int axis = (int)(octree_random_unit(seed) * 3);
     for (int i = 0; i < PLANES; i++) {
         octree_half_space *p = &planes[i];
         const int side = i % 2 ? 1 : -1, other = (axis + 1 + (i - 2) / 2) % 3;
@@ -99,14 +93,14 @@ static void make_regions(workload *w, uint64_t *seed)
 {
     const double spacing = 2 * WORLD / cbrt((double)w->count);
     for (int i = 0; i < QUERIES; i++) {
-        const octree_body *near = &w->bodies[(size_t)(draw(seed) * (double)w->count)];
+        const octree_body *near = &w->bodies[(size_t)(octree_random_unit(seed) * (double)w->count)];
         octree_region r = {
             .half_spaces = w->planes[i], .half_space_count = PLANES, .length = HUGE_VAL, .radius = spacing};
         for (int k = 0; k < 3; k++) {
-            r.center[k] = clamp(near->position[k] + spacing * (draw(seed) - 0.5));
+            r.center[k] = clamp(near->position[k] + spacing * (octree_random_unit(seed) - 0.5));
             r.box.min[k] = r.center[k] - spacing;
             r.box.max[k] = r.center[k] + spacing;
-            r.origin[k] = WORLD * (2 * draw(seed) - 1);
+            r.origin[k] = WORLD * (2 * octree_random_unit(seed) - 1);
             r.direction[k] = r.center[k] - r.origin[k];
         }
         make_frustum(w->planes[i], r.center, 5 * spacing, seed);
