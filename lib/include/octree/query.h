@@ -83,7 +83,7 @@ const octree_query_member_traits *octree_query_member_at(size_t index);
  * member whose key in a session file is the kind's name; POINTS or NEIGHBORS, the array of octree_answer that holds the
  * result; the kind's meaning in a few words; a noun for the searched region.
  *
- * To add a kind: a row here; a file lib/src/query/kind_NAME.c, which defines run_NAME_query() and, for POINTS,
+ * To add a kind: a row here; a file lib/src/ask/kind_NAME.c, which defines run_NAME_query() and, for POINTS,
  * compare_position_to_NAME() and find_bounds_of_NAME(); a row of viz/scene/query_looks.h; a layer_NAME in viz/layers; a
  * test. If one of these is missing, the program does not compile or link. */
 #define OCTREE_QUERY_MAP(X)                                                                                            \

@@ -23,7 +23,7 @@
  */
 #include "judge.h"
 #include "../exact/exact.h"
-#include "../query/kind.h"
+#include "../ask/kind.h"
 #include "../query/search.h"
 
 typedef struct judge_state {

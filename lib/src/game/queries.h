@@ -3,7 +3,7 @@
 #ifndef OCTREE_QUERIES_H
 #define OCTREE_QUERIES_H
 
-#include "../query/kind.h"
+#include "../ask/kind.h"
 #include "octree/game.h"
 
 /* Returns the options of a search, whose tracer records in the tick the nodes that the search visits, takes whole or

@@ -3,7 +3,7 @@
  * kind. */
 #include "../exact/float_mode.h"
 #include "kind.h"
-#include "search.h"
+#include "../query/search.h"
 
 #include <stdlib.h>
 

@@ -2,7 +2,7 @@
 /* kind_radius.c - the kind "radius": the points in a ball. */
 #include "../exact/exact.h"
 #include "kind.h"
-#include "search.h"
+#include "../query/search.h"
 
 octree_status run_radius_query(query_run *run, octree_answer *answer)
 {

@@ -2,7 +2,7 @@
 /* kind_range.c - the kind "range": the points in a box. */
 #include "../exact/exact.h"
 #include "kind.h"
-#include "search.h"
+#include "../query/search.h"
 
 octree_status run_range_query(query_run *run, octree_answer *answer)
 {
