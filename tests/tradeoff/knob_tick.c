@@ -63,7 +63,7 @@ static bool touches(const flight *f, const octree_game_body *body, double first,
     const double to[3] = {f->from[0] + last * LENGTH, f->from[1], f->from[2]};
     place_after(body, first, p);
     place_after(body, last, q);
-    return exact_touches(from, to, half, p, q);
+    return exact_touches(from, to, half, p, q, NULL);
 }
 
 static bool is_free(const flight *f, double first, double last)

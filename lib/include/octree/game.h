@@ -18,6 +18,7 @@
 #ifndef OCTREE_GAME_H
 #define OCTREE_GAME_H
 
+#include "octree/bodies.h"
 #include "octree/query.h"
 #include "octree/sample.h"
 
@@ -25,12 +26,14 @@
 extern "C" {
 #endif
 
-/* A point of the game. The velocity is in world units per tick. A body with a velocity bounces off the bounds of the
- * world. */
+/* A point or a box of the game. The velocity is in world units per tick. A body with a velocity bounces when its box
+ * reaches the bounds of the world. On an axis on which the box is larger than the world, the body does not move. A body
+ * whose box begins beyond the bounds bounces where it began. */
 typedef struct octree_game_body {
     uint64_t id;
-    double position[3];
+    double position[3]; /* the centre of its box */
     double velocity[3];
+    double half[3]; /* the half extents of its box, finite and >= 0; all 0: a point */
 } octree_game_body;
 
 /* Which point is the player, and what moves the player. */
@@ -63,8 +66,8 @@ typedef enum octree_edit_kind { OCTREE_EDIT_INSERT, OCTREE_EDIT_REMOVE, OCTREE_E
 typedef struct octree_edit {
     uint64_t tick;
     octree_edit_kind kind;
-    /* REMOVE reads only the body's id. MOVE reads its id and position; the body keeps its current velocity, which a
-     * bounce may have reversed (octree_tick.movers) */
+    /* REMOVE reads only the body's id. MOVE reads its id and position; the body keeps its half extents and its current
+     * velocity, which a bounce may have reversed (octree_tick.movers) */
     octree_game_body body;
 } octree_edit;
 
@@ -142,6 +145,9 @@ typedef struct octree_session {
     const octree_foreign_tree *foreign;
     size_t foreign_count;
     octree_sampled sampled; /* the seeds of the bodies, which session files store; the game does not read this member */
+    /* true: each tick lists the pairs of bodies whose boxes have a common point. The pairs of n points at one position
+     * are n^2 / 2 */
+    bool pairs;
 } octree_session;
 
 /* Returns the paper's session: world [-1000, 1000]^3, capacity 2, depth 5, eleven points, the player at the origin with
@@ -165,9 +171,11 @@ typedef enum octree_event {
     OCTREE_EVENT_SPLIT = 16,  /* at least one leaf became an inner node */
     OCTREE_EVENT_MERGED = 32, /* at least one inner node became a leaf or disappeared */
     OCTREE_EVENT_WRONG = 64,  /* an answer or a node of the foreign index is wrong */
+    /* the boxes of two bodies have a common point; only in a session with `pairs` */
+    OCTREE_EVENT_OVERLAPPED = 128,
 } octree_event;
 
-#define OCTREE_EVENT_KINDS 7
+#define OCTREE_EVENT_KINDS 8
 
 /* Returns the name of one event, such as "moved". Returns null unless exactly one known bit is set. */
 const char *octree_event_name(octree_event event);
@@ -180,6 +188,12 @@ typedef struct octree_refusal {
     octree_status why;
     double position[3]; /* the position at which the point was to be stored; 0 for an edit that removes a point */
 } octree_refusal;
+
+/* Two bodies whose boxes have a common point. The player of OCTREE_PLAYER_KEYS is in no pair: octree_tick.hits lists
+ * what its box touches. */
+typedef struct octree_pair {
+    uint64_t a, b; /* their ids, a < b */
+} octree_pair;
 
 /* A node that the collision test or the queries of a tick visited or pruned. */
 typedef struct octree_visit {
@@ -208,7 +222,8 @@ typedef struct octree_tick {
     /* the player's position before the tick; if the player is a body inserted in this tick, the position of its
      * insertion */
     double from[3];
-    const octree_point *hits; /* the points that collide with the player, sorted by id */
+    /* the bodies whose boxes collide with the player's, as points at their positions, sorted by id */
+    const octree_point *hits;
     size_t hit_count;
     /* the position that each hit had before the tick, in the order of `hits`; null if `swept` is false */
     const double (*hit_from)[3];
@@ -238,6 +253,9 @@ typedef struct octree_tick {
     /* addresses of the leaves that hold a collision hit or a point of an answer, in pre-order */
     const octree_address *hit_leaves;
     size_t hit_leaf_count;
+    /* the overlapping pairs, sorted by `a` and then `b`; none if octree_session.pairs is false */
+    const octree_pair *pairs;
+    size_t pair_count;
     const octree_shape *shapes; /* the shapes of this tick, followed by the shapes of every tick */
     size_t shape_count;
     /* the bodies with a velocity, in the same order each time the session is played. A body's velocity is its current
@@ -253,7 +271,7 @@ typedef struct octree_tick {
 typedef struct octree_game octree_game;
 
 /* Start a session and play tick 0. Bodies that the tree refuses, or whose velocity is not finite (NOT_FINITE), are left
- * out and become refusals of tick 0.
+ * out and become refusals of tick 0. So do bodies whose half extents are not finite (NOT_FINITE) or negative (BAD_SIZE).
  *
  * Errors: NULL_ARGUMENT; those of octree_create; NOT_FINITE, OUTSIDE, BAD_SIZE (the player); DUPLICATE (two bodies with
  * one id, or a body with the player's id); BAD_KEY; BAD_OPTION; BAD_ORDER; NOT_FINITE, BAD_RANGE, BAD_SIZE (a query;
@@ -321,6 +339,13 @@ const octree *octree_game_tree(const octree_game *game);
 /* Copy the point with this id, as it is after the last played tick, to *point. Returns false if no point has the id, or
  * if an argument is null. Cost: O(1). */
 bool octree_game_find(const octree_game *game, uint64_t id, octree_point *point);
+
+/* Like octree_game_find(), with the half extents. */
+bool octree_game_find_body(const octree_game *game, uint64_t id, octree_body *body);
+
+/* Returns the bodies after the last played tick, as a set for the queries of bodies.h; its level is the game's tree. The
+ * game owns the set, which cannot be changed. Returns null for null. */
+const octree_bodies *octree_game_bodies(const octree_game *game);
 
 /* Returns the session that was passed to octree_game_create. */
 const octree_session *octree_game_session(const octree_game *game);

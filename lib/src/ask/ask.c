@@ -51,8 +51,13 @@ const char *octree_wrong_name(octree_wrong_kind wrong)
 
 const query_rules *query_rules_of(octree_query_kind kind)
 {
-#define RULES_POINTS(name) {run_##name##_query, compare_position_to_##name, find_bounds_of_##name},
-#define RULES_NEIGHBORS(name) {run_##name##_query, NULL, NULL},
+#define RULES_POINTS(name)                                                                                             \
+    {.ask = run_##name##_query, .compare = compare_body_to_##name, .bound = find_bounds_of_##name},
+#define RULES_NEIGHBORS(name)                                                                                          \
+    {.ask = run_##name##_query,                                                                                        \
+     .order = compare_##name##_order,                                                                                  \
+     .measure = measure_for_##name,                                                                                    \
+     .region = find_region_of_##name},
 #define RULES(kind, name, members, named_by, result, ...) RULES_##result(name)
     static const query_rules table[] = {OCTREE_QUERY_MAP(RULES)};
 #undef RULES
@@ -126,15 +131,51 @@ void sort_points(list *points, size_t first)
               octree_compare_points);
 }
 
-bool collect_unless_skipped(const octree_point *point, void *context)
+/* An octree_body_visitor with a query_run as its context: append the body's point to the result unless the query skips
+ * it. */
+static bool collect_body_unless_skipped(const octree_body *body, void *context)
 {
     query_run *run = context;
     const octree_answer *asked = run->asked;
-    const bool skipped = (asked->skip == OCTREE_SKIP_ID && point->id == asked->skip_id) ||
-                         (asked->skip == OCTREE_SKIP_COINCIDENT && is_same_position(point->position, asked->target)) ||
-                         (asked->bounds == OCTREE_BOUNDS_OPEN && is_on_boundary(asked, point->position));
-    run->failed = !skipped && !list_push(run->memory, run->points, point, sizeof *point);
+    const bool skipped = (asked->skip == OCTREE_SKIP_ID && body->id == asked->skip_id) ||
+                         (asked->skip == OCTREE_SKIP_COINCIDENT && is_same_position(body->position, asked->target)) ||
+                         (asked->bounds == OCTREE_BOUNDS_OPEN && is_on_boundary(asked, body));
+    const octree_point point = point_of_body(body);
+    run->failed = !skipped && !list_push(run->memory, run->points, &point, sizeof point);
     return !run->failed;
+}
+
+bool collect_unless_skipped(const octree_point *point, void *context)
+{
+    octree_body body = {.id = point->id};
+    memcpy(body.position, point->position, sizeof body.position);
+    return collect_body_unless_skipped(&body, context);
+}
+
+/* The search skips nothing itself: the player is skipped by the queries of neighbours alone. */
+octree_status collect_bodies_in_region(query_run *run, const octree_region *region)
+{
+    octree_search how = run->how;
+    how.skip = OCTREE_SKIP_NONE;
+    return octree_bodies_search(run->bodies, region, &how, collect_body_unless_skipped, run);
+}
+
+octree_status collect_first_bodies(query_run *run, const octree_answer *answer, const octree_region *ray)
+{
+    const size_t all = octree_count(run->tree), k = answer->k < all ? answer->k : all;
+    octree_hit *hits = k ? arena_allocate(run->memory, k * sizeof *hits) : NULL;
+    if (k && !hits)
+        return OCTREE_NO_MEMORY;
+    size_t found = 0;
+    const octree_status status =
+        ray ? octree_bodies_cast(run->bodies, ray, k, &run->how, NULL, NULL, hits, &found)
+            : octree_bodies_nearest(run->bodies, answer->target, k, HUGE_VAL, &run->how, NULL, NULL, hits, &found);
+    for (size_t i = 0; !run->failed && i < found; i++) {
+        const octree_neighbor neighbor = {point_of_body(&hits[i].body), hits[i].at};
+        run->failed = !list_push(run->memory, run->neighbors, &neighbor, sizeof neighbor);
+    }
+    arena_free(run->memory, hits, k * sizeof *hits);
+    return status;
 }
 
 /* For each type of query member: its size in bytes, and the number of its doubles. */
@@ -232,7 +273,13 @@ octree_status octree_query_answer(const octree *tree, const octree_query *query,
         return status;
     arena memory = {.allocator = tree->def.allocator};
     list points = {0}, neighbors = {0};
-    query_run run = {tree, search_or_default(how), &memory, &points, &neighbors, NULL, false};
+    const octree_bodies bodies = show_points_as_bodies(tree, (double[3]){0, 0, 0});
+    query_run run = {.tree = tree,
+                     .bodies = &bodies,
+                     .how = search_or_default(how),
+                     .memory = &memory,
+                     .points = &points,
+                     .neighbors = &neighbors};
     octree_answer made;
     status = run_query(&run, query, player, &made);
     made.points = move_list_to_block(&memory, &points, sizeof(octree_point));

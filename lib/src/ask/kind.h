@@ -4,8 +4,8 @@
 #ifndef OCTREE_KIND_H
 #define OCTREE_KIND_H
 
+#include "../bodies/set.h"
 #include "octree/query.h"
-#include "../tree/pool.h"
 
 /* Sort the points of a list from index `first` on, by id and then by position. */
 void sort_points(list *points, size_t first);
@@ -13,6 +13,8 @@ void sort_points(list *points, size_t first);
 /* A query that is being asked: its tree, its options, and the lists to which its result is appended. */
 typedef struct query_run {
     const octree *tree;
+    const octree_bodies *bodies; /* the points of `tree`, shown as bodies */
+    bool extended;               /* false: all bodies are points, so that the queries of points answer */
     octree_search how;
     arena *memory;
     list *points;    /* a list of octree_point */
@@ -24,36 +26,60 @@ typedef struct query_run {
 /* An octree_point_visitor with a query_run as its context: append the point to the result unless the query skips it. */
 bool collect_unless_skipped(const octree_point *point, void *context);
 
-/* Each kind defines a function run_NAME_query in kind_NAME.c, which asks the tree and appends the result. A kind whose
- * result is points also defines compare_position_to_NAME and find_bounds_of_NAME. */
+/* Append the bodies that match a region to the result, unless the query skips them. */
+octree_status collect_bodies_in_region(query_run *run, const octree_region *region);
+
+/* Append the first k bodies, in the order of octree_bodies_cast() for a ray, or of octree_bodies_nearest() to the
+ * answer's target if `ray` is null. The distance of a neighbour is octree_hit.at. */
+octree_status collect_first_bodies(query_run *run, const octree_answer *answer, const octree_region *ray);
+
+/* Each kind defines a function run_NAME_query in kind_NAME.c, which asks the tree and appends the result, and the rules
+ * of its kind of result. */
 #define QUERY_RULE_TYPES(kind, name, ...)                                                                              \
     octree_status run_##name##_query(query_run *run, octree_answer *answer);                                           \
-    int compare_position_to_##name(const octree_answer *asked, const double position[3], double slack);                \
-    octree_box find_bounds_of_##name(const octree_answer *asked, double slack);
+    int compare_body_to_##name(const octree_answer *asked, const octree_body *body, double slack);                     \
+    octree_box find_bounds_of_##name(const octree_answer *asked, double slack);                                        \
+    int compare_##name##_order(const octree_answer *asked, const octree_body *a, const octree_body *b);                \
+    double measure_for_##name(const octree_answer *asked, const octree_body *body);                                    \
+    octree_region find_region_of_##name(const octree_answer *asked, double reach, double slack);
 OCTREE_QUERY_MAP(QUERY_RULE_TYPES)
 #undef QUERY_RULE_TYPES
 
 typedef struct query_rules {
     octree_status (*ask)(query_run *run, octree_answer *answer);
 
-    /* Compare a position with the region of a query, widened by a distance `slack` >= 0. Returns -1 if the position is
-     * inside, 0 on the boundary, 1 outside. The comparison is exact, whatever the sizes of the world and the region; if
-     * slack > 0, the boundary may be rounded outwards. The function pointer is null for query kinds whose result is
-     * neighbours. */
-    int (*compare)(const octree_answer *asked, const double position[3], double slack);
+    /* The rules of kinds whose result is points; null for other kinds. */
+
+    /* Compare a body with the region of a query, widened by a distance `slack` >= 0. Returns -1 if they overlap, 0 if
+     * they only touch, 1 if they are apart. The comparison is exact,
+     * whatever the sizes of the world and the region; if slack > 0, the boundary may be rounded outwards. */
+    int (*compare)(const octree_answer *asked, const octree_body *body, double slack);
 
     /* Returns a closed box that contains the region and all positions at a distance of at most `slack` >= 0 from the
-     * region. The function pointer is null for query kinds whose result is neighbours. */
+     * region. */
     octree_box (*bound)(const octree_answer *asked, double slack);
+
+    /* The rules of kinds whose result is neighbours; null for other kinds. */
+
+    /* Returns the sign of the difference of the keys of two bodies, in real numbers. A key is what the answer is sorted
+     * by, such as the distance of the body. */
+    int (*order)(const octree_answer *asked, const octree_body *a, const octree_body *b);
+
+    /* Returns the key of a body within 4 ulp. HUGE_VAL: no answer contains the body, or the key is beyond DBL_MAX. */
+    double (*measure)(const octree_answer *asked, const octree_body *body);
+
+    /* Returns a region that meets every body whose key is at most `reach`, even after its position is moved by at most
+     * `slack` >= 0. It may be larger. The searches that use it are valid. */
+    octree_region (*region)(const octree_answer *asked, double reach, double slack);
 } query_rules;
 
 const query_rules *query_rules_of(octree_query_kind kind);
 
-/* Returns whether a position is exactly on the boundary of a query's region. The query's result must be points, not
+/* Returns whether a body exactly touches a query's region from outside. The query's result must be points, not
  * neighbours. */
-static inline bool is_on_boundary(const octree_answer *asked, const double position[3])
+static inline bool is_on_boundary(const octree_answer *asked, const octree_body *body)
 {
-    return query_rules_of(asked->kind)->compare(asked, position, 0) == 0;
+    return query_rules_of(asked->kind)->compare(asked, body, 0) == 0;
 }
 
 /* Returns whether the query has a foreign answer or pruned foreign nodes. The foreign answer and these nodes are then

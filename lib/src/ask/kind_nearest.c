@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /* kind_nearest.c - the kinds "nearest" and "knearest": the point nearest to a target, or the k nearest points. */
+#include "../exact/body.h"
 #include "kind.h"
-#include "octree/octree.h"
+#include "../query/search.h"
 
 octree_status run_knearest_query(query_run *run, octree_answer *answer)
 {
+    if (run->extended)
+        return collect_first_bodies(run, answer, NULL);
     const size_t first = run->neighbors->count, all = octree_count(run->tree);
     const size_t k = answer->k < all ? answer->k : all;
     while (run->neighbors->count < first + k)
@@ -21,4 +24,43 @@ octree_status run_nearest_query(query_run *run, octree_answer *answer)
 {
     answer->k = 1;
     return run_knearest_query(run, answer);
+}
+
+/* ---- Rules -------------------------------------------------------------------------------------------------- */
+
+int compare_knearest_order(const octree_answer *asked, const octree_body *a, const octree_body *b)
+{
+    return body_compare_distances(a, b, asked->target);
+}
+
+double measure_for_knearest(const octree_answer *asked, const octree_body *body)
+{
+    return body_distance(body, asked->target);
+}
+
+octree_region find_region_of_knearest(const octree_answer *asked, double reach, double slack)
+{
+    octree_region region = {.kind = OCTREE_REGION_BALL, .radius = exact_add_up(reach, slack)};
+    memcpy(region.center, asked->target, sizeof region.center);
+    for (int i = 0; region.radius > DBL_MAX && i < 3; i++) {
+        region.kind = OCTREE_REGION_BOX;
+        region.box.min[i] = -INFINITY;
+        region.box.max[i] = INFINITY;
+    }
+    return region;
+}
+
+int compare_nearest_order(const octree_answer *asked, const octree_body *a, const octree_body *b)
+{
+    return compare_knearest_order(asked, a, b);
+}
+
+double measure_for_nearest(const octree_answer *asked, const octree_body *body)
+{
+    return measure_for_knearest(asked, body);
+}
+
+octree_region find_region_of_nearest(const octree_answer *asked, double reach, double slack)
+{
+    return find_region_of_knearest(asked, reach, slack);
 }

@@ -6,23 +6,25 @@
 
 octree_status run_range_query(query_run *run, octree_answer *answer)
 {
+    if (run->extended)
+        return collect_bodies_in_region(run, &(octree_region){.kind = OCTREE_REGION_BOX, .box = answer->box});
     return octree_range_search(run->tree, &answer->box, &run->how, collect_unless_skipped, run);
 }
 
-/* Returns the exact sign of a - b - length; a or b may be infinite. */
-static int compare_gap(double a, double b, double length)
+/* Returns the exact sign of a - b - half - length; a or b may be infinite. */
+static int compare_gap(double a, double b, double half, double length)
 {
-    if (!(length > 0) || isinf(a) || isinf(b))
+    if (!(half > 0 || length > 0) || isinf(a) || isinf(b))
         return (a > b) - (a < b);
-    return exact_sign_of_sum((double[]){a, -b, -length}, 3);
+    return exact_sign_of_sum((double[]){a, -b, -half, -length}, 4);
 }
 
-int compare_position_to_range(const octree_answer *asked, const double position[3], double slack)
+int compare_body_to_range(const octree_answer *asked, const octree_body *body, double slack)
 {
     int sign = -1;
     for (int i = 0; i < 3; i++) {
-        const int below = compare_gap(asked->box.min[i], position[i], slack);
-        const int above = compare_gap(position[i], asked->box.max[i], slack);
+        const int below = compare_gap(asked->box.min[i], body->position[i], body->half[i], slack);
+        const int above = compare_gap(body->position[i], asked->box.max[i], body->half[i], slack);
         sign = below > sign ? below : sign;
         sign = above > sign ? above : sign;
     }

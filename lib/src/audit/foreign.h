@@ -76,9 +76,9 @@ size_t foreign_find_node(const foreign *f, uint64_t id);
  * follow. If no node lists the point, the holding at the returned index, if any, has another id. */
 size_t foreign_find_first_holding(const foreign *f, uint64_t point);
 
-/* Returns whether a position lies in the box of a node. Position and box are compared with the precision of the
- * node. */
-bool foreign_node_contains(const octree_foreign_node *node, const double position[3]);
+/* Returns whether a body and the box of a node have a common point. They are compared with the precision of the node.
+ */
+bool foreign_node_meets(const octree_foreign_node *node, const octree_body *body);
 
 /* Begin a tick: clear everything that was recorded about nodes during the queries of the last tick. */
 void foreign_begin_tick(foreign *f);

@@ -12,8 +12,9 @@
  * it lies within epsilon of the region. The bounds of the query, open or closed, decide about points exactly on the
  * boundary. Exact arithmetic finds these points.
  *
- * For neighbours, the distances are compared rank by rank, so that ties need no rule. Squared distances in doubles
- * decide if they differ by more than their error; otherwise exact arithmetic decides (metric.h).
+ * For neighbours, the distances are compared rank by rank, so that ties need no rule. Distances in doubles decide if
+ * they differ by more than their error; otherwise exact arithmetic decides. A kind of query may sort its neighbours by
+ * another key than the distance (query_rules in kind.h).
  *
  * If the index promises answers for floats, the exact answer is made again, for rounded positions. Rounding moves a
  * point by at most a fixed fraction of the world's largest coordinate. The region is enlarged by this distance. All
@@ -22,8 +23,8 @@
  * Cost: a sort of both lists; for floats, also one or more searches.
  */
 #include "judge.h"
-#include "../exact/exact.h"
 #include "../ask/kind.h"
+#include "../exact/exact.h"
 #include "../query/search.h"
 
 typedef struct judge_state {
@@ -31,8 +32,8 @@ typedef struct judge_state {
     const judged_query *about;
     octree_judgement *made;
     octree_answer asked; /* the members of the query; they are rounded to floats if the foreign index promises floats */
+    const query_rules *rules;
     bool rounds;
-    metric metric;
     list *collected; /* the list to which a search appends the points that the search finds */
     size_t boundary; /* the number of points on the region's boundary that a search found */
     bool failed;     /* true: the memory ran out */
@@ -46,31 +47,32 @@ static bool is_neighbor_query(const judge_state *s)
 /* ---- Positions ---------------------------------------------------------------------------------------------- */
 
 /* Begin to judge a query. After this call, *s must not move in memory, because the judged points hold pointers to
- * the target in *s. */
+ * s->asked. */
 static void begin_judging(judge_state *s, judge *j, const judged_query *about, octree_judgement *made)
 {
-    const octree *tree = about->points->tree;
     *s = (judge_state){.judge = j, .about = about, .made = made, .asked = *about->answer};
     s->rounds = s->asked.precision == OCTREE_FLOATS;
     if (s->rounds)
         round_answer_to_floats(&s->asked);
-    s->metric = metric_make(tree->scale, is_subnormal_world(tree), s->asked.target);
+    s->rules = query_rules_of(s->asked.kind);
     j->foreign.count = j->exact.count = 0;
 }
 
 static judged_point make_judged_point(const judge_state *s, const octree_point *point)
 {
-    judged_point p = {.point = *point, .target = s->asked.target};
-    for (int i = 0; i < 3; i++)
-        p.at[i] = s->rounds ? round_to_float(point->position[i]) : point->position[i];
-    p.square = metric_square(&s->metric, p.at);
+    judged_point p = {.point = *point, .asked = &s->asked};
+    octree_bodies_at(s->about->points->bodies, point, &p.body);
+    for (int i = 0; s->rounds && i < 3; i++)
+        p.body.position[i] = round_to_float(point->position[i]);
+    if (s->rules->measure)
+        p.key = s->rules->measure(&s->asked, &p.body);
     return p;
 }
 
 static bool is_skipped(const judge_state *s, const judged_point *p)
 {
     return (s->about->skip == OCTREE_SKIP_ID && p->point.id == s->about->skip_id) ||
-           (s->about->skip == OCTREE_SKIP_COINCIDENT && is_same_position(p->at, s->asked.target));
+           (s->about->skip == OCTREE_SKIP_COINCIDENT && is_same_position(p->body.position, s->asked.target));
 }
 
 static void append_judged_point(judge_state *s, list *l, const judged_point *p)
@@ -86,21 +88,28 @@ static int compare_ids(const void *a, const void *b)
     return (p->point.id > q->point.id) - (p->point.id < q->point.id);
 }
 
-/* Compare the exact distances of two points to the target. The squared distances in doubles decide if they differ by
- * more than their rounding error; else exact arithmetic decides. */
-static int compare_distances(const judged_point *a, const judged_point *b)
+/* Returns whether a key is certainly greater than `factor` times another. The error of both keys is at most 4 ulp,
+ * which for subnormal keys is 4 times 2^-1074. */
+static bool is_certainly_greater(double key, double factor, double other)
 {
-    if (a->square > metric_above(b->square))
+    return key > factor * (1 + 0x1p-47) * other + 0x1p-1070;
+}
+
+/* Compare the exact keys of two points, such as their distances to the target. The keys in doubles decide if they
+ * differ by more than their rounding error; else exact arithmetic decides. */
+static int compare_keys(const judged_point *a, const judged_point *b)
+{
+    if (is_certainly_greater(a->key, 1, b->key))
         return 1;
-    if (a->square < metric_below(b->square))
+    if (is_certainly_greater(b->key, 1, a->key))
         return -1;
-    return metric_compare(a->target, a->at, b->at);
+    return query_rules_of(a->asked->kind)->order(a->asked, &a->body, &b->body);
 }
 
 static int compare_ranks(const void *a, const void *b)
 {
-    const int by_distance = compare_distances(a, b);
-    return by_distance ? by_distance : compare_ids(a, b);
+    const int by_key = compare_keys(a, b);
+    return by_key ? by_key : compare_ids(a, b);
 }
 
 /* ---- The foreign answer ------------------------------------------------------------------------------------- */
@@ -177,51 +186,43 @@ static double largest_rounding_error(const octree *tree)
     return largest > FLT_MAX ? largest : largest * 0x1p-24 + 0x1p-149;
 }
 
-/* An octree_point_visitor: collect a point if it is in the region. For a query for neighbours, collect every point. */
-static bool collect_judged_point(const octree_point *point, void *context)
+/* Collect a point if it is in the region. For a query for neighbours, collect every point that can be in an answer. */
+static bool collect_judged_point(const octree_body *body, void *context)
 {
     judge_state *s = context;
-    judged_point p = make_judged_point(s, point);
-    const query_rules *rules = query_rules_of(s->asked.kind);
+    const octree_point point = point_of_body(body);
+    const judged_point p = make_judged_point(s, &point);
     const int outside = s->asked.bounds == OCTREE_BOUNDS_OPEN ? 0 : 1;
-    if (!is_skipped(s, &p) && (!rules->compare || rules->compare(&s->asked, p.at, 0) < outside))
+    if (!is_skipped(s, &p) &&
+        (s->rules->compare ? s->rules->compare(&s->asked, &p.body, 0) < outside : p.key < HUGE_VAL))
         append_judged_point(s, s->collected, &p);
     return !s->failed;
 }
 
-/* Collect the points within radius + slack of the target, or all points if this sum is not below DBL_MAX. The arguments
- * of the search are valid, so only a lack of memory can make the search fail. A failure sets s->failed. */
-static void collect_ball(judge_state *s, double radius, double slack)
+/* Collect the points whose keys are at most `reach`, even after they are moved by `slack`. The region is valid, so only
+ * a lack of memory can make the search fail. A failure sets s->failed. */
+static void collect_candidates(judge_state *s, double reach, double slack)
 {
-    static const octree_box all = {{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}};
-    const octree *tree = s->about->points->tree;
-    const double reach = exact_add_up(radius, slack);
-    if (reach < DBL_MAX)
-        octree_radius(tree, s->asked.target, reach, NULL, collect_judged_point, s);
-    else
-        octree_range(tree, &all, collect_judged_point, s);
+    const octree_region region = s->rules->region(&s->asked, reach, slack);
+    octree_bodies_search(s->about->points->bodies, &region, NULL, collect_judged_point, s);
 }
 
-/* Store the k nearest points, by rounded positions, in the list `exact`. Search larger and larger balls, until the k-th
- * neighbour in the ball is nearer than every point outside the ball. */
+/* Store the first k neighbours, by rounded positions, in the list `exact`. Search larger and larger regions, until the
+ * k-th neighbour in the region comes before every point outside the region. */
 static void collect_nearest(judge_state *s, double slack)
 {
     const octree_answer *answer = s->about->answer;
-    const double *target = s->asked.target;
     list *exact = &s->judge->exact;
     const size_t count = answer->count, k = answer->k;
-    double radius =
-        count && count == k ? metric_distance(target, s->about->exact_neighbors[count - 1].point.position) : 0;
-    if (k >= octree_count(s->about->points->tree))
-        radius = DBL_MAX;
-    for (radius += slack; !s->failed; radius *= 2) {
+    /* if there are fewer than k neighbours, all points are candidates */
+    double reach = count < k ? DBL_MAX : k ? s->about->exact_neighbors[k - 1].distance + slack : 0;
+    for (; !s->failed; reach *= 2) {
         exact->count = 0;
-        radius = radius < DBL_MAX ? radius : DBL_MAX;
-        collect_ball(s, radius, slack);
+        reach = reach < DBL_MAX ? reach : DBL_MAX;
+        collect_candidates(s, reach, slack);
         list_sort(exact, sizeof(judged_point), compare_ranks);
         const judged_point *found = exact->items;
-        if (k == 0 || radius == DBL_MAX ||
-            (exact->count >= k && metric_compare_radius(target, found[k - 1].at, radius) <= 0))
+        if (k == 0 || reach == DBL_MAX || (exact->count >= k && !is_certainly_greater(found[k - 1].key, 1, reach)))
             break;
     }
     exact->count = exact->count < k ? exact->count : k;
@@ -236,10 +237,10 @@ static double rounding_slack(const judge_state *s)
 
 /* Visit all points that may lie in the region after the foreign index rounds their positions. The searched box is
  * valid, so the search cannot fail. */
-static void visit_region_points(judge_state *s, octree_point_visitor visit)
+static void visit_region_points(judge_state *s, octree_body_visitor visit)
 {
-    const octree_box bound = query_rules_of(s->asked.kind)->bound(&s->asked, rounding_slack(s));
-    octree_range(s->about->points->tree, &bound, visit, s);
+    const octree_region box = {.kind = OCTREE_REGION_BOX, .box = s->rules->bound(&s->asked, rounding_slack(s))};
+    octree_bodies_search(s->about->points->bodies, &box, NULL, visit, s);
 }
 
 /* List the exact answer for positions rounded to floats. */
@@ -273,16 +274,17 @@ static void list_wrong_point(judge_state *s, const judged_point *p, size_t *coun
  * bounds EITHER and, if `slack` is above 0, within the distance `slack` of the region. */
 static bool is_point_optional(const judge_state *s, const judged_point *p, double slack)
 {
-    return (slack > 0 && query_rules_of(s->asked.kind)->compare(&s->asked, p->at, slack) <= 0) ||
-           (s->asked.bounds == OCTREE_BOUNDS_EITHER && is_on_boundary(&s->asked, p->at));
+    return (slack > 0 && s->rules->compare(&s->asked, &p->body, slack) <= 0) ||
+           (s->asked.bounds == OCTREE_BOUNDS_EITHER && is_on_boundary(&s->asked, &p->body));
 }
 
-/* An octree_point_visitor: count a point if it is on the boundary of the region. */
-static bool count_boundary_point(const octree_point *point, void *context)
+/* An octree_body_visitor: count a point if it is on the boundary of the region. */
+static bool count_boundary_point(const octree_body *body, void *context)
 {
     judge_state *s = context;
-    const judged_point p = make_judged_point(s, point);
-    s->boundary += !is_skipped(s, &p) && is_on_boundary(&s->asked, p.at);
+    const octree_point point = point_of_body(body);
+    const judged_point p = make_judged_point(s, &point);
+    s->boundary += !is_skipped(s, &p) && is_on_boundary(&s->asked, &p.body);
     return true;
 }
 
@@ -314,7 +316,7 @@ static void list_difference_as_wrong(judge_state *s, octree_wrong_kind wrong, co
         if (!lacks || is_point_optional(s, &items[i], slack))
             continue;
         list_wrong_point(s, &items[i], count);
-        on_boundary = on_boundary && is_on_boundary(&s->asked, items[i].at);
+        on_boundary = on_boundary && is_on_boundary(&s->asked, &items[i].body);
     }
     if (*count > 0)
         record_wrong_kind(s, wrong, 0);
@@ -336,11 +338,7 @@ static void judge_region(judge_state *s)
  * this rank and is nearer than `a`. Point `a` may be farther than `b` only by the factor 1 + epsilon. */
 static bool is_too_far(const judge_state *s, const judged_point *a, const judged_point *b)
 {
-    if (!(s->asked.epsilon > 0) || is_same_position(b->at, s->asked.target))
-        return true;
-    /* metric_above() also covers the rounding error of this factor, and 2^-999 covers underflow of the square */
-    const double factor = 1 + s->asked.epsilon;
-    return a->square > metric_above(factor * factor * (b->square + 0x1p-999));
+    return !(s->asked.epsilon > 0) || b->key == 0 || is_certainly_greater(a->key, 1 + s->asked.epsilon, b->key);
 }
 
 static void judge_ranks(judge_state *s, const judged_point *foreign, const judged_point *exact, size_t count)
@@ -348,10 +346,9 @@ static void judge_ranks(judge_state *s, const judged_point *foreign, const judge
     octree_judgement *made = s->made;
     made->ratio = count == 0 && made->expected > 0 ? INFINITY : 1;
     for (size_t i = 0; i < count; i++) {
-        if (compare_distances(&foreign[i], &exact[i]) <= 0)
+        if (compare_keys(&foreign[i], &exact[i]) <= 0)
             continue;
-        const double ratio =
-            metric_distance(foreign[i].at, s->asked.target) / metric_distance(exact[i].at, s->asked.target);
+        const double ratio = foreign[i].key / exact[i].key;
         made->ratio = ratio > made->ratio ? ratio : made->ratio;
         if (made->rank == 0 && is_too_far(s, &foreign[i], &exact[i]))
             made->rank = i + 1;
@@ -370,13 +367,13 @@ static void list_wrong_neighbors(judge_state *s)
     const judged_point *exact = j->exact.items, *foreign = j->foreign.items;
     const judged_point *last = j->exact.count ? &exact[j->exact.count - 1] : NULL;
     size_t in_reach = 0;
-    while (last && in_reach < j->foreign.count && compare_distances(&foreign[in_reach], last) <= 0)
+    while (last && in_reach < j->foreign.count && compare_keys(&foreign[in_reach], last) <= 0)
         in_reach++;
     for (size_t i = 0, n = 0; !s->failed && i < j->exact.count; i++) {
         while (n < in_reach && compare_ranks(&foreign[n], &exact[i]) < 0)
             n++;
         const bool lacks = n == in_reach || foreign[n].point.id != exact[i].point.id;
-        const bool needed = compare_distances(&exact[i], last) < 0 || made->missing_count + in_reach < j->exact.count;
+        const bool needed = compare_keys(&exact[i], last) < 0 || made->missing_count + in_reach < j->exact.count;
         if (lacks && needed)
             list_wrong_point(s, &exact[i], &made->missing_count);
     }
@@ -442,12 +439,11 @@ static void list_possible_neighbors(judge_state *s)
 {
     const list *exact = &s->judge->exact;
     const judged_point *last = (const judged_point *)exact->items + exact->count - 1;
-    const double distance = metric_distance(s->asked.target, last->at);
     const double factor = (1 + s->asked.epsilon) * (1 + 0x1p-40);
     s->collected = &s->judge->foreign;
     s->collected->count = 0;
-    collect_ball(s, distance < DBL_MAX / factor ? distance * factor : DBL_MAX,
-                 s->rounds ? rounding_slack(s) : 0x1p-1000);
+    collect_candidates(s, last->key < DBL_MAX / factor ? last->key * factor : DBL_MAX,
+                       s->rounds ? rounding_slack(s) : 0x1p-1000);
 }
 
 /* Replace the foreign answer by the best answer that contains no lost points. For neighbours this is the nearest

@@ -3,9 +3,8 @@
 #ifndef OCTREE_JUDGE_H
 #define OCTREE_JUDGE_H
 
-#include "../exact/metric.h"
+#include "../bodies/set.h"
 #include "octree/query.h"
-#include "../tree/pool.h"
 
 /* A callback that copies the point with this id to *point. Returns false if no point has the id. */
 typedef bool point_lookup(const void *context, uint64_t id, octree_point *point);
@@ -13,6 +12,7 @@ typedef bool point_lookup(const void *context, uint64_t id, octree_point *point)
 /* The points of the game, with which foreign answers and nodes are compared. */
 typedef struct audited_points {
     const octree *tree;
+    const octree_bodies *bodies; /* the points of `tree` with their half extents */
     point_lookup *find;
     const void *context; /* the context for `find`, passed as its first argument */
     /* the id of the player, if keys move the player: a foreign index need not contain this point; null: keys move no
@@ -23,9 +23,9 @@ typedef struct audited_points {
 /* A point of the foreign answer or of the exact answer, with the numbers by which points are compared. */
 typedef struct judged_point {
     octree_point point;
-    double at[3];  /* the point's position, rounded to floats if the foreign index promises floats */
-    double square; /* the scaled squared distance from the point to the target */
-    const double *target;
+    octree_body body;           /* the point's body; its position is rounded if the foreign index promises floats */
+    double key;                 /* for neighbours: query_rules.measure of the body */
+    const octree_answer *asked; /* the members of the query */
 } judged_point;
 
 /* The two lists into which the judgements of a tick point, and two temporary lists. The owner of the struct empties

@@ -7,7 +7,8 @@
  * A rule of one index does not hold for another, so this file reports only nodes that are wrong in every index.
  *
  * The idea: decide which nodes hold a point. A node holds the points that it lists. A leaf that lists nothing holds
- * all points in its box. A point that no node holds is lost.
+ * all points in its box. A point that no node holds is lost. A body with extent is in the box of a node if it meets the
+ * box, because an index may list a body in every node that the body meets.
  *
  * A query that prunes nodes may lose points. A node that holds a point is excluded if, on the way from this node up to
  * the root, the first node that the query named was pruned. If all nodes that hold the point are excluded, the query
@@ -18,6 +19,7 @@
  */
 #include "foreign.h"
 #include "octree/octree.h"
+#include "../exact/body.h"
 #include "../exact/point.h"
 
 #include <stdlib.h>
@@ -79,13 +81,23 @@ static octree_box round_box_to_floats(const octree_box *box)
     return rounded;
 }
 
-bool foreign_node_contains(const octree_foreign_node *node, const double position[3])
+bool foreign_node_meets(const octree_foreign_node *node, const octree_body *body)
 {
-    if (box_contains(&node->box, position) || node->precision == OCTREE_DOUBLES)
-        return box_contains(&node->box, position);
+    if (body_meets_box(body, &node->box) || node->precision == OCTREE_DOUBLES)
+        return body_meets_box(body, &node->box);
     const octree_box box = round_box_to_floats(&node->box);
-    const double rounded[3] = {round_to_float(position[0]), round_to_float(position[1]), round_to_float(position[2])};
-    return box_contains(&box, rounded);
+    octree_body rounded = *body;
+    for (int i = 0; i < 3; i++)
+        rounded.position[i] = round_to_float(body->position[i]);
+    return body_meets_box(&rounded, &box);
+}
+
+/* Returns whether the body of a point meets the box of a node. */
+static bool has_point_in_box(const audited_points *points, const octree_foreign_node *node, const octree_point *point)
+{
+    octree_body body;
+    octree_bodies_at(points->bodies, point, &body);
+    return foreign_node_meets(node, &body);
 }
 
 /* Returns whether the box of a child lies in the box of its parent. If the child or the parent has the precision
@@ -123,7 +135,7 @@ static bool check_listed_points(foreign *f, const audited_points *points, size_t
         const uint64_t id = node->points.ids[i];
         if (!points->find(points->context, id, &point))
             ok = report_wrong_node(f, place, (octree_wrong_node){.kind = OCTREE_NODE_UNKNOWN_POINT, .point = id});
-        else if (!foreign_node_contains(node, point.position))
+        else if (!has_point_in_box(points, node, &point))
             ok = report_wrong_node(f, place, (octree_wrong_node){.kind = OCTREE_NODE_OUTSIDE_POINT, .point = id});
         ok = ok && list_push(f->memory, &f->holdings, &(foreign_holding){id, place}, sizeof(foreign_holding));
     }
@@ -196,14 +208,14 @@ static bool collect_unlisted_point(const octree_point *point, void *context)
     return !s->failed;
 }
 
-/* An octree_point_visitor: if the point lies in the box of the leaf, record that the leaf holds the point. */
-static bool mark_held_point(const octree_point *point, void *context)
+/* An octree_body_visitor: if the body meets the box of the leaf, record that the leaf holds the body. */
+static bool mark_held_point(const octree_body *body, void *context)
 {
     holding_search *s = context;
     const list *unlisted = &s->foreign->unlisted;
-    const unlisted_point key = {point->id, false};
+    const unlisted_point key = {body->id, false};
     unlisted_point *found = bsearch(&key, unlisted->items, unlisted->count, sizeof key, compare_first_words);
-    if (found && !found->held && foreign_node_contains(s->leaf, point->position)) {
+    if (found && !found->held && foreign_node_meets(s->leaf, body)) {
         found->held = true;
         s->lost--;
     }
@@ -227,10 +239,10 @@ static void mark_points_held_by_leaves(holding_search *search)
     for (size_t i = 0; search->lost > 0 && i < search->foreign->places.count; i++) {
         if (!is_leaf_without_list(&places[i]))
             continue;
-        const octree_box box = enlarge_box_for_floats(places[i].node);
+        const octree_region box = {.kind = OCTREE_REGION_BOX, .box = enlarge_box_for_floats(places[i].node)};
         search->leaf = places[i].node;
         /* The box is valid, so the search cannot fail. */
-        octree_range(search->points->tree, &box, mark_held_point, search);
+        octree_bodies_search(search->points->bodies, &box, NULL, mark_held_point, search);
     }
 }
 
@@ -346,8 +358,9 @@ static size_t find_pruned_ancestor(const foreign *f, size_t place)
 
 /* Returns the index of the next node that holds a point, or SIZE_MAX if no further node holds the point. *at must be 0
  * before the first call. */
-static size_t find_next_holding_node(const foreign *f, const octree_point *point, size_t *at)
+static size_t find_next_holding_node(const node_query *q, const octree_point *point, size_t *at)
 {
+    const foreign *f = q->foreign;
     const foreign_holding *items = f->holdings.items;
     const size_t first = foreign_find_first_holding(f, point->id);
     if (first < f->holdings.count && items[first].id == point->id) {
@@ -355,7 +368,7 @@ static size_t find_next_holding_node(const foreign *f, const octree_point *point
         return i < f->holdings.count && items[i].id == point->id ? items[i].place : SIZE_MAX;
     }
     for (const octree_foreign_place *places = foreign_places(f); *at < f->places.count; ++*at)
-        if (is_leaf_without_list(&places[*at]) && foreign_node_contains(places[*at].node, point->position))
+        if (is_leaf_without_list(&places[*at]) && has_point_in_box(q->points, places[*at].node, point))
             return (*at)++;
     return SIZE_MAX;
 }
@@ -368,7 +381,7 @@ static bool is_point_pruned(const octree_point *point, void *context)
     size_t at = 0, holders = 0;
     if (is_id_of_key_player(q->points, point->id))
         return false;
-    for (size_t place; (place = find_next_holding_node(q->foreign, point, &at)) != SIZE_MAX; holders++)
+    for (size_t place; (place = find_next_holding_node(q, point, &at)) != SIZE_MAX; holders++)
         if (find_pruned_ancestor(q->foreign, place) == SIZE_MAX)
             return false;
     return holders > 0;
@@ -380,7 +393,7 @@ static bool report_pruned_point(const octree_point *point, void *context)
 {
     const node_query *q = context;
     size_t at = 0;
-    for (size_t place; (place = find_next_holding_node(q->foreign, point, &at)) != SIZE_MAX;) {
+    for (size_t place; (place = find_next_holding_node(q, point, &at)) != SIZE_MAX;) {
         const size_t pruned = find_pruned_ancestor(q->foreign, place);
         const octree_wrong_node wrong = {.kind = OCTREE_NODE_PRUNED_POINT, .point = point->id, .answer = q->answer};
         foreign_mark *mark = &foreign_marks(q->foreign)[pruned];

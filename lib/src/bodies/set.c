@@ -55,6 +55,16 @@ octree_status octree_bodies_create(const octree_def *def, octree_bodies **bodies
     return OCTREE_OK;
 }
 
+octree_bodies show_points_as_bodies(const octree *tree, const double half[3])
+{
+    octree_bodies shown = {.memory.allocator = tree->def.allocator, .def = tree->def, .points = tree};
+    level *l = &shown.levels[OCTREE_BODY_LEVELS - 1];
+    l->tree = (octree *)(uintptr_t)tree; /* never changed: changes of the set are refused */
+    for (int i = 0; i < 3; i++)
+        shown.point_half[i] = l->reach[i] = half[i];
+    return shown;
+}
+
 octree_status octree_bodies_of_points(const octree *tree, const double half[3], octree_bodies **bodies)
 {
     RETURN_IN_DEFAULT_MODE(octree_status, octree_bodies_of_points, tree, half, bodies);
@@ -68,13 +78,18 @@ octree_status octree_bodies_of_points(const octree *tree, const double half[3], 
         status = create_set(&tree->def.allocator, bodies);
     if (status != OCTREE_OK)
         return status;
-    (*bodies)->def = tree->def;
-    (*bodies)->points = tree;
-    level *l = &(*bodies)->levels[OCTREE_BODY_LEVELS - 1];
-    l->tree = (octree *)(uintptr_t)tree; /* never changed: changes of the set are refused */
-    for (int i = 0; i < 3; i++)
-        (*bodies)->point_half[i] = l->reach[i] = half[i];
+    const arena memory = (*bodies)->memory;
+    **bodies = show_points_as_bodies(tree, half);
+    (*bodies)->memory = memory;
+    rows_init(&(*bodies)->rows, &(*bodies)->memory);
     return OCTREE_OK;
+}
+
+void set_half_extents(octree_bodies *set, const double reach[3], half_lookup *half_of, const void *context)
+{
+    memcpy(set->levels[OCTREE_BODY_LEVELS - 1].reach, reach, sizeof(double[3]));
+    set->half_of = half_of;
+    set->half_context = context;
 }
 
 octree_status check_set_change(const octree_bodies *set)
@@ -256,9 +271,13 @@ bool octree_bodies_contain(const octree_bodies *bodies, const octree_body *body)
     RETURN_IN_DEFAULT_MODE(bool, octree_bodies_contain, bodies, body);
     if (!bodies || !body || check_body(bodies, body) != OCTREE_OK)
         return false;
-    if (bodies->points)
-        return is_same_position(bodies->point_half, body->half) &&
-               octree_contains(bodies->points, body->position, body->id);
+    if (bodies->points) {
+        octree_body stored;
+        const octree_point point = {.position = {body->position[0], body->position[1], body->position[2]},
+                                    .id = body->id};
+        return octree_contains(bodies->points, body->position, body->id) &&
+               is_same_position(load_body(bodies, &point, &stored)->half, body->half);
+    }
     return rows_find(&bodies->rows, body) != ROW_NONE;
 }
 

@@ -18,6 +18,9 @@ typedef struct level {
     double reach[3]; /* an upper bound of the half extents on each axis, a function of `buckets` */
 } level;
 
+/* A function that stores the half extents of a point in half[]. They are at most the reach that was set with it. */
+typedef void half_lookup(const void *context, const octree_point *point, double half[3]);
+
 struct octree_bodies {
     arena memory;
     octree_def def;
@@ -26,7 +29,9 @@ struct octree_bodies {
     rows rows;
     /* only in a set made by octree_bodies_of_points(): the caller's tree, which is also the tree of the last level */
     const octree *points;
-    double point_half[3]; /* only then: the half extents of all bodies */
+    double point_half[3]; /* only then: the half extents of all bodies, unless half_of() finds those of each */
+    half_lookup *half_of;
+    const void *half_context;
 };
 
 /* A tree that every set has, for its definition and its axes. */
@@ -75,14 +80,24 @@ octree_status find_moved_row(const octree_bodies *set, const octree_body *from, 
 /* Check whether a set can be changed. Returns OK, NULL_ARGUMENT, BAD_OPTION (it shows points) or BUSY. */
 octree_status check_set_change(const octree_bodies *set);
 
+/* Returns a set that shows each point of a tree as a body with these half extents. It owns nothing. */
+octree_bodies show_points_as_bodies(const octree *tree, const double half[3]);
+
+/* Give each point of such a set its own half extents. `reach` is an upper bound of them all,
+ * axis by axis; the search descends as if all bodies were as large. */
+void set_half_extents(octree_bodies *set, const double reach[3], half_lookup *half_of, const void *context);
+
 /* Returns the body of a point of a level: its row, or `scratch`, which is filled. */
 static inline const octree_body *load_body(const octree_bodies *set, const octree_point *point, octree_body *scratch)
 {
     if (!set->points)
         return row_at(&set->rows, (size_t)point->id);
     memcpy(scratch->position, point->position, sizeof scratch->position);
-    memcpy(scratch->half, set->point_half, sizeof scratch->half);
     scratch->id = point->id;
+    if (set->half_of)
+        set->half_of(set->half_context, point, scratch->half);
+    else
+        memcpy(scratch->half, set->point_half, sizeof scratch->half);
     return scratch;
 }
 

@@ -138,14 +138,19 @@ body_square body_measure(const octree_body *e, const double target[3], double sc
     return s;
 }
 
-bool body_meets_ball(const octree_body *e, const double center[3], double radius)
+int body_compare_radius(const octree_body *e, const double target[3], double radius)
 {
-    const body_square s = body_measure(e, center, 1);
+    const body_square s = body_measure(e, target, 1);
     const double square = radius * radius;
     const double error = s.error + square * 0x1p-50 + 0x1p-1000;
     if (fabs(s.value - square) > error) /* false if a value overflowed */
-        return s.value < square;
-    return compare_with_radius(e, center, radius, find_gap) <= 0;
+        return s.value < square ? -1 : 1;
+    return compare_with_radius(e, target, radius, find_gap);
+}
+
+bool body_meets_ball(const octree_body *e, const double center[3], double radius)
+{
+    return body_compare_radius(e, center, radius) <= 0;
 }
 
 bool body_is_in_ball(const octree_body *e, const double center[3], double radius)
@@ -174,6 +179,8 @@ int body_compare_distances(const octree_body *a, const octree_body *b, const dou
 double body_distance(const octree_body *e, const double target[3])
 {
     double gaps[3];
+    if (e->half[0] == 0 && e->half[1] == 0 && e->half[2] == 0)
+        return metric_distance(e->position, target);
     for (int i = 0; i < 3; i++) {
         const terms t = find_gap(e, target, i);
         exact_sum sum;

@@ -41,6 +41,9 @@ bool body_is_in_box(const octree_body *e, const octree_box *box);
 bool body_meets_ball(const octree_body *e, const double center[3], double radius);
 bool body_is_in_ball(const octree_body *e, const double center[3], double radius);
 
+/* Returns the sign of the distance of a body from a target minus the radius, which is >= 0: -1, 0 or 1. */
+int body_compare_radius(const octree_body *e, const double target[3], double radius);
+
 /* Returns whether the half-space normal . x <= offset has a point of the body, and whether it has all of them. */
 bool body_meets_half_space(const octree_body *e, const double normal[3], double offset);
 bool body_is_in_half_space(const octree_body *e, const double normal[3], double offset);

@@ -6,6 +6,11 @@
 #include "float_rules.h"
 #include "octree/types.h"
 
+static inline octree_point point_of_body(const octree_body *body)
+{
+    return (octree_point){.position = {body->position[0], body->position[1], body->position[2]}, .id = body->id};
+}
+
 /* Returns whether two positions are equal. A single branch decides for all coordinates: if points share some
  * coordinates, as on a lattice, three branches would be unpredictable. */
 static inline bool is_same_position(const double a[3], const double b[3])

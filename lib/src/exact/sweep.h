@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* sweep.h - decides whether a moving box touches a moving point. */
+/* sweep.h - decides whether a moving box touches a moving body. */
 #ifndef OCTREE_SWEEP_H
 #define OCTREE_SWEEP_H
 
@@ -12,8 +12,9 @@ typedef struct sweep {
     double size;
 } sweep;
 
-/* Returns whether the box touches, at some moment of 0..1, a point that moves in a straight line from `from` to `to`.
- * The two positions are equal for a point at rest. The result is exact for all finite values. */
-bool sweep_touches(const sweep *box, const double from[3], const double to[3]);
+/* Returns whether the box touches, at some moment of 0..1, a body that moves in a straight line from `from` to `to`.
+ * The two positions are equal for a body at rest. `half` has the half extents of the body; null: the body is a point.
+ * The result is exact for all finite values. */
+bool sweep_touches(const sweep *box, const double from[3], const double to[3], const double half[3]);
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* game.c - the game loop: plays one tick after another, in the order that game.h states. */
 #include "../exact/float_mode.h"
-#include "game_state.h"
+#include "extent.h"
 #include "queries.h"
 #include "session.h"
 #include "../exact/sweep.h"
@@ -12,7 +12,7 @@
 const char *octree_event_name(octree_event event)
 {
     static const char *const names[OCTREE_EVENT_KINDS] = {"moved", "refused", "collided", "full",
-                                                          "split", "merged",  "wrong"};
+                                                          "split", "merged",  "wrong",    "overlapped"};
     for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++)
         if (event == 1u << i)
             return names[i];
@@ -40,8 +40,8 @@ static bool was_moved_in_tick(const octree_game *game, const moving_body *body)
     return body->moved == game->tick.number;
 }
 
-/* An octree_point_visitor that collects a hit. If the session has swept collisions, bodies that this tick has moved are
- * skipped. */
+/* An octree_point_visitor that collects a hit, and the same as an octree_body_visitor. If the session has swept
+ * collisions, bodies that this tick has moved are skipped. */
 static bool collect_hit(const octree_point *point, void *context)
 {
     octree_game *game = context;
@@ -51,16 +51,32 @@ static bool collect_hit(const octree_point *point, void *context)
     return !game->out_of_memory;
 }
 
+static bool collect_hit_body(const octree_body *body, void *context)
+{
+    const octree_point point = point_of_body(body);
+    return collect_hit(&point, context);
+}
+
 /* Collect the points of the tree that collide with the player. If the session has swept collisions, bodies that this
  * tick has moved are left out. Returns false if memory runs out. */
 static bool collect_hit_points(octree_game *game, const octree_point *self)
 {
     const octree_tick *tick = &game->tick;
     const double *from = tick->swept ? tick->from : tick->attempt;
-    const octree_search how = game_make_search_options(game, &game->tick.hit_cost);
-    /* The arguments are valid, so the search cannot fail. */
-    octree_collide_swept(game->tree, from, tick->attempt, game->session->player.box_size, self, &how, collect_hit,
-                         game);
+    const double size = game->session->player.box_size;
+    octree_search how = game_make_search_options(game, &game->tick.hit_cost);
+    /* The arguments are valid, so the searches cannot fail. */
+    if (!game->bodies.extended) {
+        octree_collide_swept(game->tree, from, tick->attempt, size, self, &how, collect_hit, game);
+        return !game->out_of_memory;
+    }
+    octree_region box = {.kind = OCTREE_REGION_SWEPT, .half = {size, size, size}};
+    memcpy(box.from, from, sizeof box.from);
+    memcpy(box.to, tick->attempt, sizeof box.to);
+    how.skip = OCTREE_SKIP_ID;
+    how.skip_id = self->id;
+    game_update_reach(game);
+    octree_bodies_search(&game->shown, &box, &how, collect_hit_body, game);
     return !game->out_of_memory;
 }
 
@@ -73,7 +89,7 @@ static bool collect_hit_moved_bodies(octree_game *game)
         if (!was_moved_in_tick(game, body) || body->id == game->session->player.id)
             continue;
         game->tick.hit_cost.points++;
-        if (!sweep_touches(&box, body->before, body->position))
+        if (!sweep_touches(&box, body->before, body->position, body->half))
             continue;
         octree_point hit = {.id = body->id};
         memcpy(hit.position, body->position, sizeof hit.position);
@@ -211,6 +227,7 @@ audited_points game_audited_points(const octree_game *game)
 {
     const octree_player *player = &game->session->player;
     return (audited_points){.tree = game->tree,
+                            .bodies = &game->shown,
                             .find = find_point_by_id,
                             .context = game,
                             .own_id = player->kind == OCTREE_PLAYER_KEYS ? &player->id : NULL};
@@ -228,6 +245,7 @@ static bool replace_and_check_foreign_nodes(octree_game *game, const octree_fore
 static bool run_queries_and_list_shapes(octree_game *game, const octree_input *input)
 {
     const octree_input always = session_input(game->session, OCTREE_EVERY_TICK);
+    game_update_reach(game);
     return replace_and_check_foreign_nodes(game, input->foreign) && game_run_query_of_key(game) &&
            game_run_queries(game, input->queries, input->query_count) &&
            game_run_queries(game, always.queries, always.query_count) && game_finish_queries(game) &&
@@ -275,7 +293,7 @@ static octree_status run_queries_and_publish_tick(octree_game *game, const octre
     if (game->tick.number == 0 && game->tick.has_player && !input->gap)
         ok = test_collision(game, game->tick.player);
     ok = ok && (input->gap ? game_finish_queries(game) : run_queries_and_list_shapes(game, input));
-    ok = ok && summarize_tree(game) && game_list_movers(game);
+    ok = ok && (input->gap || game_list_pairs(game)) && summarize_tree(game) && game_list_movers(game);
     if (ok)
         publish_tick(game);
     return ok ? OCTREE_OK : OCTREE_NO_MEMORY;
@@ -332,6 +350,7 @@ octree_status octree_game_create(const octree_session *session, octree_game **ga
     }
     *made = (octree_game){.session = session, .tree = tree, .memory = memory};
     made->foreign.memory = made->judge.memory = &made->memory;
+    game_show_bodies(made);
     status = start_game(made);
     if (status == OCTREE_OK)
         *game = made;
@@ -469,6 +488,11 @@ const octree_tick *octree_game_tick(const octree_game *game)
 const octree *octree_game_tree(const octree_game *game)
 {
     return game ? game->tree : NULL;
+}
+
+const octree_bodies *octree_game_bodies(const octree_game *game)
+{
+    return game ? &game->shown : NULL;
 }
 
 const octree_session *octree_game_session(const octree_game *game)

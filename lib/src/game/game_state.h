@@ -3,7 +3,7 @@
 #ifndef OCTREE_GAME_STATE_H
 #define OCTREE_GAME_STATE_H
 
-#include "bodies.h"
+#include "game_bodies.h"
 #include "../audit/foreign.h"
 #include "tree_summary.h"
 
@@ -18,7 +18,8 @@
     X(visits, visit_count, octree_visit)                                                                               \
     X(hit_leaves, hit_leaf_count, octree_address)                                                                      \
     X(shapes, shape_count, octree_shape)                                                                               \
-    X(movers, mover_count, octree_game_body)
+    X(movers, mover_count, octree_game_body)                                                                           \
+    X(pairs, pair_count, octree_pair)
 
 /* All lists that are emptied at the start of a tick: GAME_SHOWN_LISTS; hit_from, the positions of the hits before the
  * tick (only with swept collisions); and the points and neighbours of all answers. */
@@ -33,6 +34,7 @@ struct octree_game {
     octree *tree;
     arena memory;
     bodies bodies;
+    octree_bodies shown; /* the points of the tree as bodies with their half extents, see extent.h */
     /* On each axis, the number of steps that the player made upwards minus the number of steps downwards. These numbers
      * determine the player's position. */
     int64_t steps[3];
@@ -48,6 +50,12 @@ struct octree_game {
     GAME_LISTS(LIST)
 #undef LIST
 };
+
+/* Returns whether an id is that of the player that keys move; this player is no body. */
+static inline bool is_players_id(const octree_game *game, uint64_t id)
+{
+    return game->session->player.kind == OCTREE_PLAYER_KEYS && id == game->session->player.id;
+}
 
 /* The points of the game after the changes of the tick. Foreign answers and foreign nodes are checked against these
  * points. */

@@ -40,7 +40,11 @@ static bool run_game_query(octree_game *game, const octree_query *query, bool by
     octree_answer *answer = list_append(&game->memory, &game->answers, sizeof *answer);
     if (!answer)
         return false;
-    query_run run = {.tree = game->tree, .how = game_make_search_options(game, NULL), .memory = &game->memory};
+    query_run run = {.tree = game->tree,
+                     .bodies = &game->shown,
+                     .extended = game->bodies.extended > 0,
+                     .how = game_make_search_options(game, NULL),
+                     .memory = &game->memory};
     run.points = &game->found_points;
     run.neighbors = &game->found_neighbors;
     run.how.skip = query->at_player ? OCTREE_SKIP_ID : OCTREE_SKIP_NONE;

@@ -164,14 +164,14 @@ octree_input session_input(const octree_session *s, uint64_t tick)
 
 /* ---- Loading ------------------------------------------------------------------------------------------------ */
 
-/* Store in points[] the points of all bodies whose velocity is finite; the game refuses the other bodies. Returns the
- * number of points. Also sets game->fastest. */
-static size_t collect_bodies_of_finite_velocity(octree_game *game, octree_point *points)
+/* Store in points[] the points of all bodies that the game does not refuse. Returns the number of points. Also sets
+ * game->fastest. */
+static size_t collect_valid_bodies(octree_game *game, octree_point *points)
 {
     size_t count = 0;
     for (size_t i = 0; i < game->session->body_count; i++) {
         const octree_game_body *body = &game->session->bodies[i];
-        if (!is_finite_position(body->velocity))
+        if (check_numbers_of_body(body) != OCTREE_OK)
             continue;
         for (int axis = 0; axis < 3; axis++)
             game->fastest = larger(game->fastest, fabs(body->velocity[axis]));
@@ -191,7 +191,7 @@ static octree_status add_bodies(octree_game *game, const octree_status *statuses
         octree_status status = game_check_body(game, body);
         if (status == OCTREE_OK)
             status = *statuses;
-        statuses += is_finite_position(body->velocity);
+        statuses += check_numbers_of_body(body) == OCTREE_OK;
         if (status == OCTREE_DUPLICATE)
             return status;
         if (!game_add_body(game, body, status))
@@ -209,8 +209,7 @@ octree_status game_load_bodies(octree_game *game)
     octree_status *statuses = arena_allocate(&game->memory, room * sizeof *statuses);
     octree_status status = OCTREE_NO_MEMORY;
     if (points && statuses)
-        status =
-            octree_insert_many(game->tree, points, collect_bodies_of_finite_velocity(game, points), statuses, NULL);
+        status = octree_insert_many(game->tree, points, collect_valid_bodies(game, points), statuses, NULL);
     if (status == OCTREE_OK)
         status = add_bodies(game, statuses);
     arena_free(&game->memory, points, room * sizeof *points);

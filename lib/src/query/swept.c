@@ -186,7 +186,7 @@ static bool is_point_touched(const swept_shape *s, const double p[3])
             return false;
         certain = certain && side < s->hull.faces[k].whole;
     }
-    return certain || sweep_touches(&s->box, p, p);
+    return certain || sweep_touches(&s->box, p, p, NULL);
 }
 
 static uint64_t scan_swept_points(const void *shape, const octree_point *points, unsigned count)

@@ -97,7 +97,7 @@ static void boxes_are_decided_alike(void **state)
             to[axis] = random_below(&random, 4) == 0 ? from[axis] : random_magnitude(&random);
             p[axis] = nudged(from[axis] * (1 - moment) + to[axis] * moment + sides[random_below(&random, 3)], &random);
         }
-        const bool touches = exact_touches(from, to, size, p, p);
+        const bool touches = exact_touches(from, to, size, p, p, NULL);
         hits += touches;
         assert_int_equal(quick_touches(from, to, size, p), touches);
         assert_int_equal(quick_within(from[0], size, p[0]), exact_within(from[0], size, p[0]));

@@ -340,7 +340,8 @@ static void fail_all(run *r, const double at[3])
     r->allocations_left = SIZE_MAX;
 }
 
-static void play(run *r)
+/* `extended`: every third body is a box, and their pairs are listed. */
+static void play(run *r, bool extended)
 {
     octree_session session = octree_session_default();
     static octree_game_body bodies[50];
@@ -351,7 +352,10 @@ static void play(run *r)
     for (size_t i = 0; i < 50; i++) {
         bodies[i] = (octree_game_body){.id = i + 10, .velocity = {times(1), times(-3), 0}};
         memcpy(bodies[i].position, points[i].position, sizeof bodies[i].position);
+        for (int axis = 0; extended && i % 3 == 0 && axis < 3; axis++)
+            bodies[i].half[axis] = times(1 + axis);
     }
+    session.pairs = extended;
     session.bodies = bodies;
     session.body_count = 50;
     const octree_query queries[] = {{.kind = OCTREE_QUERY_KNEAREST, .at_player = true, .k = 5},
@@ -366,6 +370,7 @@ static void play(run *r)
         r->digest = octree_digest_word(r->digest, tick->tree_digest);
         add_bytes(r, tick->player, sizeof tick->player);
         add_bytes(r, tick->hits, tick->hit_count * sizeof *tick->hits);
+        add_bytes(r, tick->pairs, tick->pair_count * sizeof *tick->pairs);
         for (size_t a = 0; a < tick->answer_count; a++)
             for (size_t n = 0; tick->answers[a].neighbors && n < tick->answers[a].count; n++)
                 add_bytes(r, &tick->answers[a].neighbors[n], sizeof(octree_neighbor));
@@ -492,7 +497,8 @@ static run run_script(const mode *m)
     }
     look_around(r);
     fail_all(r, points[5].position);
-    play(r);
+    play(r, false);
+    play(r, true);
     use_bodies(r);
     octree_destroy(r->tree);
     check_mode(r, "octree_destroy");

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_exact_game_sweep.c - swept ticks against exact rationals: points that move past a player that moves, at every
- * scale of doubles. */
+/* test_exact_game_sweep.c - swept ticks against exact rationals: points and boxes that move past a player that moves,
+ * at every scale of doubles. */
 #include "fixture.h"
 
 #include <float.h>
@@ -29,9 +29,17 @@ static double nudged(double value, int steps)
     return fmin(fmax(value, -DBL_MAX), DBL_MAX);
 }
 
-static void send(crossing *c, size_t i, const double p[3], const double q[3])
+/* Every second body is a point. */
+static void draw_half(double half[3], uint64_t *random, double size)
 {
-    c->bodies[i] = (octree_game_body){.id = i};
+    const bool extended = random_below(random, 2);
+    for (int axis = 0; axis < 3; axis++)
+        half[axis] = extended ? size * octree_random_unit(random) : 0;
+}
+
+static void send(crossing *c, size_t i, const double p[3], const double q[3], const double half[3])
+{
+    c->bodies[i] = (octree_game_body){.id = i, .half = {half[0], half[1], half[2]}};
     c->edits[i] = (octree_edit){.tick = 1, .kind = OCTREE_EDIT_MOVE, .body = {.id = i}};
     for (int axis = 0; axis < 3; axis++) {
         c->bodies[i].position[axis] = fmin(fmax(p[axis], -DBL_MAX), DBL_MAX);
@@ -57,7 +65,7 @@ static size_t check(const crossing *c)
     for (size_t i = 0; i < BODIES; i++) {
         const double *p = c->bodies[i].position, *q = c->edits[i].body.position;
         const bool hit = at < tick->hit_count && tick->hits[at].id == i;
-        if (hit != exact_touches(tick->from, tick->attempt, c->size, p, q))
+        if (hit != exact_touches(tick->from, tick->attempt, c->size, p, q, c->bodies[i].half))
             fail_msg("(%a %a %a) to (%a %a %a) with %a: (%a %a %a) to (%a %a %a) is %s", tick->from[0], tick->from[1],
                      tick->from[2], tick->attempt[0], tick->attempt[1], tick->attempt[2], c->size, p[0], p[1], p[2],
                      q[0], q[1], q[2], hit ? "no hit" : "a hit");
@@ -85,17 +93,19 @@ static void send_past(crossing *c, size_t i, uint64_t *random, double speed)
     const uint64_t which = random_below(random, 6);
     const double t = which < 4 ? moments[which] : octree_random_unit(random);
     const bool together = random_below(random, 6) == 0; /* at rest relative to the player, or nearly */
-    double to[3], p[3], q[3];
+    double to[3], p[3], q[3], half[3];
     end_of(c, to);
+    draw_half(half, random, c->size);
     for (int axis = 0; axis < 3; axis++) {
-        const double sides[] = {c->size, -c->size, c->size * octree_random_unit(random), c->size, -c->size};
+        const double size = fmin(c->size + half[axis], DBL_MAX);
+        const double sides[] = {size, -size, size * octree_random_unit(random), size, -size};
         const double center = c->from[axis] * (1 - t) + to[axis] * t;
         const double at = center + sides[random_below(random, 5)];
         const double own = together ? to[axis] - c->from[axis] : speed * (2 * octree_random_unit(random) - 1);
         p[axis] = nudged(fmin(fmax(at - own * t, -DBL_MAX), DBL_MAX), (int)random_below(random, 3) - 1);
         q[axis] = nudged(fmin(fmax(at + own * (1 - t), -DBL_MAX), DBL_MAX), (int)random_below(random, 3) - 1);
     }
-    send(c, i, p, q);
+    send(c, i, p, q, half);
 }
 
 static void near_misses(double place, double reach, double step, double size, double speed, uint64_t seed)
@@ -150,9 +160,11 @@ static void any_mixture_of_extremes_is_decided_rightly(void **state)
         for (int axis = 0; axis < 3; axis++)
             c.from[axis] = random_extreme(&random);
         for (size_t j = 0; j < BODIES; j++) {
+            double half[3];
+            draw_half(half, &random, fabs(random_extreme(&random)));
             const double p[3] = {random_extreme(&random), random_extreme(&random), random_extreme(&random)};
             const double q[3] = {random_extreme(&random), random_extreme(&random), random_extreme(&random)};
-            send(&c, j, p, random_below(&random, 8) == 0 ? p : q);
+            send(&c, j, p, random_below(&random, 8) == 0 ? p : q, half);
         }
         check(&c);
     }
@@ -172,13 +184,14 @@ static void ways_that_cancel_but_for_an_ulp_are_decided_rightly(void **state)
             c.from[axis] = random_between(&random, -1, 1);
         end_of(&c, to);
         for (size_t j = 0; j < BODIES; j++) {
-            double p[3], q[3];
+            double p[3], q[3], half[3];
+            draw_half(half, &random, 1);
             for (int axis = 0; axis < 3; axis++) {
-                const double side = random_below(&random, 2) == 0 ? c.size : -c.size;
+                const double size = c.size + half[axis], side = random_below(&random, 2) == 0 ? size : -size;
                 p[axis] = nudged(c.from[axis] + side, (int)random_below(&random, 5) - 2);
                 q[axis] = nudged(to[axis] + side, (int)random_below(&random, 5) - 2);
             }
-            send(&c, j, p, q);
+            send(&c, j, p, q, half);
         }
         check(&c);
     }

@@ -430,7 +430,8 @@ static void q_quits_when_it_is_played(void **state)
 static void each_event_has_a_name(void **state)
 {
     (void)state;
-    static const char *const names[] = {"moved", "refused", "collided", "full", "split", "merged", "wrong"};
+    static const char *const names[] = {"moved", "refused", "collided", "full",
+                                        "split", "merged",  "wrong",    "overlapped"};
     for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++)
         assert_string_equal(octree_event_name(1u << i), names[i]);
     assert_string_equal(octree_event_name(OCTREE_EVENT_MERGED), "merged");

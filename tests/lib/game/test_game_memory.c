@@ -51,10 +51,10 @@ static void a_random_game_survives_each_failure(void **state)
 
 enum { SWARM = 300 }; /* enough for moves that are made at once */
 
-/* What random sessions have not: shapes, wrong answers of a program, a sweep, and a swarm that moves and shrinks. */
-static void a_swarm_with_wrong_answers_survives_each_failure(void **state)
+/* Shapes, wrong answers of a program, a sweep, and a swarm that moves and shrinks. `half`: the bodies are boxes of this
+ * size, and their pairs are listed. */
+static void fail_each_of_a_swarm(double half)
 {
-    (void)state;
     static octree_game_body bodies[SWARM];
     static octree_edit edits[SWARM];
     static const uint64_t answer[] = {1, 2, 2, 5000};
@@ -64,6 +64,7 @@ static void a_swarm_with_wrong_answers_survives_each_failure(void **state)
         for (int axis = 0; axis < 3; axis++) {
             bodies[i].position[axis] = random_between(&random, -9, 9);
             bodies[i].velocity[axis] = random_between(&random, -3, 3);
+            bodies[i].half[axis] = half * (double)(i % 4);
         }
         edits[i] = (octree_edit){
             .tick = 2, .kind = OCTREE_EDIT_MOVE, .body = {.id = i + 1, .position = {0, 0, 1e-3 * (double)i}}};
@@ -96,7 +97,20 @@ static void a_swarm_with_wrong_answers_survives_each_failure(void **state)
         .query_count = sizeof queries / sizeof *queries,
         .shapes = shapes,
         .shape_count = sizeof shapes / sizeof *shapes};
+    session.pairs = half > 0;
     assert_true(fail_each(&session) > 20);
+}
+
+static void a_swarm_with_wrong_answers_survives_each_failure(void **state)
+{
+    (void)state;
+    fail_each_of_a_swarm(0);
+}
+
+static void a_swarm_of_boxes_and_its_pairs_survive_each_failure(void **state)
+{
+    (void)state;
+    fail_each_of_a_swarm(0.125);
 }
 
 /* So many bodies on a diagonal that a leaf of 100 lacks room for one: with the player they are the children of one. */
@@ -252,6 +266,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_random_game_survives_each_failure),
         cmocka_unit_test(a_swarm_with_wrong_answers_survives_each_failure),
+        cmocka_unit_test(a_swarm_of_boxes_and_its_pairs_survive_each_failure),
         cmocka_unit_test(what_merges_leaves_survives_each_failure),
         cmocka_unit_test(a_hit_survives_each_failure),
         cmocka_unit_test(refusals_by_full_leaves_survive_each_failure),

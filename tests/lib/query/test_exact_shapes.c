@@ -107,7 +107,7 @@ static bool belongs(const question *q, const double p[3])
         return exact_within(q->at[0], q->length, p[0]) && exact_within(q->at[1], q->length, p[1]) &&
                exact_within(q->at[2], q->length, p[2]);
     default:
-        return exact_touches(q->at, q->to, q->length, p, p);
+        return exact_touches(q->at, q->to, q->length, p, p, NULL);
     }
 }
 

@@ -30,7 +30,7 @@ static void assert_swept_in(const octree *tree, const brute *all, const sweep *s
     const sweep back = {{s->to[0], s->to[1], s->to[2]}, {s->from[0], s->from[1], s->from[2]}, s->size};
     brute expected = {0}, found = {0}, reversed = {0};
     for (size_t i = 0; i < all->count; i++)
-        if (exact_touches(s->from, s->to, s->size, all->points[i].position, all->points[i].position))
+        if (exact_touches(s->from, s->to, s->size, all->points[i].position, all->points[i].position, NULL))
             brute_collect(&all->points[i], &expected);
     assert_int_equal(octree_collide_swept(tree, s->from, s->to, s->size, NULL, NULL, brute_collect, &found), OCTREE_OK);
     assert_int_equal(octree_collide_swept(tree, s->to, s->from, s->size, NULL, NULL, brute_collect, &reversed),
@@ -88,7 +88,7 @@ static void grazing_is_decided_to_the_last_bit_at_every_scale(void **state)
             const double unit = ldexp(1, scales[i]);
             sweep s = {{0, 0, 0}, {12 * unit, 12 * unit, 12 * unit}, 4 * unit};
             const double at[3] = {edges[j][0] * unit, edges[j][1] * unit, edges[j][2] * unit};
-            assert_true(exact_touches(s.from, s.to, s.size, at, at));
+            assert_true(exact_touches(s.from, s.to, s.size, at, at, NULL));
             add_around(&all, at, 1);
             assert_swept(&all, &s);
         }

@@ -221,7 +221,7 @@ static void assert_true_points(const octree *tree, const brute *all, const step 
     const octree_box box = box_around(s);
     brute expected = {0}, found = {0};
     for (size_t i = 0; i < all->count; i++)
-        if (exact_touches(s->from, s->to, s->size, all->points[i].position, all->points[i].position))
+        if (exact_touches(s->from, s->to, s->size, all->points[i].position, all->points[i].position, NULL))
             brute_collect(&all->points[i], &expected);
     assert_int_equal(octree_collide_swept(tree, s->from, s->to, s->size, NULL, &of_swept, brute_collect, &found),
                      OCTREE_OK);

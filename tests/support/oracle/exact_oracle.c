@@ -237,20 +237,23 @@ static bool narrow(mpq_t first, mpq_t last, const mpq_t u, const mpq_t w, const 
 }
 
 /* The moments of [0, 1] when the box covers the point on the three axes have one in common. */
-bool exact_touches(const double from[3], const double to[3], double size, const double p[3], const double q[3])
+bool exact_touches(const double from[3], const double to[3], double size, const double p[3], const double q[3],
+                   const double half[3])
 {
-    mpq_t first, last, u, w, reach;
-    mpq_inits(first, last, u, w, reach, NULL);
+    mpq_t first, last, u, w, reach, own;
+    mpq_inits(first, last, u, w, reach, own, NULL);
     mpq_set_ui(last, 1, 1);
-    mpq_set_d(reach, size);
     bool covered = true;
     for (int axis = 0; axis < 3 && covered; axis++) {
         set_difference(u, p[axis], from[axis]);
         set_difference(w, q[axis], to[axis]);
+        mpq_set_d(reach, size);
+        mpq_set_d(own, half ? half[axis] : 0);
+        mpq_add(reach, reach, own);
         covered = narrow(first, last, u, w, reach);
     }
     covered = covered && mpq_cmp(first, last) <= 0;
-    mpq_clears(first, last, u, w, reach, NULL);
+    mpq_clears(first, last, u, w, reach, own, NULL);
     return covered;
 }
 

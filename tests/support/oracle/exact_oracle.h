@@ -36,7 +36,8 @@ bool exact_distance_is(double distance, unsigned steps, const double a[3], const
 bool exact_within(double center, double size, double p);
 
 /* Whether a box that moves from `from` to `to` touches a point that moves from p to q in the same time. */
-bool exact_touches(const double from[3], const double to[3], double size, const double p[3], const double q[3]);
+bool exact_touches(const double from[3], const double to[3], double size, const double p[3], const double q[3],
+                   const double half[3]);
 
 /* Whether the plane k/2^depth of [low, high] is a double; then *plane is that double. */
 bool exact_plane(double low, double high, uint32_t k, unsigned depth, double *plane);

@@ -117,7 +117,7 @@ bool quick_touches(const double from[3], const double to[3], double size, const 
         return false;
     if (LONG_DOUBLES_ARE_WIDE && first.most < last.least)
         return true;
-    return exact_touches(from, to, size, p, p);
+    return exact_touches(from, to, size, p, p, NULL);
 }
 
 /* A point, and its squared distance with the error above. */

@@ -10,12 +10,14 @@
 #include "game_fixture.h"
 #include "text.h"
 
-static const octree_game_body some_bodies[] = {
-    {1, {1, 2, 3}, {0, 0, 0}}, {2, {-4, 5, -6}, {0, 0, 0}}, {3, {7, 7, 7}, {0, 0, 0}}, {4, {8, 7, 7}, {0, 0, 0}}};
+static const octree_game_body some_bodies[] = {{.id = 1, .position = {1, 2, 3}},
+                                               {.id = 2, .position = {-4, 5, -6}},
+                                               {.id = 3, .position = {7, 7, 7}},
+                                               {.id = 4, .position = {8, 7, 7}}};
 
-static const octree_edit some_edits[] = {{2, OCTREE_EDIT_MOVE, {1, {1, 2, 4}, {0, 0, 0}}},
-                                         {2, OCTREE_EDIT_INSERT, {9, {9, 9, 9}, {0, 0, 0}}},
-                                         {4, OCTREE_EDIT_REMOVE, {2, {0, 0, 0}, {0, 0, 0}}}};
+static const octree_edit some_edits[] = {{2, OCTREE_EDIT_MOVE, {.id = 1, .position = {1, 2, 4}}},
+                                         {2, OCTREE_EDIT_INSERT, {.id = 9, .position = {9, 9, 9}}},
+                                         {4, OCTREE_EDIT_REMOVE, {.id = 2}}};
 
 static const octree_shape some_shapes[] = {
     {.tick = 2, .kind = OCTREE_SHAPE_POINT, .at = {1, 2, 3}},

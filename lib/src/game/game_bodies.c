@@ -1,17 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/* bodies.c - the bodies of a game: a hash table by id, their motion, and the edits of a tick.
+/* game_bodies.c - the bodies of a game: a hash table by id, their motion, and the edits of a tick.
  *
- * A body's motion starts at an origin at some tick. The position at a later tick is computed from the origin, the
- * velocity and the number of ticks since the start, so that rounding errors do not add up. A body that bounces follows
- * a triangle wave between the two faces of the world (reflect_path()). Many moves at once go through
- * octree_move_many(), which is faster than single moves from a few hundred points on.
+ * Many moves at once go through octree_move_many(), which is faster than single moves from a few hundred points on. How
+ * a body moves by its velocity is in motion.c.
  */
-#include "bodies.h"
-#include "../exact/float_rules.h"
+#include "game_bodies.h"
+#include "../bodies/set.h"
 #include "game_state.h"
+#include "motion.h"
 #include "octree/digest.h"
-
-#include <math.h>
 
 static size_t find_home_slot(const bodies *b, uint64_t id)
 {
@@ -61,11 +58,6 @@ static bool make_room_in_slots(bodies *b, arena *memory, size_t count)
     return true;
 }
 
-static bool is_moving(const double velocity[3])
-{
-    return velocity[0] != 0 || velocity[1] != 0 || velocity[2] != 0;
-}
-
 /* Add a body whose id is not in use. The motion of the body starts at its position, at the tick `tick`. Returns false
  * if memory runs out. */
 static bool bodies_add(bodies *b, arena *memory, const octree_game_body *body, uint64_t tick)
@@ -77,10 +69,14 @@ static bool bodies_add(bodies *b, arena *memory, const octree_game_body *body, u
     memcpy(added.position, body->position, sizeof added.position);
     memcpy(added.origin, body->position, sizeof added.origin);
     memcpy(added.velocity, body->velocity, sizeof added.velocity);
+    memcpy(added.half, body->half, sizeof added.half);
     if (!list_push(memory, &b->items, &added, sizeof added))
         return false;
     b->slots[slot] = (uint32_t)b->items.count;
     b->movers += is_moving(body->velocity);
+    b->extended += has_extent(body->half);
+    for (int i = 0; i < 3; i++)
+        b->reach[i] = body->half[i] > b->reach[i] ? body->half[i] : b->reach[i];
     return true;
 }
 
@@ -103,6 +99,8 @@ static void clear_slot(bodies *b, size_t gap)
 static void bodies_remove(bodies *b, moving_body *body)
 {
     b->movers -= is_moving(body->velocity);
+    b->extended -= has_extent(body->half);
+    b->reach_stale |= has_extent(body->half);
     clear_slot(b, find_body_slot(b, body->id));
     moving_body *last = &bodies_items(b)[b->items.count - 1];
     if (body != last) {
@@ -110,85 +108,6 @@ static void bodies_remove(bodies *b, moving_body *body)
         *body = *last;
     }
     b->items.count--;
-}
-
-/* ---- Motion ------------------------------------------------------------------------------------------------- */
-
-/* Record that the tree stores a body at a new position from this tick on. */
-static void store_body_position(moving_body *body, const double to[3], uint64_t tick)
-{
-    if (body->moved != tick)
-        memcpy(body->before, body->position, sizeof body->before);
-    body->moved = tick;
-    memcpy(body->position, to, sizeof body->position);
-}
-
-/* Returns the position after `ticks` ticks on a path that is reflected at both ends of an interval: a triangle wave
- * with the period 2 * (max - min). If the period overflows, the computation uses quarters of all lengths. If the path
- * still overflows, the position is `origin`. *direction is 1 if the body moves in the direction of `velocity`, -1 if it
- * moves in the opposite direction, and 0 if it is at rest. */
-static double reflect_path(double origin, double velocity, double ticks, double min, double max, int *direction)
-{
-    const double straight = origin + velocity * ticks;
-    *direction = 1;
-    if (min <= straight && straight <= max)
-        return straight;
-    const double unit = isfinite(2 * (max - min)) ? 1 : 0.25;
-    const double width = max * unit - min * unit;
-    double phase = fmod((origin * unit - min * unit) + velocity * unit * ticks, 2 * width);
-    if (!isfinite(phase)) {
-        *direction = 0;
-        return origin;
-    }
-    phase = phase < 0 ? phase + 2 * width : phase;
-    *direction = phase > width ? -1 : 1;
-    const double folded = min * unit + (phase > width ? 2 * width - phase : phase);
-    const double position = folded / unit;
-    return position < min ? min : position > max ? max : position;
-}
-
-/* Compute the position and the velocity of a body on one axis. The faces of the world reflect the body. If the body is
- * exactly at a face, its velocity is the velocity after the reflection. */
-static void compute_body_on_axis(const moving_body *body, const octree_box *world, double ticks, int axis,
-                                 octree_game_body *now)
-{
-    const double min = world->min[axis], max = world->max[axis];
-    int direction;
-    const double at = reflect_path(body->origin[axis], body->velocity[axis], ticks, min, max, &direction);
-    const double velocity = body->velocity[axis] * direction;
-    const bool leaves = (at == max && velocity > 0) || (at == min && velocity < 0);
-    now->position[axis] = at;
-    now->velocity[axis] = (leaves ? -velocity : velocity) + 0.0; /* adding 0.0 turns -0.0 into 0.0 */
-}
-
-/* Compute the position and velocity of a body at a tick. Most bodies have not reached a face of the world yet; a test
- * without branches recognizes such bodies. */
-static octree_game_body body_at_tick(const moving_body *body, const octree_box *world, uint64_t tick)
-{
-    octree_game_body now = {.id = body->id};
-    const double ticks = (double)(tick - body->since);
-    bool within = true;
-    for (int i = 0; i < 3; i++) {
-        now.position[i] = body->origin[i] + body->velocity[i] * ticks;
-        now.velocity[i] = body->velocity[i] + 0.0;
-        within &= (now.position[i] > world->min[i]) & (now.position[i] < world->max[i]);
-    }
-    for (int i = 0; !within && i < 3; i++)
-        compute_body_on_axis(body, world, ticks, i, &now);
-    return now;
-}
-
-/* Restart the motion of a body at the position `place`. The body keeps the velocity that it has at this tick. */
-static void restart_motion(moving_body *body, const octree_box *world, const double place[3], uint64_t tick)
-{
-    const octree_game_body now = body_at_tick(body, world, tick);
-    for (int i = 0; i < 3; i++)
-        /* A computed velocity of 0 can also mean that the body is too fast: its path overflows (reflect_path()). Such a
-         * body keeps its stored velocity. */
-        if (now.velocity[i] != 0)
-            body->velocity[i] = now.velocity[i];
-    memcpy(body->origin, place, sizeof body->origin);
-    body->since = tick;
 }
 
 /* ---- Changes of the tree ------------------------------------------------------------------------------------ */
@@ -245,28 +164,39 @@ static uint64_t motion_start_tick(const octree_game *game)
     return game->tick.number ? game->tick.number - 1 : 0;
 }
 
-static bool is_players_id(const octree_game *game, uint64_t id)
+bool octree_game_find_body(const octree_game *game, uint64_t id, octree_body *body)
 {
-    return game->session->player.kind == OCTREE_PLAYER_KEYS && id == game->session->player.id;
+    if (!game || !body)
+        return false;
+    const bool is_player = is_players_id(game, id);
+    const moving_body *found = is_player ? NULL : bodies_find(&game->bodies, id);
+    *body = (octree_body){.id = id};
+    if (found)
+        memcpy(body->half, found->half, sizeof body->half);
+    if (is_player || found)
+        memcpy(body->position, is_player ? game->tick.player : found->position, sizeof body->position);
+    return is_player || found;
 }
 
 bool octree_game_find(const octree_game *game, uint64_t id, octree_point *point)
 {
-    if (!game || !point)
+    octree_body body;
+    if (!point || !octree_game_find_body(game, id, &body))
         return false;
-    const bool is_player = is_players_id(game, id);
-    const moving_body *body = is_player ? NULL : bodies_find(&game->bodies, id);
-    point->id = id;
-    if (is_player || body)
-        memcpy(point->position, is_player ? game->tick.player : body->position, sizeof point->position);
-    return is_player || body;
+    *point = point_of_body(&body);
+    return true;
+}
+
+octree_status check_numbers_of_body(const octree_game_body *body)
+{
+    return is_finite_position(body->velocity) ? check_half_extents(body->half) : OCTREE_NOT_FINITE;
 }
 
 octree_status game_check_body(const octree_game *game, const octree_game_body *body)
 {
     if (is_players_id(game, body->id) || bodies_find(&game->bodies, body->id))
         return OCTREE_DUPLICATE;
-    return is_finite_position(body->velocity) ? OCTREE_OK : OCTREE_NOT_FINITE;
+    return check_numbers_of_body(body);
 }
 
 bool game_add_body(octree_game *game, const octree_game_body *body, octree_status status)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* bodies.h - the bodies of a game, found by id: edits of bodies, and their motion. Private. */
-#ifndef OCTREE_BODIES_H
-#define OCTREE_BODIES_H
+/* game_bodies.h - the bodies of a game, found by id: edits of bodies, and their motion. Private. */
+#ifndef OCTREE_GAME_BODIES_H
+#define OCTREE_GAME_BODIES_H
 
 #include "../tree/pool.h"
 #include "octree/game.h"
@@ -18,6 +18,7 @@ typedef struct moving_body {
     double before[3]; /* the position that the tree stored before the tick `moved` */
     /* the number of the last run of edits that moved the body (see bodies.runs); 0: no run has moved the body */
     size_t run;
+    double half[3]; /* the half extents of its box */
 } moving_body;
 
 typedef struct bodies {
@@ -26,6 +27,9 @@ typedef struct bodies {
     uint32_t *slots;
     size_t slot_count; /* the length of `slots`: a power of two, or 0 */
     size_t movers;     /* the number of bodies whose velocity is not zero */
+    size_t extended;   /* the number of bodies whose half extents are not all zero */
+    double reach[3];   /* the largest half extents, axis by axis */
+    bool reach_stale;  /* true: `reach` may be too large, because a body with extent was removed */
     size_t runs;       /* the number of runs of edits so far; a run is a sequence of edits that move different bodies */
 } bodies;
 
@@ -47,9 +51,12 @@ octree_status game_move_point(octree_game *game, const double from[3], uint64_t 
 /* Add a refusal to the tick. Returns false if memory runs out. */
 bool game_record_refusal(octree_game *game, uint64_t id, octree_status why, const double position[3]);
 
-/* Check whether a body can be inserted. Returns DUPLICATE if its id is in use, NOT_FINITE if its velocity is not
- * finite, otherwise OK. */
+/* Check whether a body can be inserted. Returns DUPLICATE if its id is in use, NOT_FINITE if its velocity or its
+ * half extents are not finite, BAD_SIZE if a half extent is negative, otherwise OK. */
 octree_status game_check_body(const octree_game *game, const octree_game_body *body);
+
+/* Returns the status of game_check_body() that does not depend on the game: OK, NOT_FINITE or BAD_SIZE. */
+octree_status check_numbers_of_body(const octree_game_body *body);
 
 /* Add a body whose point is already in the tree if `status` is OK. Otherwise record that the body was refused, with
  * `status` as the reason. Returns false if memory runs out. */
