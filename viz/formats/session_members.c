@@ -255,6 +255,7 @@ const json_member session_header_members[] = {
      .check = mark_tick_count_known},
     {"unplayed", &json_uint64, HEADER(session.unplayed), .max = SESSION_LAST_TICK,
      JSON_IF(session_header, session.unplayed)},
+    {"pairs", &json_bool, HEADER(session.pairs), JSON_IF(session_header, session.pairs)},
     {"queries", &session_items_codec, HEADER(every_tick.queries), .about = &session_queries,
      JSON_IF(session_header, every_tick.query_count)},
     {"shapes", &session_items_codec, HEADER(every_tick.shapes), .about = &session_shapes,

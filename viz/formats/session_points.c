@@ -106,10 +106,21 @@ bool session_map_bodies(json_reader *r, const json_place *at)
            json_fail(r, &(json_place){at, NULL, clash}, "id %" PRIu64 " already belongs to the player", player->id);
 }
 
+/* Returns the number of elements up to the first that is empty. Reading stops there with an error, so that no body is
+ * needed for the elements after it: empty elements are the shortest, and a file of them would need the most memory. */
+static size_t count_needed_bodies(const json_t *list)
+{
+    const size_t count = json_array_size(list);
+    for (size_t i = 0; i < count; i++)
+        if (json_array_size(json_array_get(list, i)) + json_object_size(json_array_get(list, i)) == 0)
+            return i + 1;
+    return count;
+}
+
 static bool read_point_list(json_reader *r, json_t *list, const json_place *at)
 {
     session_loader *s = r->context;
-    return allocate_bodies(r, at, json_array_size(list)) &&
+    return allocate_bodies(r, at, count_needed_bodies(list)) &&
            json_read_elements(r, list, at, "a list of points", read_point, s->bodies) && session_map_bodies(r, at);
 }
 
@@ -296,11 +307,12 @@ static bool read_points(json_reader *r, json_t *value, const json_place *at, voi
                      "expected a list of points, {\"file\": ...} or {\"sample\": ..., \"count\": ..., \"seed\": ...}");
 }
 
-/* Writes a point. A point with a velocity is written as an object, any other point as a row. A velocity of -0 counts
- * as a velocity, so that it is restored exactly. */
+/* Writes a point. A point with a velocity or half extents is written as an object, any other point as a row. A velocity
+ * of -0 counts as a velocity, so that it is restored exactly. */
 static void write_point(json_writer *w, const octree_game_body *body)
 {
-    if (json_has_nonzero_byte(body->velocity, sizeof body->velocity)) {
+    if (json_has_nonzero_byte(body->velocity, sizeof body->velocity) ||
+        json_has_nonzero_byte(body->half, sizeof body->half)) {
         session_body_codec.write(w, body);
         return;
     }

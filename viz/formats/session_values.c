@@ -164,13 +164,23 @@ typedef struct valued_body {
 #define POINT(member) offsetof(valued_body, member)
 #define VALUE(kind, field) .offset = POINT(value.field), .given = POINT(value.has[kind])
 
-enum { FIRST_VALUE = 3 };
+enum { FIRST_VALUE = 4 };
+
+static bool check_half(json_reader *r, const json_place *at, void *structure)
+{
+    const double *half = ((const valued_body *)structure)->body.half;
+    for (int i = 0; i < 3; i++)
+        if (half[i] < 0)
+            return json_fail(r, at, "a half extent must not be negative; correct its coordinate %c", "xyz"[i]);
+    return true;
+}
 
 /* The rows of a body's members. The row of a point_value_kind has the index FIRST_VALUE + kind. */
 const json_member session_body_members[] = {
     {"id", &json_uint64, POINT(body.id), .max = JSON_LARGEST_WHOLE},
     {"position", &json_vector, POINT(body.position), .required = true},
     {"velocity", &json_vector, POINT(body.velocity), JSON_IF(valued_body, body.velocity)},
+    {"half", &json_vector, POINT(body.half), JSON_IF(valued_body, body.half), .check = check_half},
     [FIRST_VALUE + POINT_COLOR] = {"color", JSON_CODEC(read_color, write_color), VALUE(POINT_COLOR, color)},
     {"intensity", JSON_CODEC(read_intensity, write_intensity), VALUE(POINT_INTENSITY, intensity)},
     {"class", JSON_CODEC(read_point_class, write_point_class), VALUE(POINT_CLASS, class)},

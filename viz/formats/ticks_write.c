@@ -58,23 +58,51 @@ static void write_addresses(json_writer *w, const void *from)
     json_write_end_array(w);
 }
 
-/* Writes the nodes that split or merged in a tick. Up to TICK_LISTED nodes are written as a list, more nodes as
- * their count and a digest. */
-static void write_changed_nodes(json_writer *w, const void *from)
+/* Returns whether a list of this length is written whole. Otherwise its count and a digest are written. */
+static bool is_listed(const json_writer *w, size_t count)
 {
-    const json_counted_array addresses = json_get_counted_array(from);
+    return count <= TICK_LISTED || ((const tick_extras *)w->context)->whole;
+}
+
+static void write_count_and_digest(json_writer *w, size_t count, const uint64_t *words, size_t word_count)
+{
     uint64_t digest = OCTREE_DIGEST_START;
-    if (addresses.count <= TICK_LISTED || ((const tick_extras *)w->context)->whole) {
-        write_addresses(w, from);
-        return;
-    }
-    for (size_t i = 0; i < addresses.count; i++)
-        digest = octree_digest_word(digest, ((const octree_address *)addresses.items)[i]);
+    for (size_t i = 0; i < word_count; i++)
+        digest = octree_digest_word(digest, words[i]);
     json_write_begin_object(w);
-    json_write_integer_member(w, "count", addresses.count);
+    json_write_integer_member(w, "count", count);
     json_write_key(w, "digest");
     write_digest(w, &digest);
     json_write_end_object(w);
+}
+
+/* Writes the nodes that split or merged in a tick. */
+static void write_changed_nodes(json_writer *w, const void *from)
+{
+    const json_counted_array addresses = json_get_counted_array(from);
+    if (is_listed(w, addresses.count))
+        write_addresses(w, from);
+    else
+        write_count_and_digest(w, addresses.count, addresses.items, addresses.count);
+}
+
+/* Writes pairs of bodies as [a, b]. A pair consists of two words. */
+static void write_pairs(json_writer *w, const void *from)
+{
+    const json_counted_array pairs = json_get_counted_array(from);
+    const uint64_t *ids = pairs.items;
+    if (!is_listed(w, pairs.count)) {
+        write_count_and_digest(w, pairs.count, ids, 2 * pairs.count);
+        return;
+    }
+    json_write_begin_array(w);
+    for (size_t i = 0; i < pairs.count; i++) {
+        json_write_begin_array(w);
+        json_write_integer(w, ids[2 * i]);
+        json_write_integer(w, ids[2 * i + 1]);
+        json_write_end_array(w);
+    }
+    json_write_end_array(w);
 }
 
 static const json_member cost_members[] = {
@@ -309,6 +337,7 @@ static const json_member line_members[] = {
     {"attempt", &json_vector, TICK(attempt), .given = offsetof(octree_tick, has_player), .nullable = true},
     {"hits", WRITE(write_point_ids), TICK(hits)},
     {"hit_cost", &json_structure, TICK(hit_cost), .members = cost_members},
+    {"pairs", WRITE(write_pairs), TICK(pairs), JSON_IF(octree_tick, pair_count)},
     {"answers", WRITE(write_answers), .offset = 0},
     {"visits", &json_structure, .offset = 0, .members = visit_members},
     {"foreign_nodes", &json_structure, TICK(foreign), .given = offsetof(octree_tick, foreign.given),

@@ -134,8 +134,8 @@ void film_report(FILE *out, const film_summary *summary, const film_options *opt
     report_left_out(out, summary);
     fputs("ticks with each event: player", out);
     for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++)
-        /* A session without foreign answers cannot have wrong answers, so "wrong 0" would mislead. */
-        if (1u << i != OCTREE_EVENT_WRONG || summary->events[i])
+        /* Most sessions cannot have wrong answers or overlapping pairs, so "wrong 0" would mislead. */
+        if (!(1u << i & (OCTREE_EVENT_WRONG | OCTREE_EVENT_OVERLAPPED)) || summary->events[i])
             fprintf(out, "%s %s %" PRIu64, i ? "," : "", octree_event_name(1u << i), summary->events[i]);
     putc('\n', out);
     if (summary->refusals)

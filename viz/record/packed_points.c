@@ -49,6 +49,10 @@ bool are_points_packed(const octree_session *session, const point_values *values
     for (size_t i = 1; i < count; i++)
         if (session->bodies[i].id <= session->bodies[i - 1].id)
             return false;
+    for (size_t i = 0; i < count; i++)
+        for (int axis = 0; axis < 3; axis++)
+            if (session->bodies[i].half[axis] != 0)
+                return false;
     return true;
 }
 

@@ -96,7 +96,7 @@ static void assert_addresses(const json_t *list, const octree_address *addresses
 static void assert_events(const json_t *list, unsigned events)
 {
     static const char *const names[OCTREE_EVENT_KINDS] = {"moved", "refused", "collided", "full",
-                                                          "split", "merged",  "wrong"};
+                                                          "split", "merged",  "wrong",    "overlapped"};
     size_t at = 0;
     for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++)
         if ((events & 1u << i) != 0)

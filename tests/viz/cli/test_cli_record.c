@@ -250,7 +250,7 @@ static void json_summary_is_one_object_that_agrees_with_the_recording(void **sta
     assert_whole_number(json_member(summary, "gaps"), 0);
     assert_whole_number(json_member(summary, "left_out"), 0);
     assert_true(json_real_value(json_member(summary, "seconds")) > 0);
-    assert_members(json_member(summary, "events"), "moved refused collided full split merged wrong");
+    assert_members(json_member(summary, "events"), "moved refused collided full split merged wrong overlapped");
     json_decref(summary);
     command_release(&result);
 }

@@ -238,9 +238,9 @@ static void session_with_edits_motion_and_queries_replays_from_its_recording(voi
 static void session_with_awkward_numbers_replays_from_its_recording(void **state)
 {
     static const octree_game_body bodies[] = {
-        {1, {1e15 + 0.125, -0.0, 5e-324}, {0.1, -1.0 / 3, 1e-17}},
-        {2, {1e15 + 0.875, 0.1, 2.2250738585072014e-308}, {0, -0.0, 0}},
-        {9007199254740991, {1e15 + 0.5, 1 - 0x1p-53, 1e-300}, {-0.125, 0.7, 0.01}},
+        {1, {1e15 + 0.125, -0.0, 5e-324}, {0.1, -1.0 / 3, 1e-17}, {0.3, 1e-300, 5e-324}},
+        {2, {1e15 + 0.875, 0.1, 2.2250738585072014e-308}, {0, -0.0, 0}, {0}},
+        {9007199254740991, {1e15 + 0.5, 1 - 0x1p-53, 1e-300}, {-0.125, 0.7, 0.01}, {0.1, 2, 0}},
     };
     octree_session session = octree_session_default();
     session.tree.world = (octree_box){{1e15, -1, -1}, {1e15 + 1, 1, 1}};

@@ -189,7 +189,8 @@ static void assert_told(const comparison_of *made, uint64_t tick, int layer, con
 /* Two sessions of one point that moves. */
 static void different_velocities_are_reported(void **state)
 {
-    const octree_game_body bodies[2] = {{1, {100, 100, 100}, {1, 0, 0}}, {1, {100, 100, 100}, {0, 1, 0}}};
+    const octree_game_body bodies[2] = {{.id = 1, .position = {100, 100, 100}, .velocity = {1, 0, 0}},
+                                        {.id = 1, .position = {100, 100, 100}, .velocity = {0, 1, 0}}};
     octree_session session = short_session("wd");
     session.body_count = 1;
     session.bodies = &bodies[0];

@@ -195,7 +195,7 @@ static void header_with_bad_members_is_refused(void **state)
         {"{\"octreel\":\"session\",\"version\":1.5}", "1: version: expected a whole number from 1"},
         {HEADER "\"keyz\":1}",
          "2: unknown member \"keyz\", did you mean keys? known: octreel, version, world, tree, player, keys, ticks, "
-         "unplayed, queries, shapes, foreign_nodes, sampled, columns, points, velocities"},
+         "unplayed, pairs, queries, shapes, foreign_nodes, sampled, columns, points, velocities"},
         {HEADER "\"\\u001b[0m\":1}", "2: unknown member \"?[0m\"; known: octreel"},
         {HEADER "\"world\":5}", "2: world: expected an object, found 5"},
         {HEADER "\"world\":{\"min\":[0,0,0]}}", "2: world: the member \"max\" is missing"},
