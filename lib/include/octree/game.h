@@ -271,7 +271,8 @@ typedef struct octree_tick {
 typedef struct octree_game octree_game;
 
 /* Start a session and play tick 0. Bodies that the tree refuses, or whose velocity is not finite (NOT_FINITE), are left
- * out and become refusals of tick 0. So do bodies whose half extents are not finite (NOT_FINITE) or negative (BAD_SIZE).
+ * out and become refusals of tick 0. So do bodies whose half extents are not finite (NOT_FINITE) or negative
+ * (BAD_SIZE).
  *
  * Errors: NULL_ARGUMENT; those of octree_create; NOT_FINITE, OUTSIDE, BAD_SIZE (the player); DUPLICATE (two bodies with
  * one id, or a body with the player's id); BAD_KEY; BAD_OPTION; BAD_ORDER; NOT_FINITE, BAD_RANGE, BAD_SIZE (a query;
@@ -343,8 +344,8 @@ bool octree_game_find(const octree_game *game, uint64_t id, octree_point *point)
 /* Like octree_game_find(), with the half extents. */
 bool octree_game_find_body(const octree_game *game, uint64_t id, octree_body *body);
 
-/* Returns the bodies after the last played tick, as a set for the queries of bodies.h; its level is the game's tree. The
- * game owns the set, which cannot be changed. Returns null for null. */
+/* Returns the bodies after the last played tick, as a set for the queries of bodies.h; its level is the game's tree.
+ * The game owns the set, which cannot be changed. Returns null for null. */
 const octree_bodies *octree_game_bodies(const octree_game *game);
 
 /* Returns the session that was passed to octree_game_create. */
