@@ -445,10 +445,12 @@ static void write_tick_rows(pen *p, const layer_source *in)
     write_player(p, in);
     write_statistics(p, in, &tick->stats);
     write_view_limits(p);
-    if (tick->hit_count || in->answer_count || tick->refusal_count)
+    if (tick->hit_count || tick->pair_count || in->answer_count || tick->refusal_count)
         write_separator_line(p);
     if (tick->hit_count)
         write_ids(p, "box hits", tick->hits, tick->hit_count);
+    if (tick->pair_count)
+        write_row(p, "overlaps", "", "%zu pair%s", tick->pair_count, plural_ending(tick->pair_count));
     write_wrong_answers(p, in);
     write_wrong_nodes(p, in);
     write_answers(p, in);

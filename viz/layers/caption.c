@@ -137,6 +137,18 @@ static void append_changes_of_points(words *w, const octree_tick *tick)
     }
 }
 
+/* Append the overlapping pairs of a tick. */
+static void append_pairs(words *w, const octree_tick *tick)
+{
+    if (tick->pair_count == 0)
+        return;
+    begin_phrase(w);
+    if (tick->pair_count == 1)
+        append(w, "bodies %" PRIu64 " and %" PRIu64 " overlap", tick->pairs->a, tick->pairs->b);
+    else
+        append(w, "%zu pairs of bodies overlap", tick->pair_count);
+}
+
 /* Append the splits and merges of a tick. */
 static void append_changes_of_nodes(words *w, const layer_source *in)
 {
@@ -232,6 +244,8 @@ void caption_write(const layer_source *in, char text[CAPTION_TEXT])
         if (in->tick)
             append_changes_of_points(&w, in->tick);
     }
+    if (in->tick)
+        append_pairs(&w, in->tick);
     append_answers(&w, in);
     if (w.used == 0 && in->tick)
         append(&w, "%s", in->session->player.kind == OCTREE_PLAYER_KEYS ? "the player waits" : "nothing changes");

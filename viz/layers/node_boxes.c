@@ -30,6 +30,13 @@ bool is_left_out_by_lod(const scene *s, const octree_box *box, unsigned depth)
            camera_is_box_smaller_than(&s->camera, box, s->view.lod);
 }
 
+bool is_position_shown(const view_filter *f, const octree *tree, const octree_box *world, const double position[3])
+{
+    octree_node leaf;
+    return !filter_is_set(f) || (filter_shows_point(f, position) && octree_locate(tree, position, &leaf) == OCTREE_OK &&
+                                 filter_shows_points_of(f, world, &leaf));
+}
+
 bool find_shown_node(scene *s, const octree *tree, octree_address address, octree_node *node)
 {
     const octree_box world = octree_definition(tree).world;

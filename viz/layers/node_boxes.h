@@ -4,6 +4,7 @@
 #ifndef LAYERS_NODE_BOXES_H
 #define LAYERS_NODE_BOXES_H
 
+#include "filter.h"
 #include "octree/digest.h"
 #include "scene.h"
 
@@ -27,6 +28,9 @@ void add_node_box(scene *s, const octree_node *node, scene_style style);
  * Every query that visits a node also visits the node's ancestors. So a layer of visited nodes that leaves out the node
  * still shows this ancestor. */
 bool is_left_out_by_lod(const scene *s, const octree_box *box, unsigned depth);
+
+/* Return whether a filter shows a point at a position: it shows the position and its leaf. */
+bool is_position_shown(const view_filter *f, const octree *tree, const octree_box *world, const double position[3]);
 
 /* Find the node at an address. If the tree no longer has the node, *node becomes its empty cell. Return false if the
  * scene must not show the node: the view's filter hides it, or it is smaller than the view's lod and an ancestor is

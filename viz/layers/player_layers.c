@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* player_layers.c - two layers. The first shows the player; the second shows the player's collision box and the points
  * that the box hits. */
+#include "body_boxes.h"
 #include "layer_type.h"
 #include "node_boxes.h"
 
@@ -78,6 +79,16 @@ static void add_swept_paths(scene *s, const octree_tick *tick, double box_size, 
         add_path_line(s, CROSS_LINES + CORNERS + i, tick->hit_from[i], tick->hits[i].position, style);
 }
 
+/* Draw the box of a hit body, if it has an extent. */
+static void add_hit_body(scene *s, const layer_source *in, uint64_t id, view_layer layer)
+{
+    octree_body body;
+    if (!octree_game_find_body(in->game, id, &body) || !has_extent(body.half))
+        return;
+    const octree_box box = box_of_body(&body);
+    scene_add_outline(s, id, &box, make_layer_style(layer, STROKE_SOLID, 2));
+}
+
 /* Draw the box of the collision test with crossed faces, and a cross on each hit point. If the box is small on screen,
  * also draw a large cross of fixed size. */
 static void add_hit_box(scene *s, const layer_source *in, view_layer layer)
@@ -90,9 +101,11 @@ static void add_hit_box(scene *s, const layer_source *in, view_layer layer)
     if (tick->swept)
         add_swept_paths(s, tick, size, make_layer_style(layer, STROKE_DASHED, 1));
     scene_add_mark(s, in->session->player.id, tick->attempt, SHAPE_CROSS, make_layer_style(layer, STROKE_SOLID, 28));
-    for (size_t i = 0; i < tick->hit_count; i++)
+    for (size_t i = 0; i < tick->hit_count; i++) {
         scene_add_mark(s, tick->hits[i].id, tick->hits[i].position, SHAPE_CROSS,
                        make_layer_style(layer, STROKE_SOLID, 6));
+        add_hit_body(s, in, tick->hits[i].id, layer);
+    }
 }
 
 static void add_collision_box(scene *s, const layer_source *in, view_layer layer)
@@ -117,6 +130,13 @@ static void describe_collision_box(description *d, const described_element *elem
 {
     if (element->kind == SCENE_BOX) {
         const bool hit = element->id == COLLISION_ID;
+        octree_body body;
+        if (!hit && element->id != octree_game_session(d->game)->player.id &&
+            octree_game_find_body(d->game, element->id, &body)) {
+            describe_point(d, "the box of ", body.id, body.position);
+            append_text(d, ", in the player's collision box");
+            return;
+        }
         append_box(d, hit ? "the collision box that hit something, " : "the player's collision box, ", &element->box);
     } else if (element->kind == SCENE_SEGMENT) {
         append_text(d, element->id < CROSS_LINES ? "a line of the cross on the collision box"

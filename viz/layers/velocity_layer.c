@@ -79,16 +79,6 @@ typedef struct arrow_context {
     double ticks; /* an arrow shows the movement of this many ticks */
 } arrow_context;
 
-/* Return whether the view's filter shows both the position of a body and its leaf. */
-static bool is_body_shown(const arrow_context *a, const octree_game_body *body)
-{
-    const view_filter *f = &a->scene->view.filter;
-    octree_node leaf;
-    return !filter_is_set(f) ||
-           (filter_shows_point(f, body->position) && octree_locate(a->in->tree, body->position, &leaf) == OCTREE_OK &&
-            filter_shows_points_of(f, &a->in->world, &leaf));
-}
-
 /* Compute the end of a body's arrow. Return false if the arrow would have no length. */
 static bool find_arrow_end(const arrow_context *a, const octree_game_body *body, double end[3])
 {
@@ -109,7 +99,8 @@ static bool has_arrow(const arrow_context *a, const octree_game_body *body)
         within &= (at + step > world->min[i]) & (at + step < world->max[i]);
         far |= fabs(step) > fabs(at) * 1e-9;
     }
-    return ((within && far) || find_arrow_end(a, body, end)) && is_body_shown(a, body);
+    return ((within && far) || find_arrow_end(a, body, end)) &&
+           is_position_shown(&a->scene->view.filter, a->in->tree, &a->in->world, body->position);
 }
 
 /* Return the number of bits of the finest sieve that keeps an id, which is the number of zero bits at the end of the
@@ -178,7 +169,8 @@ static void add_velocities(scene *s, const layer_source *in, view_layer layer)
     for (size_t i = 0; i < tick->mover_count; i++) {
         const octree_game_body *body = &tick->movers[i];
         scene_segment arrow = {.id = body->id, .style = make_layer_style(LAYER_VELOCITIES, STROKE_ARROW, 1)};
-        if (sieve_rejects_id(sieve, body->id) || !find_arrow_end(&a, body, arrow.ends[1]) || !is_body_shown(&a, body))
+        if (sieve_rejects_id(sieve, body->id) || !find_arrow_end(&a, body, arrow.ends[1]) ||
+            !is_position_shown(&s->view.filter, in->tree, &in->world, body->position))
             continue;
         memcpy(arrow.ends[0], body->position, sizeof arrow.ends[0]);
         if (is_arrow_below_lod(s, arrow.ends))

@@ -37,12 +37,14 @@
     X(MERGES, "merges", "merges", "inner nodes that became leaves in the tick", ROLE_CHANGE, false, true)              \
     X(SPLITS, "splits", "splits", "leaves that split in the tick", ROLE_CHANGE, false, true)                           \
     X(POINTS, "points", "points", "the points in the tree", ROLE_POINT, true, true)                                    \
+    X(BODIES, "bodies", "bodies", "the boxes of bodies with extent", ROLE_POINT, true, true)                           \
     X(VELOCITIES, "velocities", "velocities", "arrows that show where moving points will go", ROLE_FAINT, true, true)  \
     X(ASKED, "asked", "the node given by --node", "the node of inspect --node", ROLE_PLAYER, false, true)              \
     QUERY_LOOKS(QUERY_LAYER, X)                                                                                        \
     X(PLAYER, "player", "the player", "the player, and a line down to the floor", ROLE_PLAYER, false, true)            \
     X(BOX, "box", "the collision box", "the player's collision box, and the points in it", ROLE_COLLISION, false,      \
       true)                                                                                                            \
+    X(PAIRS, "pairs", "overlaps", "where the boxes of two bodies overlap", ROLE_COLLISION, false, true)                \
     X(SHAPES, "shapes", "shapes",                                                                                      \
       "the session's shapes, which are not in the tree: boxes, segments, points and labels", ROLE_SHAPE, false, true)  \
     X(WRONG, "wrong", "wrong answers",                                                                                 \

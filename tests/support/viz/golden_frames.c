@@ -56,6 +56,7 @@ const golden_frame golden_frames[] = {
     {"point_heat", "iso", "world,point-heat", 30, "clustered", 0, 0},
     {"broken", "iso", "default", 0, NULL, 640, 360},
     {"velocities", "iso", "nodes,points,velocities,player", 3, "moving", 400, 225},
+    {"bodies", "iso", "default", 6, "boxes", 640, 360},
     {"diagram_met", "iso", "default", 216, NULL, 640, 360},
     {"asked", "top", "nodes,asked,points", 0, "clustered", 0, 0},
     {"wrong", "iso", "world,nodes,points,nearest,radius,wrong,text", 0, "answered", 640, 360},
@@ -169,6 +170,37 @@ static octree_session moving_session(octree_game_body *bodies)
     return session;
 }
 
+/* Boxes at rest and moving ones. Some overlap, one hinders the player, and a query finds some. */
+static const octree_game_body boxes[] = {
+    {.id = 1, .position = {-40, -40, -60}, .half = {15, 20, 20}},
+    {.id = 2, .position = {-30, -15, -50}, .half = {12, 12, 30}},
+    {.id = 3, .position = {40, 50, 20}, .half = {20, 4, 40}},
+    {.id = 4, .position = {60, -60, -70}, .velocity = {-6, 3, 5}, .half = {9, 9, 9}},
+    {.id = 5, .position = {10, 70, 60}, .velocity = {4, -5, -3}, .half = {6, 12, 6}},
+    {.id = 6, .position = {70, 30, 80}, .velocity = {-3, 2, -7}, .half = {14, 6, 6}},
+    {.id = 7, .position = {80, -20, 50}},
+    {.id = 8, .position = {-80, 80, 20}},
+    {.id = 9, .position = {-60, 60, 70}},
+    {.id = 10, .position = {20, -80, 40}},
+};
+
+static const octree_query shelf[] = {
+    {.tick = OCTREE_EVERY_TICK, .kind = OCTREE_QUERY_RANGE, .box = {{0, 20, 0}, {50, 90, 80}}}};
+
+static octree_session session_of_boxes(void)
+{
+    octree_session session = octree_session_default();
+    session.tree.world = (octree_box){{-100, -100, -100}, {100, 100, 100}};
+    session.player = (octree_player){.id = 0, .position = {-70, -40, -60}, .step = 10, .box_size = 8};
+    session.keys = "dd..wdd.";
+    session.bodies = boxes;
+    session.body_count = sizeof boxes / sizeof boxes[0];
+    session.queries = shelf;
+    session.query_count = 1;
+    session.pairs = true;
+    return session;
+}
+
 /* A step over one point and past another, which comes along the same way from above. */
 static octree_session swept_session(void)
 {
@@ -208,6 +240,8 @@ static octree_session session_of(const golden_frame *frame, octree_game_body bod
         session = sampled_session(OCTREE_SAMPLE_UNIFORM, answered, bodies, 60);
         session.query_count = 2;
         return session;
+    case 'b':
+        return session_of_boxes();
     case 'c': /* 400 clustered points, and a region that some of them are in */
         return sampled_session(OCTREE_SAMPLE_CLUSTERED, around, bodies, GOLDEN_MOST_BODIES);
     case 'f':

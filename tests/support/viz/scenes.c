@@ -28,21 +28,22 @@ static const octree_shape all_shapes[] = {
     {OCTREE_EVERY_TICK, OCTREE_SHAPE_LABEL, {300, -300, 300}, {0}, "goal"},
 };
 
-/* The default session's queries, which are ranges at ticks 212 to 223, and two at every tick; and one more body, which
- * crosses the world where the player does not come. */
+/* The default session's queries, which are ranges at ticks 212 to 223, and two at every tick; and two more bodies,
+ * boxes that overlap in the first ticks. One of them crosses the world where the player does not come. */
 /* The moving body, which is never the nearest to where it is asked. */
 static const uint64_t far_answer[] = {700};
 
-octree_session session_with_all_layers(void)
+static octree_session make_session_with_all_layers(octree_game_body bodies[32])
 {
     static octree_query queries[32];
-    static octree_game_body bodies[32];
     octree_session session = octree_session_default();
     size_t count = session.query_count;
-    assert_true(session.body_count < sizeof bodies / sizeof bodies[0]);
+    assert_true(session.body_count + 2 < 32);
     memcpy(bodies, session.bodies, session.body_count * sizeof *bodies);
     bodies[session.body_count++] =
-        (octree_game_body){.id = 700, .position = {-900, 700, -600}, .velocity = {3, -2.5, 0.25}};
+        (octree_game_body){.id = 700, .position = {-900, 700, -600}, .velocity = {3, -2.5, 0.25}, .half = {60, 30, 45}};
+    bodies[session.body_count++] = (octree_game_body){.id = 701, .position = {-850, 650, -580}, .half = {80, 40, 20}};
+    session.pairs = true;
     session.bodies = bodies;
     assert_true(count + 3 <= sizeof queries / sizeof queries[0]);
     memcpy(queries, session.queries, count * sizeof *queries);
@@ -60,6 +61,22 @@ octree_session session_with_all_layers(void)
     session.query_count = count;
     session.shapes = all_shapes;
     session.shape_count = sizeof all_shapes / sizeof all_shapes[0];
+    return session;
+}
+
+octree_session session_with_all_layers(void)
+{
+    static octree_game_body bodies[32];
+    return make_session_with_all_layers(bodies);
+}
+
+octree_session session_of_points_with_all_layers(void)
+{
+    static octree_game_body bodies[32];
+    octree_session session = make_session_with_all_layers(bodies);
+    for (size_t i = 0; i < session.body_count; i++)
+        memset(bodies[i].half, 0, sizeof bodies[i].half);
+    session.pairs = false;
     return session;
 }
 

@@ -19,6 +19,9 @@ scene empty_scene(const view *v, const octree_box *world);
  * each kind, and a wrong answer of a foreign index: it shows every layer. */
 octree_session session_with_all_layers(void);
 
+/* The same session without extents and pairs. */
+octree_session session_of_points_with_all_layers(void);
+
 /* The default session with every coordinate and length multiplied by `scale`, then moved by `offset`. The structure
  * must not be moved. */
 #define SCALED_SESSION_ROOM 16

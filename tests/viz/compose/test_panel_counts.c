@@ -369,7 +369,7 @@ static void check_session(const octree_session *session)
 static void panel_counts_of_the_default_session_match_a_recount(void **state)
 {
     (void)state;
-    const octree_session session = session_with_all_layers();
+    const octree_session session = session_of_points_with_all_layers();
     check_session(&session);
 }
 

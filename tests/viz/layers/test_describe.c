@@ -32,6 +32,8 @@ static const struct {
     {LAYER_POINTS, SCENE_LABEL, ", the id of a point", false, false},
     {LAYER_POINTS, SCENE_PANEL, "the background of the id of a point", false, false},
     {LAYER_VELOCITIES, SCENE_SEGMENT, "the velocity of point 700 at (", false, true},
+    {LAYER_BODIES, SCENE_BOX, "), half extents (", false, true},
+    {LAYER_PAIRS, SCENE_BOX, "the overlap of body 700 and body 701, box (", false, false},
     {LAYER_RANGE, SCENE_BOX, "the box of the range query", false, false},
     {LAYER_RANGE, SCENE_MARKER, "found by a range query", false, true},
     {LAYER_RADIUS, SCENE_SEGMENT, "radius 450 about (", false, false},

@@ -166,7 +166,7 @@ static void check_session(const octree_session *session, const view *v, bool wor
 static void visits_of_the_default_session_match_a_recount(void **state)
 {
     (void)state;
-    const octree_session session = session_with_all_layers();
+    const octree_session session = session_of_points_with_all_layers();
     const view v = view_of(1280, 1440, CAMERA_ISO, VIEW_DEFAULT_LAYERS);
     check_session(&session, &v, true);
 }

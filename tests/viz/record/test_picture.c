@@ -132,7 +132,10 @@ static uint64_t roles_of(unsigned layer)
     case LAYER_POINT_HEAT:
         return ALL_NODE_ROLES;
     case LAYER_POINTS:
+    case LAYER_BODIES:
         return one << ROLE_POINT;
+    case LAYER_PAIRS:
+        return one << ROLE_COLLISION;
     case LAYER_VELOCITIES:
         return one << ROLE_FAINT;
     case LAYER_HIT:
@@ -188,7 +191,9 @@ static void each_layer_draws_all_its_colours_and_no_others(void **state)
             uint8_t *frame = draw(r, &s);
             const uint64_t roles = roles_in(frame);
             assert_true(roles != 0 && (roles & ~roles_of(layer)) == 0);
-            assert_int_equal(roles >> ROLE_COLLISION & 1, layer == LAYER_BOX && octree_game_tick(game)->hit_count != 0);
+            const octree_tick *tick = octree_game_tick(game);
+            assert_int_equal(roles >> ROLE_COLLISION & 1, (layer == LAYER_BOX && tick->hit_count != 0) ||
+                                                              (layer == LAYER_PAIRS && tick->pair_count != 0));
             seen |= roles;
             free(frame);
         }
