@@ -49,28 +49,29 @@ static int compare_by_id(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Return the bodies of a session as points, in ascending order of id. The coordinates of a point are the body's
- * position or, with `velocities`, its velocity. */
-static cause_points sort_bodies(const octree_session *session, bool velocities)
+/* Return the bodies of a session as points, in ascending order of id. The coordinates of a point are the vector at this
+ * offset in its body, such as the body's position. */
+static cause_points sort_bodies(const octree_session *session, size_t offset)
 {
     cause_points sorted = {malloc((session->body_count + 1) * sizeof *sorted.points), session->body_count};
     for (size_t i = 0; sorted.points && i < sorted.count; i++) {
         const octree_game_body *body = &session->bodies[i];
         sorted.points[i].id = body->id;
-        memcpy(sorted.points[i].position, velocities ? body->velocity : body->position, sizeof body->position);
+        memcpy(sorted.points[i].position, (const char *)body + offset, sizeof body->position);
     }
     if (sorted.points)
         qsort(sorted.points, sorted.count, sizeof *sorted.points, compare_by_id);
     return sorted;
 }
 
-static void compare_positions_or_velocities(const octree_session *a, const octree_session *b, bool velocities,
-                                            cause_facts *facts)
+/* Compare one vector of the bodies. `where` is the place of the vector in a session. */
+static void compare_vectors(const octree_session *a, const octree_session *b, const char *where, size_t offset,
+                            cause_facts *facts)
 {
-    const cause_points as = sort_bodies(a, velocities), bs = sort_bodies(b, velocities);
+    const cause_points as = sort_bodies(a, offset), bs = sort_bodies(b, offset);
     facts->out_of_memory |= !as.points || !bs.points;
     if (as.points && bs.points)
-        cause_compare_points(facts, velocities ? "points.velocity" : "points", &as, &bs, true);
+        cause_compare_points(facts, where, &as, &bs, true);
     free(as.points);
     free(bs.points);
 }
@@ -111,10 +112,11 @@ static void compare_bodies(const octree_session *a, const octree_session *b, cau
 {
     if (have_same_bodies(a, b) || has_different_sample(facts))
         return;
-    compare_positions_or_velocities(a, b, false, facts);
+    compare_vectors(a, b, "points", offsetof(octree_game_body, position), facts);
     if (cause_find_group(facts, "points", CAUSE_MORE) || cause_find_group(facts, "points", CAUSE_LESS))
         return;
-    compare_positions_or_velocities(a, b, true, facts);
+    compare_vectors(a, b, "points.velocity", offsetof(octree_game_body, velocity), facts);
+    compare_vectors(a, b, "points.half", offsetof(octree_game_body, half), facts);
     if (!have_same_ids(a, b))
         cause_add_whole(facts, "points", CAUSE_ORDER, NULL, NULL);
 }

@@ -260,6 +260,9 @@ static void bad_points_are_refused(void **state)
         {HEADER "\"points\":[{\"position\":[1,2,3],\n\"velocity\":5}]}",
          "3: points[0].velocity: expected three numbers "
          "[x, y, z], found 5"},
+        {HEADER "\"points\":[{\"position\":[1,2,3],\n\"half\":[0,-1,0]}]}",
+         "3: points[0].half: a half extent must not be negative; correct its coordinate y"},
+        {HEADER "\"pairs\":1}", "2: pairs: expected true or false, found 1"},
         {HEADER "\"points\":[[1,2,3,9],\n[1,2,3,8],\n[4,5,6,9],\n[4,5,6,8]]}",
          "4: points[2]: id 9 already belongs to points[0] "
          "in line 2"},

@@ -8,6 +8,7 @@
 
 #include <float.h>
 #include <stdio.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -53,6 +54,8 @@ static void assert_same_edit(const octree_edit *a, const octree_edit *b)
         assert_memory_equal(a->body.position, b->body.position, sizeof a->body.position);
     if (a->kind == OCTREE_EDIT_INSERT)
         assert_memory_equal(a->body.velocity, b->body.velocity, sizeof a->body.velocity);
+    if (a->kind == OCTREE_EDIT_INSERT)
+        assert_memory_equal(a->body.half, b->body.half, sizeof a->body.half);
 }
 
 static void assert_same_query(const octree_query *a, const octree_query *b)
@@ -257,8 +260,10 @@ static void every_bit_of_a_number_survives_the_round_trip(void **state)
         for (int axis = 0; axis < 3; axis++) {
             bodies[i].position[axis] = any_double(&random);
             bodies[i].velocity[axis] = i % 3 == 0 ? any_double(&random) : i % 3 == 1 ? -0.0 : 0.0;
+            bodies[i].half[axis] = i % 5 == 0 ? fabs(any_double(&random)) : i % 5 == 1 ? -0.0 : 0.0;
         }
     }
+    session.pairs = true;
     session.player.position[1] = -0.0;
     session.player.step = 5e-324;
     session.player.box_size = DBL_MAX;

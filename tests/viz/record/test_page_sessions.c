@@ -48,6 +48,14 @@ static const struct {
              "\"keys\": \"nwn\", \"ticks\": 14, \"queries\": [{\"nearest\": \"player\"}]}\n"
              "{\"tick\": 4, \"edits\": [{\"remove\": 3}]}\n"
              "{\"tick\": 6, \"edits\": [{\"insert\": {\"id\": 3, \"position\": [-700, 0, 0]}}]}\n"},
+    {"boxes",
+     "{\"octreel\": \"session\", \"version\": 2, \"world\": {\"min\": [-9, -9, -9], \"max\": [9, 9, 9]},"
+     "\"tree\": {\"capacity\": 1, \"depth\": 5, \"full\": \"grow\"}, \"player\": {\"id\": 5, \"step\": 1,"
+     "\"box_size\": 1, \"sweep\": true}, \"keys\": \"ddaawwss\", \"pairs\": true, \"points\": [{\"id\": 1,"
+     "\"position\": [5, 0, 0], \"half\": [2, 3, 1]}, {\"id\": 2, \"position\": [4, 2, 1], \"half\": [1, 1, 1],"
+     "\"velocity\": [-1, 0.5, 0]}, [0, 4, 0, 3]], \"queries\": [{\"range\": {\"min\": [1, 1, 1], \"max\": [3, 3, 3]}},"
+     "{\"radius\": 2, \"at\": [3, 3, 0]}, {\"knearest\": 2, \"at\": \"player\"}]}\n"
+     "{\"tick\": 2, \"edits\": [{\"insert\": {\"id\": 4, \"position\": [0, 0, 3], \"half\": [8, 0, 0.5]}}]}"},
     {"nobody", "{\"octreel\": \"session\", \"version\": 2, \"player\": null, \"tree\": {\"capacity\": 1, \"depth\": 2,"
                "\"full\": \"grow\"}, \"points\": {\"sample\": \"clustered\", \"count\": 60, \"seed\": 4},"
                "\"velocities\": {\"speed\": 300, \"seed\": 2}, \"ticks\": 9}"},

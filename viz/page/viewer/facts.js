@@ -27,6 +27,7 @@ const EVENTS = [
     ["split", "⊞", "own"],
     ["merged", "⊟", "own"],
     ["wrong", "≠", "rare"],
+    ["overlapped", "⧉", "rare"],
 ];
 
 const MOVED = 1;

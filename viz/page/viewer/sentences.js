@@ -252,6 +252,24 @@ function describeWrongNodes({foreign_nodes: foreign})
     return rest > 0 ? [...said, ["wrong", `${counted(rest, "more wrong foreign node")}`]] : said;
 }
 
+/* Bodies whose boxes overlap: a list of pairs of ids, or the number of pairs if there were too many to list. */
+function describePairs({pairs = []})
+{
+    const count = pairs.count ?? listLength(pairs);
+    if (!count)
+        return [];
+    if (!Array.isArray(pairs))
+        return [["overlapped", `${counted(count, "pair")} of bodies overlap`]];
+    const one = ([a, b]) => {
+        const made = element("span", pointLink(a));
+        made.append(" and ", pointLink(b));
+        return made;
+    };
+    if (count === 1)
+        return [["overlapped", "The boxes of ", one(pairs[0]), " overlap"]];
+    return [["overlapped", `${grouped(count)} pairs of boxes overlap: `, ...enumerated(pairs, one, 4)]];
+}
+
 /* ---- A tick ------------------------------------------------------------------------------------------------------ */
 
 /* Everything that happened at a tick, wrong answers first: a list of sentences. The first item of a sentence is the
@@ -267,6 +285,7 @@ function describeTick(tick, more)
         ...(tick.gap === undefined ? [] : [["", `Gap, nothing was played: ${textOf(tick.gap)}`]]),
         ...describeStep(tick, look),
         ...describeRefusals(tick, look),
+        ...describePairs(tick),
         ...describeChanges("split", tick.splits ?? [], look, describeSplit(look)),
         ...describeChanges("merged", tick.merges ?? [], look, describeMerge(look)),
         ...(tick.events ?? []).filter(event => !EVENTS.some(([name]) => name === event))
