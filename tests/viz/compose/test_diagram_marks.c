@@ -90,7 +90,7 @@ static size_t check_session(const octree_session *session, unsigned layers, view
 static void lines_show_visited_and_pruned_nodes(void **state)
 {
     (void)state;
-    const octree_session session = session_with_all_layers();
+    const octree_session session = session_of_points_with_all_layers();
     for (int diagram = DIAGRAM_BESIDE; diagram <= DIAGRAM_ONLY; diagram++)
         assert_true(check_session(&session, VIEW_DEFAULT_LAYERS, (view_diagram)diagram) > 100);
     for (uint64_t seed = 1; seed <= 8; seed++) {
@@ -103,7 +103,7 @@ static void lines_show_visited_and_pruned_nodes(void **state)
 static void diagram_ignores_hidden_layers(void **state)
 {
     (void)state;
-    const octree_session session = session_with_all_layers();
+    const octree_session session = session_of_points_with_all_layers();
     const unsigned visited = 1u << LAYER_VISITED, pruned = 1u << LAYER_PRUNED;
     assert_true(check_session(&session, VIEW_DEFAULT_LAYERS & ~pruned, DIAGRAM_BESIDE) > 0);
     assert_true(check_session(&session, VIEW_DEFAULT_LAYERS & ~visited, DIAGRAM_BESIDE) > 0);
