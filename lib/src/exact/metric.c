@@ -95,38 +95,55 @@ double metric_compute_squares(const metric *m, const octree_point *points, unsig
 /* ---- Exact comparison ---------------------------------------------------------------------------------------- */
 
 /* Points on a grid have many neighbours at the same distance, so ties must not be slow. Coordinates that are compared
- * usually have similar exponents: each is n * 2^e with one common e and |n| <= 2^60. Products of
- * such integers are added in 128 bits, in a tenth of the time of an exact_sum. */
-typedef struct wide_sum {
-    int64_t high;
-    uint64_t low;
-} wide_sum;
+ * usually have similar exponents: each is n * 2^e with one common e and |n| <= 2^61. Products of such integers are
+ * added in 128 bits, in a tenth of the time of an exact_sum. */
 
-/* Store in units[] integers of at most 2^60 so that values[i] = units[i] * 2^e, with the same exponent e for all
- * values. Returns false if there are no such integers, or if the largest value is below 2^-900 or above 2^900. */
-static bool convert_to_common_integers(const double values[], int count, int64_t units[])
+/* Choose a unit so that `largest` is between 2^59 and 2^60 units. Returns false if `largest` is below 2^-900 or above
+ * 2^900. */
+static bool choose_unit(metric_unit *unit, double largest)
 {
-    double largest = 0, scale, inverse;
-    bool whole = true;
-    for (int i = 0; i < count; i++)
-        largest = fabs(values[i]) > largest ? fabs(values[i]) : largest;
     if (!(largest > 0x1p-900 && largest < 0x1p900))
         return false;
     uint64_t exponent;
     memcpy(&exponent, &largest, sizeof exponent);
-    exponent >>= 52; /* 2^(exponent - 1023) is the largest power of two <= largest; the scale turns it into 2^59 */
-    const uint64_t scale_bits = (2 * 1023 + 59 - exponent) << 52, inverse_bits = (exponent - 59) << 52;
-    memcpy(&scale, &scale_bits, sizeof scale);
-    memcpy(&inverse, &inverse_bits, sizeof inverse);
+    exponent >>= 52; /* 2^(exponent - 1023) is the largest power of two <= largest */
+    const uint64_t inverse_bits = (2 * 1023 + 59 - exponent) << 52, length_bits = (exponent - 59) << 52;
+    memcpy(&unit->inverse, &inverse_bits, sizeof unit->inverse);
+    memcpy(&unit->length, &length_bits, sizeof unit->length);
+    unit->limit = unit->length * 0x1p61;
+    return true;
+}
+
+/* Store in units[] integers so that values[i] = units[i] * unit->length. Returns false if there are no such integers of
+ * at most 2^61. */
+static inline bool convert_to_units(const metric_unit *unit, const double values[], int count, int64_t units[])
+{
     for (int i = 0; i < count; i++) {
-        units[i] = (int64_t)(values[i] * scale);
-        whole &= (double)units[i] * inverse == values[i];
+        if (!(fabs(values[i]) <= unit->limit))
+            return false;
+        units[i] = (int64_t)(values[i] * unit->inverse);
+        if ((double)units[i] * unit->length != values[i])
+            return false;
     }
-    return whole;
+    return true;
+}
+
+static inline double find_largest_magnitude(const double values[], int count, double largest)
+{
+    for (int i = 0; i < count; i++)
+        largest = fabs(values[i]) > largest ? fabs(values[i]) : largest;
+    return largest;
+}
+
+static bool convert_to_common_integers(const double values[], int count, int64_t units[])
+{
+    metric_unit unit;
+    return choose_unit(&unit, find_largest_magnitude(values, count, 0)) &&
+           convert_to_units(&unit, values, count, units);
 }
 
 /* Add a * b. The factors are at most 2^62, the sum stays below 2^127. */
-static void add_wide_product(wide_sum *sum, int64_t a, int64_t b)
+static void add_wide_product(metric_integer *sum, int64_t a, int64_t b)
 {
     const uint64_t x = (uint64_t)(a < 0 ? -a : a), y = (uint64_t)(b < 0 ? -b : b);
     const uint64_t x_low = x & UINT32_MAX, x_high = x >> 32, y_low = y & UINT32_MAX, y_high = y >> 32;
@@ -140,18 +157,36 @@ static void add_wide_product(wide_sum *sum, int64_t a, int64_t b)
     sum->high += (int64_t)(high + (sum->low < low));
 }
 
-static int sign_of_wide_sum(const wide_sum *sum)
+static int sign_of_metric_integer(const metric_integer *sum)
 {
     return sum->high < 0 ? -1 : (sum->high | (int64_t)(sum->low != 0)) != 0;
+}
+
+void metric_set_unit(metric_unit *unit, const double target[3], const double p[3])
+{
+    if (!choose_unit(unit, find_largest_magnitude(p, 3, find_largest_magnitude(target, 3, 0))) ||
+        !convert_to_units(unit, target, 3, unit->target))
+        unit->limit = -1;
+}
+
+metric_integer metric_integer_square(const metric_unit *unit, const double p[3])
+{
+    int64_t units[3];
+    if (!convert_to_units(unit, p, 3, units))
+        return (metric_integer){-1, 0};
+    metric_integer sum = {0, 0};
+    for (int i = 0; i < 3; i++)
+        add_wide_product(&sum, units[i] - unit->target[i], units[i] - unit->target[i]);
+    return sum;
 }
 
 /* With the target t, |a - t|^2 - |b - t|^2 is the sum of (a - b) (a + b - 2t) over the axes. */
 static int compare_integer_distances(const int64_t target[3], const int64_t a[3], const int64_t b[3])
 {
-    wide_sum sum = {0, 0};
+    metric_integer sum = {0, 0};
     for (int i = 0; i < 3; i++)
         add_wide_product(&sum, a[i] - b[i], a[i] + b[i] - 2 * target[i]);
-    return sign_of_wide_sum(&sum);
+    return sign_of_metric_integer(&sum);
 }
 
 int metric_compare(const double target[3], const double a[3], const double b[3])
@@ -180,11 +215,11 @@ int metric_compare(const double target[3], const double a[3], const double b[3])
 
 static int compare_integer_distance_with_radius(const int64_t target[3], const int64_t p[3], int64_t radius)
 {
-    wide_sum sum = {0, 0};
+    metric_integer sum = {0, 0};
     for (int i = 0; i < 3; i++)
         add_wide_product(&sum, p[i] - target[i], p[i] - target[i]);
     add_wide_product(&sum, -radius, radius);
-    return sign_of_wide_sum(&sum);
+    return sign_of_metric_integer(&sum);
 }
 
 int metric_compare_radius(const double target[3], const double p[3], double radius)

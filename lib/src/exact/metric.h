@@ -133,6 +133,33 @@ int metric_compare(const double target[3], const double a[3], const double b[3])
  * radius must not be negative. */
 int metric_compare_radius(const double target[3], const double p[3], double radius);
 
+/* An integer of 128 bits, high * 2^64 + low. */
+typedef struct metric_integer {
+    int64_t high;
+    uint64_t low;
+} metric_integer;
+
+/* A unit of length: a power of two so small that most coordinates are whole numbers of it. The squared distance of a
+ * point in this unit is an integer, which is computed once and compared many times. */
+typedef struct metric_unit {
+    double length, inverse;
+    double limit;      /* the greatest magnitude that is converted to units */
+    int64_t target[3]; /* the target in units; valid only if `limit` is not negative */
+} metric_unit;
+
+/* Set the unit for squared distances from `target` of points about as far away as p. */
+void metric_set_unit(metric_unit *unit, const double target[3], const double p[3]);
+
+/* Returns the squared distance of p from the unit's target. Returns a negative integer if the coordinates are not whole
+ * numbers of the unit. */
+metric_integer metric_integer_square(const metric_unit *unit, const double p[3]);
+
+/* Returns the sign of a - b. */
+static inline int metric_compare_integers(const metric_integer *a, const metric_integer *b)
+{
+    return a->high != b->high ? (a->high > b->high) - (a->high < b->high) : (a->low > b->low) - (a->low < b->low);
+}
+
 static inline double metric_length(double x, double y, double z)
 {
     return sqrt((x * x + y * y) + z * z);

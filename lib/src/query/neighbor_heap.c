@@ -4,12 +4,15 @@
  * Problem: a search offers thousands of points and keeps k. Each kept point lowers the distance beyond which points and
  * nodes are ignored. Squares in doubles order most points, but for near ties only the exact comparison decides.
  *
- * Idea: for k <= 32 a sorted array of keys. A key is a neighbour's squared distance as a double, with its lowest five
+ * Idea: for k <= 32 a sorted array of keys. A key is a neighbour's squared distance as a double, with its lowest six
  * bits replaced by the number of the slot that holds the neighbour. So moving one double moves the neighbour. Insertion
  * shifts keys by minimum and maximum, without branches and two at a time. A key differs from the squared distance by at
- * most 2^-47 of it. Neighbours whose keys are too close to decide are compared exactly. During the search, only the
- * last key must be that of the right neighbour, the farthest of k, because this neighbour limits the search. The other
- * neighbours are sorted exactly at the end.
+ * most 2^-46 of it.
+ *
+ * Near ties: the search keeps every point whose key is too close to the k-th key to decide, up to 64 points in all. Its
+ * end selects among them by the squared distances as integers of 128 bits (metric.h), each computed once. So a search
+ * on a grid, where most points tie, decides only the ties that matter. If there are more near ties than slots (a
+ * million points may share one position), each further point is compared exactly with the k-th neighbour at once.
  *
  * Why not a heap for all k: for small k its unpredictable branches cost more than the shifts. Larger k use a binary
  * heap in the caller's array, farthest on top. Cost for each point kept: O(k) with the array, O(log k) with the heap.
@@ -93,38 +96,83 @@ static unsigned find_slot_of_key(double key)
 {
     uint64_t bits;
     memcpy(&bits, &key, sizeof bits);
-    return bits & (FEW_NEIGHBORS - 1);
+    return bits & (FEW_SLOTS - 1);
 }
 
 static double make_slot_key(double square, unsigned place)
 {
     uint64_t bits;
     memcpy(&bits, &square, sizeof bits);
-    bits = (bits & ~(uint64_t)(FEW_NEIGHBORS - 1)) | place;
+    bits = (bits & ~(uint64_t)(FEW_SLOTS - 1)) | place;
     memcpy(&square, &bits, sizeof square);
     return square;
 }
 
 /* Returns a limit: a neighbour whose square or key is smaller is certainly nearer than the neighbour with `key`. Each
- * of two keys is off by at most 2^-47 of itself, and metric_below() allows 2^-47 and 2^-998 for the errors of the
- * squares; 2^-45 is more than this sum. */
+ * of two keys is off by at most 2^-46 of itself, and metric_below() allows 2^-47 and 2^-998 for the errors of the
+ * squares; 2^-44 is more than this sum. */
 static double certainly_nearer_limit(double key)
 {
-    return key * (1 - 0x1p-45) - 0x1p-998;
+    return key * (1 - 0x1p-44) - 0x1p-998;
 }
 
-static RARE bool is_nearer_than_slot(const neighbor_heap *h, const octree_point *point, double square, unsigned place)
+/* Returns a limit: a neighbour whose square is greater is certainly farther than those with `key` and smaller keys. */
+static double possibly_nearer_limit(double key)
 {
-    return compare_neighbors(h, point, square, h->few.points[place], h->few.squares[place]) < 0;
+    return key < METRIC_FINITE / 2 ? key * (1 + 0x1p-44) + 0x1p-998 : INFINITY;
 }
 
-/* Compare the neighbours of two keys, by exact arithmetic if the keys are too close to decide. Returns -1 or 1. */
-static int compare_keys(const neighbor_heap *h, double a, double b)
+/* Returns the integer square of the neighbour in a slot. */
+static const metric_integer *find_integer_of_slot(neighbor_heap *h, unsigned place)
 {
-    const unsigned place = find_slot_of_key(a);
+    few_neighbors *f = &h->few;
+    const double *position = f->points[place]->position;
+    if (!(f->integers_known >> place & 1)) {
+        if (!f->integers_known)
+            metric_set_unit(&f->unit, h->metric.target, position);
+        f->integers[place] = metric_integer_square(&f->unit, position);
+        f->integers_known |= UINT64_C(1) << place;
+    }
+    return &f->integers[place];
+}
+
+/* Compare two neighbours by their integer squares, then by id and position. */
+static inline bool is_less_or_tied(const metric_integer *a, const octree_point *p, const metric_integer *b,
+                                   const octree_point *q)
+{
+    if ((a->high == b->high) & (a->low == b->low))
+        return octree_compare_points(p, q) < 0;
+    return (a->high < b->high) | ((a->high == b->high) & (a->low < b->low));
+}
+
+/* Returns whether a point is nearer than the neighbour in a slot. */
+static RARE bool is_nearer_than_slot(neighbor_heap *h, const octree_point *point, double square, unsigned place)
+{
+    const octree_point *other = h->few.points[place];
+    if (is_same_position(point->position, other->position)) /* many points may share one position */
+        return octree_compare_points(point, other) < 0;
+    if (h->how->mode == OCTREE_EXACT) {
+        const metric_integer *theirs = find_integer_of_slot(h, place);
+        const metric_integer own = metric_integer_square(&h->few.unit, point->position);
+        if (own.high >= 0 && theirs->high >= 0)
+            return is_less_or_tied(&own, point, theirs, other);
+    }
+    return compare_neighbors(h, point, square, other, h->few.squares[place]) < 0;
+}
+
+/* Returns whether the neighbour of a key is nearer than that of another. Exact arithmetic decides if the keys are too
+ * close to decide. */
+static bool is_nearer_key(neighbor_heap *h, double a, double b)
+{
+    const unsigned p = find_slot_of_key(a), q = find_slot_of_key(b);
     if (a < certainly_nearer_limit(b))
-        return -1;
-    return is_nearer_than_slot(h, h->few.points[place], h->few.squares[place], find_slot_of_key(b)) ? -1 : 1;
+        return true;
+    if (h->how->mode == OCTREE_EXACT) {
+        const metric_integer *x = find_integer_of_slot(h, p), *y = find_integer_of_slot(h, q);
+        if (x->high >= 0 && y->high >= 0)
+            return is_less_or_tied(x, h->few.points[p], y, h->few.points[q]);
+    }
+    return compare_neighbors(h, h->few.points[p], h->few.squares[p], h->few.points[q], h->few.squares[q]) < 0;
 }
 
 /* Insert a key in ascending order and drop the key at index `last`. Each key becomes the median of itself, its
@@ -150,23 +198,8 @@ static inline void insert_key(double *keys, size_t last, double key)
 #endif
 }
 
-/* The last keys may be too close to decide which neighbour is farthest. Find the farthest neighbour by exact
- * comparison, and move its key to the end. */
-static RARE void move_exact_farthest_to_end(const neighbor_heap *h, double *keys, size_t last)
-{
-    size_t farthest = last;
-    const double close = certainly_nearer_limit(keys[last]);
-    for (size_t i = last - 1; keys[i] >= close; i--)
-        farthest = compare_keys(h, keys[farthest], keys[i]) < 0 ? i : farthest;
-    const double key = keys[farthest];
-    for (; farthest < last; farthest++)
-        keys[farthest] = keys[farthest + 1];
-    keys[last] = key;
-}
-
 /* Returns whether a point is nearer than the farthest of k neighbours, whose key is `farthest`. */
-static inline bool is_nearer_than_farthest(const neighbor_heap *h, const octree_point *point, double square,
-                                           double farthest)
+static inline bool is_nearer_than_farthest(neighbor_heap *h, const octree_point *point, double square, double farthest)
 {
     return square < certainly_nearer_limit(farthest) ||
            is_nearer_than_slot(h, point, square, find_slot_of_key(farthest));
@@ -177,32 +210,19 @@ static inline bool is_rejected(const neighbor_heap *h, const octree_point *point
     return square > h->point_reach || (h->is_filtered && !is_accepted(h, point, square));
 }
 
+/* Store a point in a slot. Returns its key, in which a square that is too large or NaN becomes METRIC_FINITE. */
+static inline double store_in_slot(few_neighbors *f, const octree_point *point, double square, unsigned place)
+{
+    f->points[place] = point;
+    f->squares[place] = square;
+    return make_slot_key(square < METRIC_FINITE ? square : METRIC_FINITE, place);
+}
+
 /* Store a point in a slot, and insert its key into the sorted keys. The key at index `last` is dropped. */
 static inline void insert_neighbor(few_neighbors *f, const octree_point *point, double square, size_t last,
                                    unsigned place)
 {
-    f->points[place] = point;
-    f->squares[place] = square;
-    /* in the key, a square that is too large or NaN becomes METRIC_FINITE */
-    insert_key(f->keys, last, make_slot_key(square < METRIC_FINITE ? square : METRIC_FINITE, place));
-}
-
-/* Once k neighbours are found, move the key of the farthest neighbour to the end. Returns a limit: a point with a
- * smaller square is certainly nearer than the farthest neighbour. */
-static inline double move_farthest_key_to_end(neighbor_heap *h, size_t last)
-{
-    double *keys = h->few.keys;
-    if (keys[last - 1] >= certainly_nearer_limit(keys[last]))
-        move_exact_farthest_to_end(h, keys, last);
-    return certainly_nearer_limit(keys[last]);
-}
-
-/* Returns whether a point is nearer than the farthest of k neighbours, whose key is keys[last]. Called if the point's
- * square is not below the limit that move_farthest_key_to_end() returned. */
-static inline bool is_nearer_than_last(const neighbor_heap *h, const octree_point *point, double square, size_t last)
-{
-    const unsigned place = find_slot_of_key(h->few.keys[last]);
-    return !(square > find_point_reach(h, h->few.squares[place])) && is_nearer_than_slot(h, point, square, place);
+    insert_key(f->keys, last, store_in_slot(f, point, square, place));
 }
 
 /* Keep points until there are k neighbours. Returns the bit mask of the points that were not examined. */
@@ -218,28 +238,101 @@ static inline uint64_t fill_few_neighbors(neighbor_heap *h, const octree_point *
         }
     }
     h->count = count;
+    h->few.free_slots = ~UINT64_C(0) << count;
     return within;
+}
+
+/* Move the last of `count` keys to its place. The other keys are in exact order. */
+static void insert_last_key(neighbor_heap *h, double *keys, size_t count)
+{
+    size_t at = count - 1;
+    const double key = keys[at];
+    for (; at > 0 && !is_nearer_key(h, keys[at - 1], key); at--)
+        keys[at] = keys[at - 1];
+    keys[at] = key;
+}
+
+static void sort_keys(neighbor_heap *h, double *keys)
+{
+    for (size_t count = 2; count <= h->count; count++)
+        insert_last_key(h, keys, count);
+}
+
+/* Keep a point in place of the farthest of k neighbours in exact order, if it is nearer. */
+static void insert_in_exact_order(neighbor_heap *h, const octree_point *point, double square, size_t last)
+{
+    few_neighbors *f = &h->few;
+    const unsigned place = find_slot_of_key(f->keys[last]);
+    if (!is_nearer_than_slot(h, point, square, place))
+        return;
+    f->keys[last] = store_in_slot(f, point, square, place);
+    f->integers_known &= ~(UINT64_C(1) << place);
+    insert_last_key(h, f->keys + FEW_FIRST, h->k);
+}
+
+/* Drop undecided points that certainly are not among the k nearest. */
+static void drop_certainly_farther(neighbor_heap *h)
+{
+    few_neighbors *f = &h->few;
+    const double *keys = f->keys + FEW_FIRST;
+    for (; h->count > h->k && keys[h->k - 1] < certainly_nearer_limit(keys[h->count - 1]); h->count--)
+        f->free_slots |= UINT64_C(1) << find_slot_of_key(keys[h->count - 1]);
+}
+
+/* Keep a point without a decision whether it or another point of nearly the same distance is among the k nearest. */
+static void insert_undecided(neighbor_heap *h, const octree_point *point, double square)
+{
+    few_neighbors *f = &h->few;
+    const unsigned place = bits_lowest(f->free_slots);
+    f->free_slots &= f->free_slots - 1;
+    insert_neighbor(f, point, square, FEW_FIRST + h->count++, place);
+    drop_certainly_farther(h);
+}
+
+/* Returns a limit: a point with a smaller square certainly takes the place of the k-th neighbour, whose key is
+ * keys[last]. The limit is negative if this key is too close to others to decide which neighbour is the k-th. */
+static inline double certain_limit(const neighbor_heap *h, size_t last)
+{
+    const double limit = certainly_nearer_limit(h->few.keys[last]);
+    return h->few.keys[last - 1] >= limit || h->few.is_crowded ? -1 : limit;
+}
+
+/* Keep a point that may be among the k nearest, where keys cannot decide. */
+static RARE void insert_near_tie(neighbor_heap *h, const octree_point *point, double square, size_t last)
+{
+    if (h->count == FEW_SLOTS && !h->few.is_crowded) {
+        sort_keys(h, h->few.keys + FEW_FIRST);
+        h->count = h->k;
+        h->few.is_crowded = true;
+    }
+    if (h->few.is_crowded)
+        insert_in_exact_order(h, point, square, last);
+    else
+        insert_undecided(h, point, square);
 }
 
 static void add_to_few_neighbors(neighbor_heap *h, const octree_point *points, const double squares[], uint64_t within)
 {
     const size_t last = FEW_FIRST - 1 + h->k;
+    double *keys = h->few.keys;
     if (h->count < h->k)
         within = fill_few_neighbors(h, points, squares, within);
     if (h->count < h->k)
         return;
-    for (double certain = move_farthest_key_to_end(h, last); within; within &= within - 1) {
+    for (double certain = certain_limit(h, last); within; within &= within - 1) {
         const unsigned i = bits_lowest(within);
         const double square = squares[i];
-        if (!(square < certain) && !is_nearer_than_last(h, &points[i], square, last))
+        if (!(square < certain) && square > possibly_nearer_limit(keys[last]))
             continue;
         if (h->is_filtered && !is_accepted(h, &points[i], square))
             continue;
-        insert_neighbor(&h->few, &points[i], square, last, find_slot_of_key(h->few.keys[last]));
-        certain = move_farthest_key_to_end(h, last);
+        if (square < certain)
+            insert_neighbor(&h->few, &points[i], square, last, find_slot_of_key(keys[last]));
+        else
+            insert_near_tie(h, &points[i], square, last);
+        certain = certain_limit(h, last);
     }
-    h->worst = h->few.squares[find_slot_of_key(h->few.keys[last])];
-    h->point_reach = find_point_reach(h, h->worst);
+    h->worst = h->point_reach = possibly_nearer_limit(keys[last]);
 }
 
 /* Returns whether keys are so far apart that their order is certainly the exact order of their neighbours. */
@@ -251,26 +344,17 @@ static bool are_certainly_ascending(const double *keys, size_t count)
     return ascend;
 }
 
-static void sort_keys(const neighbor_heap *h, double *keys)
-{
-    for (size_t i = 0; i < h->count; i++) {
-        const double key = keys[i];
-        size_t at = i;
-        for (; at > 0 && compare_keys(h, keys[at - 1], key) > 0; at--)
-            keys[at] = keys[at - 1];
-        keys[at] = key;
-    }
-}
-
 /* Sort the neighbours exactly and store them in the caller's array. Returns true if the stored `distance` is the final
  * distance: the square roots are then accurate and ascend. Otherwise `distance` holds the square, and the function
  * returns false. */
 static bool sort_few_neighbors(neighbor_heap *h)
 {
     double *keys = h->few.keys + FEW_FIRST;
+    drop_certainly_farther(h);
     const bool ascend = are_certainly_ascending(keys, h->count);
     if (!ascend)
         sort_keys(h, keys);
+    h->count = h->count < h->k ? h->count : h->k;
     const bool plain =
         ascend && h->metric.scale == 1 && is_root_accurate(keys[0]) && is_root_accurate(keys[h->count - 1]);
     for (size_t i = 0; i < h->count; i++) {
@@ -291,6 +375,7 @@ static inline void keep_if_nearest(neighbor_heap *h, const octree_point *point, 
         return;
     f->points[0] = point;
     f->squares[0] = h->worst = square;
+    f->integers_known = 0;
     h->count = 1;
     h->point_reach = find_point_reach(h, square);
 }
@@ -373,7 +458,7 @@ void neighbor_heap_add(neighbor_heap *h, const octree_point *points, const doubl
         add_to_few_neighbors(h, points, squares, within);
     else
         add_to_heap(h, points, squares, within);
-    if (h->count == h->k)
+    if (h->count >= h->k)
         h->node_reach = limit_of_node_distance(h, h->worst * h->shrink);
 }
 

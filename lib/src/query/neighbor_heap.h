@@ -12,17 +12,28 @@
 #include <stddef.h>
 
 /* Up to 32 neighbours in numbered slots. A "square" is a scaled squared distance from the target. The key of a
- * neighbour is its square, with the lowest FEW_BITS bits replaced by the number of its slot. The keys ascend, with one
- * exception: the last of k keys is the key of the neighbour that is farthest by exact comparison. */
-#define FEW_BITS 5
-#define FEW_NEIGHBORS (1 << FEW_BITS)
+ * neighbour is its square, with the lowest FEW_BITS bits replaced by the number of its slot. The keys ascend.
+ *
+ * Beyond k neighbours, all points are kept whose keys are too close to that of the k-th to decide, and the end of the
+ * search selects among them. If there are too many of them, the neighbours are crowded: from then on exactly k are
+ * kept, in the exact order. */
+#define FEW_NEIGHBORS 32
+#define FEW_BITS 6
+#define FEW_SLOTS (1 << FEW_BITS)
 /* The index of the first key. The elements before it are smaller sentinels, so that insertion in pairs may run past the
  * start. */
 #define FEW_FIRST 5
 typedef struct few_neighbors {
-    double keys[FEW_FIRST + FEW_NEIGHBORS];
-    double squares[FEW_NEIGHBORS]; /* the square of each neighbour, indexed by slot like `points` */
-    const octree_point *points[FEW_NEIGHBORS];
+    double keys[FEW_FIRST + FEW_SLOTS];
+    double squares[FEW_SLOTS]; /* the square of each neighbour, indexed by slot like `points` */
+    const octree_point *points[FEW_SLOTS];
+    uint64_t free_slots; /* bit i is set if slot i is free; valid once k neighbours are found */
+    bool is_crowded;
+    /* The squares of neighbours in near ties, as integers. Bit i of `integers_known` is set if the integer of slot i
+     * has been computed. `unit` is valid if at least one has. */
+    uint64_t integers_known;
+    metric_integer integers[FEW_SLOTS];
+    metric_unit unit;
 } few_neighbors;
 
 typedef struct neighbor_heap {
@@ -60,6 +71,8 @@ static inline void neighbor_heap_begin(neighbor_heap *h, const octree_search *ho
     h->items = room;
     h->count = 0;
     h->k = k;
+    h->few.integers_known = 0;
+    h->few.is_crowded = false;
     if (radius >= 0)
         neighbor_heap_set_radius(h, radius);
     for (int i = 0; k > 1 && i < FEW_FIRST; i++)

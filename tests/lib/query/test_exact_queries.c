@@ -122,6 +122,28 @@ static void mirrored_near_ties_are_in_their_true_order(void **state)
     mirrored_ties_in((octree_box){{-1000, 1e15, -1e-3}, {1000, 1e15 + 1024, 1e-3}}, 3);
 }
 
+/* Around the target: more near ties than the search keeps undecided, at two distances, and a few single points. */
+static void many_near_ties_are_in_their_true_order_for_every_k(void **state)
+{
+    (void)state;
+    const octree_box world = cube(0.1, 1000);
+    const double target[3] = {300.1, 400.7, 500.3};
+    static const double offsets[][3] = {{0.3, 0.7, 0.1}, {0.7, 0.3, 0.1}, {0.1, 0.3, 0.7}, {20.3, 5.1, 90}};
+    uint64_t random = 19;
+    for (size_t ties = 1; ties <= 64; ties += 7) {
+        brute all = {0};
+        for (size_t i = 0; i < 60 + ties; i++)
+            add_mirrored(&all, &world, target, offsets[i < ties ? i % 3 : 3], &random);
+        for (int i = 0; i < 6; i++)
+            add(&all, &world, (double[3]){target[0] + random_between(&random, 0, 3), target[1], target[2]});
+        octree *tree = brute_tree(&all, world, 1 + ties, 21);
+        for (size_t k = 1; k <= 40; k++)
+            assert_nearest_k(tree, &all, target, k, (octree_skip)(k % 3), k);
+        octree_destroy(tree);
+        brute_free(&all);
+    }
+}
+
 static void the_largest_worlds_are_answered_exactly(void **state)
 {
     (void)state;
@@ -268,6 +290,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(mirrored_near_ties_are_in_their_true_order),
+        cmocka_unit_test(many_near_ties_are_in_their_true_order_for_every_k),
         cmocka_unit_test(the_largest_worlds_are_answered_exactly),
         cmocka_unit_test(the_smallest_worlds_are_answered_exactly),
         cmocka_unit_test(a_lattice_of_tenths_is_answered_exactly),
