@@ -291,6 +291,12 @@ static void encode_indices(deflater *d)
     }
 }
 
+static void add_pixel(deflater *d)
+{
+    deflate_add_pixel(&d->blocks, d->window + d->at);
+    d->at += RGB;
+}
+
 static void encode_pixels(deflater *d)
 {
     size_t misses = 0; /* number of searches since the last repeat */
@@ -299,9 +305,12 @@ static void encode_pixels(deflater *d)
         if (found.gain > 0) {
             add_repeat(d, found.length, found.distance);
             misses = 0;
+        } else if (left < 2 * RGB) {
+            add_literals(d, left);
         } else {
-            const size_t count = misses++ < PATIENCE ? RGB : 2 * RGB;
-            add_literals(d, count < left ? count : left);
+            add_pixel(d);
+            if (misses++ >= PATIENCE)
+                add_pixel(d);
         }
     }
 }

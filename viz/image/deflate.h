@@ -17,7 +17,7 @@ typedef void deflate_sink(void *context, const uint8_t *bytes, size_t size);
 typedef struct deflater deflater;
 
 /* Create an encoder for `rows` rows of `row_size` bytes each, with `pixel` bytes (1 or 3) per pixel. The encoder needs
- * memory for 400 KB and two rows. Returns null if memory runs out. */
+ * memory for 300 KB and two rows. Returns null if memory runs out. */
 deflater *deflater_open(size_t row_size, size_t rows, size_t pixel, deflate_sink *sink, void *context);
 void deflater_close(deflater *d); /* `d` may be null */
 

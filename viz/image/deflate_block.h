@@ -32,7 +32,7 @@ enum {
     DEFLATE_LITERALS = 288,   /* number of symbols for bytes, the block's end, and lengths; the last two are unused */
     DEFLATE_DISTANCES = 30,   /* number of symbols for distances */
     DEFLATE_END = 256,        /* the symbol that ends a block */
-    BLOCK_TOKENS = 32768,     /* the largest number of tokens with which a block is full */
+    BLOCK_TOKENS = 12288,     /* the largest number of tokens with which a block is full */
     INDEXED_BLOCK_TOKENS = 4096, /* the number for palette indices, whose codes change more from row to row */
     BLOCK_SPARE = 16,            /* number of tokens that may be added to a block after it is full */
     DEFLATE_GROUP = 6,           /* maximum number of literals that one call adds */
@@ -42,10 +42,13 @@ enum {
  * bits from DISTANCE_AT on hold the symbol of the distance. The bits from DISTANCE_EXTRA_AT on hold the extra bits of
  * the distance.
  *
- * A literal has the distance symbol DEFLATE_DISTANCES, whose code word has no bits, so that append_tokens() needs no
- * branch. */
+ * A literal has the distance symbol DEFLATE_DISTANCES, whose code word has no bits, so that append_token() needs no
+ * branch for it.
+ *
+ * A token with the bit DEFLATE_PIXEL holds the three literals of an RGB pixel in its lowest 24 bits. */
 typedef uint32_t deflate_token;
 enum { DEFLATE_REPEAT = 256, TOKEN_KINDS = 512, DISTANCE_AT = 9, DISTANCE_EXTRA_AT = 14 };
+#define DEFLATE_PIXEL (UINT32_C(1) << 31)
 
 typedef struct bit_writer {
     uint64_t bits; /* bits that are not in the output yet; the lowest bit is written first */
@@ -85,6 +88,13 @@ static inline void deflate_add_literals(deflate_blocks *b, const uint8_t *bytes,
     for (size_t i = 0; i < DEFLATE_GROUP; i++)
         b->tokens[b->count + i] = bytes[i] | (deflate_token)DEFLATE_DISTANCES << DISTANCE_AT;
     b->count += count;
+}
+
+/* Add the three literals of an RGB pixel. */
+static inline void deflate_add_pixel(deflate_blocks *b, const uint8_t *bytes)
+{
+    b->tokens[b->count++] =
+        DEFLATE_PIXEL | (deflate_token)bytes[2] << 16 | (deflate_token)bytes[1] << 8 | (deflate_token)bytes[0];
 }
 
 void deflate_add_repeat(deflate_blocks *b, size_t length, size_t distance);

@@ -295,12 +295,12 @@ static void each_block_uses_its_shortest_code(void **state)
 static void compressed_streams_have_pinned_digests(void **state)
 {
     (void)state;
-    static const uint64_t pinned[FILLINGS][2] = {{UINT64_C(0x575e84a3a45d7680), UINT64_C(0x238a157fcf87860c)},
-                                                 {UINT64_C(0xe3bff28a3b5c4cb4), UINT64_C(0x85f2a1421ab2d2cd)},
+    static const uint64_t pinned[FILLINGS][2] = {{UINT64_C(0x575e84a3a45d7680), UINT64_C(0x7907ef51868f6355)},
+                                                 {UINT64_C(0xe3bff28a3b5c4cb4), UINT64_C(0xf135795c37c1aa88)},
                                                  {UINT64_C(0x02cfa7345c53203c), UINT64_C(0x2d434374a6eb91b1)},
                                                  {UINT64_C(0x229c958048db612d), UINT64_C(0x5a928bb6a80bb7e1)},
                                                  {UINT64_C(0x7b6b76f2e2a3c290), UINT64_C(0xdee833b855afe3db)},
-                                                 {UINT64_C(0xb2c00382bf6800af), UINT64_C(0xd752f9b7643050c5)}};
+                                                 {UINT64_C(0xb2c00382bf6800af), UINT64_C(0xa81b007f68279381)}};
     for (size_t filling = 0; filling < FILLINGS; filling++)
         for (size_t n = 0; n < 2; n++) {
             uint64_t random = 11;
