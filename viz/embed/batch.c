@@ -23,13 +23,18 @@ bool change_make(uint64_t id, const double *from, const double *to, change *made
     return true;
 }
 
-size_t list_changes_between(const points *before, const points *after, change *changes)
+bool list_comparison_has_ended(const list_comparison *lists)
 {
-    size_t i = 0, j = 0, count = 0;
-    while (i < before->count || j < after->count) {
+    return lists->i == lists->before->count && lists->j == lists->after->count;
+}
+
+size_t list_next_changes(list_comparison *lists, change *changes, size_t most)
+{
+    const points *before = lists->before, *after = lists->after;
+    size_t i = lists->i, j = lists->j, count = 0;
+    while (count < most && (i < before->count || j < after->count)) {
         const octree_point *old = i < before->count ? &before->items[i] : NULL;
         const octree_point *new = j < after->count ? &after->items[j] : NULL;
-        change unused;
         if (old && new && old->id != new->id) {
             old = old->id < new->id ? old : NULL;
             new = old ? NULL : new;
@@ -37,8 +42,10 @@ size_t list_changes_between(const points *before, const points *after, change *c
         i += old != NULL;
         j += new != NULL;
         count += change_make(old ? old->id : new->id, old ? old->position : NULL, new ? new->position : NULL,
-                             changes ? &changes[count] : &unused);
+                             &changes[count]);
     }
+    lists->i = i;
+    lists->j = j;
     return count;
 }
 

@@ -15,9 +15,18 @@ typedef struct change {
     double from[3], to[3]; /* positions before and after the change; an insertion has no `from`, a removal no `to` */
 } change;
 
-/* Compare two lists of points by id. Find the changes that turn the list `before` into the list `after`, and return
- * their number. If `changes` is null, the changes are only counted. Cost: O(before + after). */
-size_t list_changes_between(const points *before, const points *after, change *changes);
+/* The comparison of two lists of points by id: the changes that turn the list `before` into the list `after`. `i` and
+ * `j` are the indices of the first points that are not compared yet. */
+typedef struct list_comparison {
+    const points *before, *after;
+    size_t i, j;
+} list_comparison;
+
+/* List the next changes, at most `most`. Returns the number of changes. Cost: O(compared points). */
+size_t list_next_changes(list_comparison *lists, change *changes, size_t most);
+
+/* Returns whether all points of both lists have been compared. */
+bool list_comparison_has_ended(const list_comparison *lists);
 
 /* Combine all changes of a point into one change, and sort the changes by id. Before the call, the changes must be in
  * the order in which the program made them. Changes that cancel each other are removed. Returns the new number of

@@ -165,6 +165,21 @@ static octreel_status read_edits(contents *c, const octreel_tick_info *about, oc
 
 /* ---- A list, or a whole tree -------------------------------------------------------------------------------- */
 
+/* Add the changes from the list `now` to the list `next`. Where many changes are likely, room for one change of each
+ * point is reserved at once. Returns false if memory runs out. */
+static bool add_changes_between_lists(contents *c)
+{
+    enum { FEW = 1024 };
+    list_comparison lists = {.before = &c->now, .after = &c->next};
+    size_t more = (c->now.count == 0 || c->many_changes) && c->next.count > FEW ? c->next.count : FEW;
+    for (; !list_comparison_has_ended(&lists); more = c->change_room) {
+        if (!reserve_changes(c, more))
+            return false;
+        c->change_count += list_next_changes(&lists, c->changes + c->change_count, c->change_room - c->change_count);
+    }
+    return true;
+}
+
 /* Read all points of a tree, or of a list if the tree is null. */
 static octreel_status read_whole_tree(contents *c, const octree *tree, const octree_point *list, size_t count,
                                       octreel_error *error)
@@ -180,11 +195,7 @@ static octreel_status read_whole_tree(contents *c, const octree *tree, const oct
                              clash);
     if (status != OCTREEL_OK)
         return status_fail(error, status);
-    const size_t more = c->now.count > 0 ? list_changes_between(&c->now, &c->next, NULL) : c->next.count;
-    if (!reserve_changes(c, more))
-        return status_fail(error, OCTREEL_NO_MEMORY);
-    c->change_count += list_changes_between(&c->now, &c->next, c->changes + c->change_count);
-    return OCTREEL_OK;
+    return add_changes_between_lists(c) ? OCTREEL_OK : status_fail(error, OCTREEL_NO_MEMORY);
 }
 
 static octreel_status read_point_list(contents *c, const octree_point *list, size_t count, octreel_error *error)

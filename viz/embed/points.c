@@ -65,7 +65,34 @@ void points_swap(points *a, points *b)
     *b = other;
 }
 
-static void sort_by_id(points *p, points *spare)
+/* Sort points whose ids lie close together, as ids of array elements do, in one pass: by the difference from the least
+ * id. Returns false and moves nothing if the ids are too far apart or memory runs out. */
+static bool sort_dense_ids(points *p, points *spare)
+{
+    enum { SPARSE = 4 };
+    uint64_t least = UINT64_MAX, most = 0;
+    for (size_t i = 0; i < p->count; i++) {
+        least = p->items[i].id < least ? p->items[i].id : least;
+        most = p->items[i].id > most ? p->items[i].id : most;
+    }
+    uint32_t *starts = most - least < SPARSE * (uint64_t)p->count && p->count <= UINT32_MAX
+                           ? calloc((size_t)(most - least) + 2, sizeof *starts)
+                           : NULL;
+    if (!starts)
+        return false;
+    for (size_t i = 0; i < p->count; i++)
+        starts[p->items[i].id - least + 1]++;
+    for (size_t i = 0; i <= most - least; i++)
+        starts[i + 1] += starts[i];
+    for (size_t i = 0; i < p->count; i++)
+        spare->items[starts[p->items[i].id - least]++] = p->items[i];
+    free(starts);
+    spare->count = p->count;
+    points_swap(p, spare);
+    return true;
+}
+
+static void sort_by_digits(points *p, points *spare)
 {
     size_t counts[DIGITS][DIGIT_VALUES] = {{0}};
     for (size_t i = 0; i < p->count; i++)
@@ -77,6 +104,12 @@ static void sort_by_id(points *p, points *spare)
         spare->count = p->count;
         points_swap(p, spare);
     }
+}
+
+static void sort_by_id(points *p, points *spare)
+{
+    if (!sort_dense_ids(p, spare))
+        sort_by_digits(p, spare);
 }
 
 static octreel_status check_ids_and_sort(points *p, points *spare, uint64_t *clash)

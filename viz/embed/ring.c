@@ -87,7 +87,8 @@ static bool add_insertions(const ring *r)
     first->changes = malloc((r->start.count + 1) * sizeof *first->changes);
     const bool ok = first->changes && point_table_list(&r->start, &start, &spare);
     if (ok)
-        first->change_count = list_changes_between(&none, &start, first->changes);
+        first->change_count =
+            list_next_changes(&(list_comparison){.before = &none, .after = &start}, first->changes, start.count);
     points_release(&start);
     points_release(&spare);
     return ok;

@@ -136,6 +136,22 @@ static void omitted_list_is_empty_and_omitted_changes_are_none(void **state)
     assert_told(&g, OCTREEL_OK, "3 0");
 }
 
+static void thousands_of_points_are_inserted_moved_and_removed_at_once(void **state)
+{
+    enum { MANY = 3000 };
+    static octree_point points[MANY];
+    film f = open_film(state, 0);
+    for (int i = 0; i < MANY; i++)
+        points[i] = (octree_point){{i % 15 - 7, i / 15 % 15 - 7, i / 225 - 7}, (uint64_t)i};
+    assert_int_equal(list_tick(&f, points, 1), OCTREEL_OK);
+    assert_int_equal(list_tick(&f, points, MANY), OCTREEL_OK);
+    for (int i = 0; i < MANY; i++)
+        points[i].position[0] += 0.5;
+    assert_int_equal(list_tick(&f, points, MANY), OCTREEL_OK);
+    assert_int_equal(list_tick(&f, points, MANY / 2), OCTREEL_OK);
+    assert_told(&f, OCTREEL_OK, "1 3 3 1");
+}
+
 static void leaves_of_lists_grow_and_changes_continue_from_lists(void **state)
 {
     film f = open_film(state, 0);
@@ -302,6 +318,7 @@ int main(void)
         TEST(lists_and_changes_give_the_recording_of_the_tree),
         TEST(lists_and_changes_give_the_same_recording_from_a_ring),
         TEST(omitted_list_is_empty_and_omitted_changes_are_none),
+        TEST(thousands_of_points_are_inserted_moved_and_removed_at_once),
         TEST(leaves_of_lists_grow_and_changes_continue_from_lists),
         TEST(point_outside_the_world_is_refused_until_it_returns),
         TEST(ring_remembers_points_outside_the_world),
