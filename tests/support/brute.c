@@ -121,34 +121,39 @@ void brute_collide(const brute *all, const double center[3], double size, const 
     }
 }
 
-/* Whether, relative to the box, a point that goes from u to w is within `size` on each axis after num / den of the way.
- */
-static bool is_within_at(const double u[3], const double w[3], double size, double num, double den)
+/* Whether, relative to the box, a point that goes from u to w is within `sizes` after num / den of the way. */
+static bool is_within_at(const double u[3], const double w[3], const double sizes[3], double num, double den)
 {
     for (int axis = 0; axis < 3; axis++)
-        if (fabs(u[axis] * (den - num) + w[axis] * num) > size * den)
+        if (fabs(u[axis] * (den - num) + w[axis] * num) > sizes[axis] * den)
             return false;
     return true;
 }
 
 /* The moments of touching are a closed interval: were there any, its first would be 0 or the moment when the box
  * arrives at the point on one of the axes. */
-bool brute_touches(const double from[3], const double to[3], double size, const double p[3], const double q[3])
+bool brute_touches_box(const double from[3], const double to[3], const double sizes[3], const double p[3],
+                       const double q[3])
 {
     double u[3], w[3];
     for (int axis = 0; axis < 3; axis++) {
         u[axis] = p[axis] - from[axis];
         w[axis] = q[axis] - to[axis];
     }
-    if (is_within_at(u, w, size, 0, 1))
+    if (is_within_at(u, w, sizes, 0, 1))
         return true;
     for (int axis = 0; axis < 3; axis++) {
         const double way = u[axis] - w[axis];
-        const double num = (way > 0 ? u[axis] : -u[axis]) - size, den = fabs(way);
-        if (den > 0 && num >= 0 && num <= den && is_within_at(u, w, size, num, den))
+        const double num = (way > 0 ? u[axis] : -u[axis]) - sizes[axis], den = fabs(way);
+        if (den > 0 && num >= 0 && num <= den && is_within_at(u, w, sizes, num, den))
             return true;
     }
     return false;
+}
+
+bool brute_touches(const double from[3], const double to[3], double size, const double p[3], const double q[3])
+{
+    return brute_touches_box(from, to, (double[]){size, size, size}, p, q);
 }
 
 bool brute_is_skipped(const octree_point *point, const double target[3], octree_skip skip, uint64_t skip_id)

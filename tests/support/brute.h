@@ -49,6 +49,10 @@ void brute_collide(const brute *all, const double center[3], double size, const 
  * products of the coordinates are exact, as with small whole numbers. */
 bool brute_touches(const double from[3], const double to[3], double size, const double p[3], const double q[3]);
 
+/* The same with a size for each axis: whether the box touches a box, if `sizes` are the sums of their half extents. */
+bool brute_touches_box(const double from[3], const double to[3], const double sizes[3], const double p[3],
+                       const double q[3]);
+
 /* Whether a skip rule leaves this point out. */
 bool brute_is_skipped(const octree_point *point, const double target[3], octree_skip skip, uint64_t skip_id);
 

@@ -141,3 +141,33 @@ void random_session_full(random_session *made, uint64_t seed)
     made->session.player.sweep = random_below(&state, 3) == 0;
     made->session.ticks = random_below(&state, 2 * RANDOM_SESSION_KEYS);
 }
+
+/* One in four bodies is a point, one in sixteen may be as large as half the world, and one in four axes is flat. */
+static void random_half_extents(uint64_t *state, double half[3])
+{
+    const bool point = random_below(state, 4) == 0, large = random_below(state, 16) == 0;
+    for (int axis = 0; axis < 3; axis++) {
+        const double size = quarter(state, 0, large ? 24 : 3);
+        half[axis] = point || random_below(state, 4) == 0 ? 0 : size;
+    }
+}
+
+void random_session_boxes(random_session *made, uint64_t seed)
+{
+    uint64_t state = ~seed;
+    random_session_full(made, seed);
+    for (size_t i = 0; i < made->session.body_count; i++)
+        random_half_extents(&state, made->bodies[i].half);
+    for (size_t i = 0; i < made->session.edit_count; i++)
+        if (made->edits[i].kind == OCTREE_EDIT_INSERT)
+            random_half_extents(&state, made->edits[i].body.half);
+    made->session.pairs = true;
+}
+
+void random_session_mixed(random_session *made, uint64_t seed)
+{
+    if (seed % 2)
+        random_session_boxes(made, seed);
+    else
+        random_session_full(made, seed);
+}

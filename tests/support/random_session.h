@@ -29,4 +29,11 @@ void random_session_plain(random_session *made, uint64_t seed);
  * sessions has swept collisions. */
 void random_session_full(random_session *made, uint64_t seed);
 
+/* The same session with extents: most bodies, also those that edits insert, are boxes, some flat and some large; and
+ * each tick lists its pairs. */
+void random_session_boxes(random_session *made, uint64_t seed);
+
+/* random_session_full() for even seeds, random_session_boxes() for odd seeds. */
+void random_session_mixed(random_session *made, uint64_t seed);
+
 #endif

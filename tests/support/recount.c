@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "recount.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -35,41 +36,77 @@ typedef struct region {
     const octree_box *box;
     const double *center; /* of a ball, which has no box */
     double radius;
+    const double *reach; /* the largest half extents of the bodies; null: all bodies are points */
+    /* only for a step among bodies: the search takes no node whole, and rounds the end of the step outwards */
+    const double *step;
     octree_cost cost;
 } region;
 
-/* A cell has its lower faces; its upper ones are its neighbour's, but for the world's. */
-static relation to_box(const region *r, const octree_box *cell)
+/* A cell has its lower faces; its upper ones are its neighbour's, but for the world's. Bodies reach out of their cells.
+ */
+static relation to_box(const region *r, const octree_box *box, const octree_box *cell)
 {
     relation found = INSIDE;
     for (int i = 0; i < 3; i++) {
+        const double reach = r->reach ? r->reach[i] : 0;
+        const double step = r->step ? r->step[i] : 0, rounding = 0x1p-40;
         const bool last = cell->max[i] == r->world.max[i];
-        const double low = r->box->min[i], high = r->box->max[i];
+        const double low = box->min[i] - reach - (step < 0 ? rounding : 0);
+        const double high = box->max[i] + reach + (step > 0 ? rounding : 0);
         if (high < cell->min[i] || low > cell->max[i] || (low == cell->max[i] && !last))
             return APART;
-        if (high < cell->max[i] || low > cell->min[i])
+        if (box->max[i] < cell->max[i] || box->min[i] > cell->min[i])
             found = MEETS;
     }
     return found;
+}
+
+static octree_box box_of_ball(const region *r)
+{
+    octree_box box;
+    for (int i = 0; i < 3; i++) {
+        box.min[i] = r->center[i] - r->radius;
+        box.max[i] = r->center[i] + r->radius;
+    }
+    return box;
 }
 
 static relation to_ball(const region *r, const octree_box *cell)
 {
     double near = 0, far = 0;
     for (int i = 0; i < 3; i++) {
+        const double reach = r->reach ? r->reach[i] : 0;
         const double below = cell->min[i] - r->center[i], above = r->center[i] - cell->max[i];
-        const double gap = below > 0 ? below : above > 0 ? above : 0, reach = -below > -above ? -below : -above;
+        const double gap = fmax(fmax(below, above) - reach, 0), farther = fmax(-below, -above);
         near += gap * gap;
-        far += reach * reach;
+        far += farther * farther;
     }
     const double square = r->radius * r->radius;
     return near > square ? APART : far < square ? INSIDE : MEETS;
 }
 
+/* Searches among bodies begin with the box around the ball, and the box alone decides about the root. */
+static relation to_ball_of_bodies(const region *r, const octree_node *node)
+{
+    const octree_box box = box_of_ball(r);
+    const relation by_box = to_box(r, &box, &node->box);
+    if (by_box == APART || node->address == OCTREE_ROOT)
+        return by_box == APART ? APART : MEETS;
+    return to_ball(r, &node->box);
+}
+
+static relation relate(const region *r, const octree_node *node)
+{
+    if (!r->box)
+        return r->reach ? to_ball_of_bodies(r, node) : to_ball(r, &node->box);
+    const relation is = to_box(r, r->box, &node->box);
+    return is == INSIDE && r->step ? MEETS : is;
+}
+
 static octree_walk_order look_at(const octree_node *node, void *context)
 {
     region *r = context;
-    const relation is = r->box ? to_box(r, &node->box) : to_ball(r, &node->box);
+    const relation is = relate(r, node);
     if (is == APART) {
         r->cost.pruned++;
         add_visit(node->address, OCTREE_TRACE_PRUNED, r->all);
@@ -121,6 +158,25 @@ octree_cost recount_neighbors(recount *all, const octree *tree, const double tar
     return cost;
 }
 
+/* The same among the bodies of a game. */
+static octree_cost recount_nearest_bodies(recount *all, const octree_game *game, const octree_answer *answer,
+                                          const octree_search *how)
+{
+    octree_cost cost = {0};
+    octree_search traced = *how;
+    size_t count;
+    octree_hit *hits = malloc((answer->k + 1) * sizeof *hits);
+    assert_non_null(hits);
+    traced.cost = &cost;
+    traced.trace = add_visit;
+    traced.trace_context = all;
+    assert_int_equal(octree_bodies_nearest(octree_game_bodies(game), answer->target, answer->k, HUGE_VAL, &traced, NULL,
+                                           NULL, hits, &count),
+                     OCTREE_OK);
+    free(hits);
+    return cost;
+}
+
 /* ---- A tick ------------------------------------------------------------------------------------------------- */
 
 static octree_walk_order collect_points(const octree_node *node, void *context)
@@ -128,6 +184,22 @@ static octree_walk_order collect_points(const octree_node *node, void *context)
     for (size_t i = 0; node->leaf && i < node->count; i++)
         brute_collect(&node->points[i], context);
     return OCTREE_WALK_ON;
+}
+
+/* The largest half extents of the game's bodies. Returns null if all are points. */
+static const double *find_reach(const octree_game *game, double reach[3])
+{
+    brute points = {0};
+    assert_int_equal(octree_walk(octree_game_tree(game), collect_points, &points), OCTREE_OK);
+    memset(reach, 0, sizeof(double[3]));
+    for (size_t i = 0; i < points.count; i++) {
+        octree_body body;
+        assert_true(octree_game_find_body(game, points.points[i].id, &body));
+        for (int axis = 0; axis < 3; axis++)
+            reach[axis] = fmax(reach[axis], body.half[axis]);
+    }
+    brute_free(&points);
+    return reach[0] > 0 || reach[1] > 0 || reach[2] > 0 ? reach : NULL;
 }
 
 /* The tree that the collision test asked: that of the tick's end, with the player still where it was. */
@@ -174,7 +246,12 @@ static void recount_collision(recount *all, const octree_game *game, const doubl
     const octree_tick *tick = octree_game_tick(game);
     octree *tree = tree_before_step(game, before);
     const octree_box box = tested_box(tick, octree_game_session(game)->player.box_size);
-    octree_cost cost = recount_box(all, tree, &box);
+    double reach[3], step[3];
+    region r = {.all = all, .box = &box, .reach = find_reach(game, reach)};
+    for (int i = 0; i < 3; i++)
+        step[i] = tick->swept ? tick->attempt[i] - tick->from[i] : 0;
+    r.step = r.reach ? step : NULL;
+    octree_cost cost = walk_region(r, tree);
     assert_true(tick->hit_cost.points >= cost.points);
     if (tick->swept)
         cost.points = tick->hit_cost.points; /* bodies that moved are compared too */
@@ -186,11 +263,15 @@ static octree_cost recount_answer(recount *all, const octree_game *game, const o
 {
     const octree *tree = octree_game_tree(game);
     octree_search how = {.skip_id = octree_game_session(game)->player.id};
-    if (answer->kind == OCTREE_QUERY_RANGE)
-        return recount_box(all, tree, &answer->box);
-    if (answer->kind == OCTREE_QUERY_RADIUS)
-        return recount_ball(all, tree, answer->target, answer->radius);
+    double reach[3];
+    region r = {.all = all, .radius = answer->radius, .reach = find_reach(game, reach)};
+    r.box = answer->kind == OCTREE_QUERY_RANGE ? &answer->box : NULL;
+    r.center = answer->target;
+    if (!octree_query_about(answer->kind)->neighbors)
+        return walk_region(r, tree);
     how.skip = same_position(answer->target, octree_game_tick(game)->player) ? OCTREE_SKIP_ID : OCTREE_SKIP_NONE;
+    if (r.reach)
+        return recount_nearest_bodies(all, game, answer, &how);
     return recount_neighbors(all, tree, answer->target, answer->k, &how);
 }
 

@@ -49,9 +49,9 @@ static void ticks_of_random_sessions_tell_what_a_recount_finds(void **state)
 {
     (void)state;
     shown met = {{0}, 0, 0};
-    for (uint64_t seed = 1; seed <= 60; seed++) {
+    for (uint64_t seed = 1; seed <= 120; seed++) {
         random_session made;
-        random_session_full(&made, seed);
+        random_session_mixed(&made, seed);
         check_session(&made.session, &met);
     }
     assert_all_shown(&met);
