@@ -145,8 +145,8 @@ static void compare_key_presses(const octree_session *a, const octree_session *b
 
 /* ---- Everything else, as JSON ---------------------------------------------------------------------------------- */
 
-/* Write a session as lines of JSON. Points and key presses are left out, because they are compared separately. The
- * member "ticks" is written even if a session file would leave it out. */
+/* Write a session as lines of JSON. Points, key presses and "pairs" are left out, because they are compared separately:
+ * the place "pairs" is that of a tick. The member "ticks" is written even if a session file would leave it out. */
 static char *write_session(const octree_session *session, bool sampled)
 {
     octree_session rest = *session;
@@ -155,6 +155,7 @@ static char *write_session(const octree_session *session, bool sampled)
     rest.bodies = NULL;
     rest.body_count = 0;
     rest.keys = NULL;
+    rest.pairs = false;
     rest.sampled.known = rest.sampled.known && sampled;
     rest.ticks = octree_session_length(session);
     rest.unplayed = 0;
@@ -264,6 +265,8 @@ static void compare_sessions(const octree_session *a, const octree_session *b, c
         compare_session_texts(&place, texts[0], texts[1]);
     free(texts[0]);
     free(texts[1]);
+    if (a->pairs != b->pairs)
+        cause_add_whole(facts, "session.pairs", CAUSE_OTHER, json_boolean(a->pairs), json_boolean(b->pairs));
     compare_key_presses(a, b, facts);
     compare_bodies(a, b, facts);
 }

@@ -44,7 +44,7 @@ static void a_random_game_survives_each_failure(void **state)
     (void)state;
     for (uint64_t seed = 1; seed <= 4; seed++) {
         static random_session made;
-        random_session_full(&made, seed);
+        random_session_mixed(&made, seed);
         assert_true(fail_each(&made.session) > 20);
     }
 }

@@ -80,7 +80,7 @@ static void a_tick_that_is_given_is_that_of_a_session_that_has_it(void **state)
     static random_session made;
     static octree_query queries[RANDOM_SESSION_QUERIES];
     for (uint64_t seed = 0; seed < 40; seed++) {
-        random_session_full(&made, seed);
+        random_session_mixed(&made, seed);
         const octree_session known = known_at_start(&made.session, queries);
         octree_game *whole = start_game(&made.session), *live = start_game(&known);
         assert_same_tick(whole, live);

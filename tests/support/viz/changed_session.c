@@ -137,23 +137,45 @@ bool change_kind(changed_session *t, uint64_t tick, uint64_t *state)
     return true;
 }
 
-/* Of a point at the start. */
-bool change_velocity(changed_session *t, uint64_t tick, uint64_t *state)
+/* Change a vector of a body at the start, which has this offset in octree_game_body. */
+static bool change_vector(changed_session *t, uint64_t *state, size_t offset, const char *where, const char *noun)
 {
     const octree_session *session = &t->made.session;
     char texts[2][3 * NUMBER_TEXT + 8];
-    (void)tick;
     if (session->body_count == 0)
         return false;
     const size_t i = random_below(state, session->body_count);
     memcpy(t->bodies, session->bodies, session->body_count * sizeof *t->bodies);
     t->changed.bodies = t->bodies;
     octree_game_body *body = &t->bodies[i];
-    expect(t, "points.velocity", CAUSE_OTHER, CAUSE_NO_TICK, body->id);
-    place_text(body->velocity, texts[0]);
-    body->velocity[random_below(state, 3)] += 0.25 * (double)(1 + random_below(state, 8));
-    sprintf(t->text, "another velocity of a point (point %" PRIu64 ": %s, was %s); ", body->id,
-            place_text(body->velocity, texts[1]), texts[0]);
+    double *vector = (double *)((char *)body + offset);
+    expect(t, where, CAUSE_OTHER, CAUSE_NO_TICK, body->id);
+    place_text(vector, texts[0]);
+    vector[random_below(state, 3)] += 0.25 * (double)(1 + random_below(state, 8));
+    sprintf(t->text, "another %s (point %" PRIu64 ": %s, was %s); ", noun, body->id, place_text(vector, texts[1]),
+            texts[0]);
+    return true;
+}
+
+bool change_velocity(changed_session *t, uint64_t tick, uint64_t *state)
+{
+    (void)tick;
+    return change_vector(t, state, offsetof(octree_game_body, velocity), "points.velocity", "velocity of a point");
+}
+
+bool change_half(changed_session *t, uint64_t tick, uint64_t *state)
+{
+    (void)tick;
+    return change_vector(t, state, offsetof(octree_game_body, half), "points.half", "half extent of a body");
+}
+
+bool change_pairs(changed_session *t, uint64_t tick, uint64_t *state)
+{
+    const bool listed = t->made.session.pairs;
+    (void)tick, (void)state;
+    t->changed.pairs = !listed;
+    expect(t, "session.pairs", CAUSE_OTHER, CAUSE_NO_TICK, CAUSE_NO_ID);
+    sprintf(t->text, "another detection of overlaps (%s, was %s): ", listed ? "off" : "on", listed ? "on" : "off");
     return true;
 }
 
@@ -255,7 +277,7 @@ bool try_change(changed_session *t, uint64_t seed, session_change *change)
 {
     uint64_t state = seed ^ 0x5eed;
     *t = (changed_session){.text = ""};
-    random_session_full(&t->made, seed);
+    random_session_mixed(&t->made, seed);
     t->changed = t->made.session;
     const uint64_t tick = 1 + random_below(&state, octree_session_length(&t->made.session));
     return change(t, tick, &state);

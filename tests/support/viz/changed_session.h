@@ -31,6 +31,8 @@ session_change change_capacity;
 session_change change_step;
 session_change change_kind;     /* change the kind of the player; not both kinds use the step and the start */
 session_change change_velocity; /* of a point at the start */
+session_change change_half;     /* change the half extents of a body at the start */
+session_change change_pairs;    /* list the overlaps of bodies, or no longer */
 session_change change_number_of_shapes;
 session_change change_shape;
 

@@ -244,13 +244,29 @@ static void assert_key(const json_t *value, char key)
         assert_string_equal(json_string_value(value), expected);
 }
 
+/* Up to 256 pairs are listed; more are counted. */
+static void assert_pairs(const json_t *pairs, const octree_tick *tick)
+{
+    if (tick->pair_count > 256) {
+        assert_members(pairs, "count digest");
+        assert_whole_number(json_member(pairs, "count"), tick->pair_count);
+        return;
+    }
+    assert_int_equal(json_array_size(pairs), tick->pair_count);
+    for (size_t i = 0; i < tick->pair_count; i++) {
+        assert_int_equal(json_array_size(json_array_get(pairs, i)), 2);
+        assert_whole_number(json_array_get(json_array_get(pairs, i), 0), tick->pairs[i].a);
+        assert_whole_number(json_array_get(json_array_get(pairs, i), 1), tick->pairs[i].b);
+    }
+}
+
 void assert_line_has_facts(const json_t *line, const octree_tick *tick, const octree *tree)
 {
     static const char always[] =
         "tick key player events attempt hits hit_cost answers visits refusals splits merges tree";
     char names[160];
-    snprintf(names, sizeof names, "%s%s%s", always, json_object_get(line, "frame") == NULL ? "" : " frame scene",
-             tick->swept ? " from" : "");
+    snprintf(names, sizeof names, "%s%s%s%s", always, json_object_get(line, "frame") == NULL ? "" : " frame scene",
+             tick->swept ? " from" : "", tick->pair_count ? " pairs" : "");
     assert_members(line, names);
     if (tick->swept)
         assert_position(line, "from", tick->from);
@@ -260,6 +276,8 @@ void assert_line_has_facts(const json_t *line, const octree_tick *tick, const oc
     assert_place(line, "attempt", tick, tick->attempt);
     assert_events(json_member(line, "events"), tick->events);
     assert_ids(json_member(line, "hits"), tick->hits, tick->hit_count);
+    if (tick->pair_count)
+        assert_pairs(json_member(line, "pairs"), tick);
     assert_cost(line, "hit_cost", &tick->hit_cost);
     assert_answers(json_member(line, "answers"), tick);
     assert_visits(json_member(line, "visits"), tick);

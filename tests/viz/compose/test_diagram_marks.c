@@ -95,7 +95,7 @@ static void lines_show_visited_and_pruned_nodes(void **state)
         assert_true(check_session(&session, VIEW_DEFAULT_LAYERS, (view_diagram)diagram) > 100);
     for (uint64_t seed = 1; seed <= 8; seed++) {
         random_session made;
-        random_session_full(&made, seed);
+        random_session_mixed(&made, seed);
         check_session(&made.session, VIEW_DEFAULT_LAYERS, DIAGRAM_ONLY);
     }
 }

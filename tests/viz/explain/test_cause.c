@@ -359,6 +359,18 @@ static void different_shape_is_the_cause(void **state)
     try_seeds(70001, change_shape);
 }
 
+static void different_half_extent_is_the_cause(void **state)
+{
+    (void)state;
+    try_seeds(80001, change_half);
+}
+
+static void detection_of_overlaps_in_one_session_is_the_cause(void **state)
+{
+    (void)state;
+    try_seeds(90001, change_pairs);
+}
+
 int main(int argc, char **argv)
 {
     if (argc > 1)
@@ -372,6 +384,8 @@ int main(int argc, char **argv)
         cmocka_unit_test(different_kind_of_player_is_the_cause),
         cmocka_unit_test(added_or_removed_shape_is_the_cause),
         cmocka_unit_test(different_shape_is_the_cause),
+        cmocka_unit_test(different_half_extent_is_the_cause),
+        cmocka_unit_test(detection_of_overlaps_in_one_session_is_the_cause),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

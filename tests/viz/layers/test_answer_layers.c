@@ -165,7 +165,7 @@ static void every_answer_of_random_sessions_is_shown_in_its_layer(void **state)
     (void)state;
     for (uint64_t seed = 1; seed <= 24; seed++) {
         random_session made;
-        random_session_full(&made, seed);
+        random_session_mixed(&made, seed);
         check_session(&made.session, (view_camera)(seed % CAMERA_COUNT));
     }
 }

@@ -72,7 +72,7 @@ static void every_split_and_merge_is_shown_where_it_happened(void **state)
     assert_true(splits > 0 && merges > 0);
     for (uint64_t seed = 1; seed <= 16; seed++) {
         random_session made;
-        random_session_full(&made, seed);
+        random_session_mixed(&made, seed);
         check_session(&made.session, &splits, &merges);
     }
     assert_true(splits > 300 && merges > 300);

@@ -176,7 +176,7 @@ static void visits_of_random_sessions_match_a_recount(void **state)
     (void)state;
     for (uint64_t seed = 1; seed <= 12; seed++) {
         random_session made;
-        random_session_full(&made, seed);
+        random_session_mixed(&made, seed);
         const view v = view_of(1280, 1440, (view_camera)(seed % CAMERA_COUNT), VIEW_DEFAULT_LAYERS);
         check_session(&made.session, &v, true);
     }

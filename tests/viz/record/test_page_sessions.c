@@ -127,7 +127,7 @@ static void give_random(driven *d)
         random_session made;
         char name[32];
         snprintf(name, sizeof name, "random_%zu", i);
-        random_session_full(&made, 40 + i);
+        random_session_mixed(&made, 40 + i);
         film_and_give(d, WRITTEN + i, name, &made.session, small_film(""), false);
     }
 }

@@ -109,7 +109,7 @@ static void heat_is_the_sum_over_the_ticks(void **state)
     check_session(&session);
     for (uint64_t seed = 1; seed <= 10; seed++) {
         random_session made;
-        random_session_full(&made, seed);
+        random_session_mixed(&made, seed);
         check_session(&made.session);
     }
 }
@@ -217,7 +217,7 @@ static void every_leaf_with_heat_has_a_marker(void **state)
     (void)state;
     for (uint64_t seed = 0; seed < 8; seed++) {
         random_session made;
-        random_session_full(&made, seed);
+        random_session_mixed(&made, seed);
         const octree_session session = seed ? made.session : octree_session_default();
         const view v = view_of(640, 360, (view_camera)(seed % CAMERA_COUNT), VIEW_ALL_LAYERS);
         octree_game *game = start_game(&session);

@@ -127,7 +127,7 @@ static void changes_follow_from_all_trees_since_tick_0(void **state)
     (void)state;
     for (uint64_t seed = 0; seed < 5; seed++) {
         node_changes changes = {.tracked = true};
-        random_session_full(&made, seed);
+        random_session_mixed(&made, seed);
         octree_game *game = start_game(&made.session);
         copy_tree(game);
         while (!octree_game_over(game)) {
