@@ -18,7 +18,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SMALLEST 3.0 /* in pixels */
+/* In pixels. The twelve edges of a smaller box run together, and look like a large point. */
+#define SMALLEST 8.0
 
 /* ---- Boxes -------------------------------------------------------------------------------------------------- */
 

@@ -56,7 +56,7 @@ const golden_frame golden_frames[] = {
     {"point_heat", "iso", "world,point-heat", 30, "clustered", 0, 0},
     {"broken", "iso", "default", 0, NULL, 640, 360},
     {"velocities", "iso", "nodes,points,velocities,player", 3, "moving", 400, 225},
-    {"bodies", "iso", "default", 6, "boxes", 640, 360},
+    {"bodies", "iso", "default", 4, "boxes", 640, 360},
     {"diagram_met", "iso", "default", 216, NULL, 640, 360},
     {"asked", "top", "nodes,asked,points", 0, "clustered", 0, 0},
     {"wrong", "iso", "world,nodes,points,nearest,radius,wrong,text", 0, "answered", 640, 360},
@@ -170,29 +170,30 @@ static octree_session moving_session(octree_game_body *bodies)
     return session;
 }
 
-/* Boxes at rest and moving ones. Some overlap, one hinders the player, and a query finds some. */
+/* Boxes of several sizes: the player runs into body 1, bodies 2 and 3 overlap, and a query finds bodies 5 and 6. The
+ * same session is tests/examples/boxes.json. */
 static const octree_game_body boxes[] = {
-    {.id = 1, .position = {-40, -40, -60}, .half = {15, 20, 20}},
-    {.id = 2, .position = {-30, -15, -50}, .half = {12, 12, 30}},
-    {.id = 3, .position = {40, 50, 20}, .half = {20, 4, 40}},
-    {.id = 4, .position = {60, -60, -70}, .velocity = {-6, 3, 5}, .half = {9, 9, 9}},
-    {.id = 5, .position = {10, 70, 60}, .velocity = {4, -5, -3}, .half = {6, 12, 6}},
-    {.id = 6, .position = {70, 30, 80}, .velocity = {-3, 2, -7}, .half = {14, 6, 6}},
-    {.id = 7, .position = {80, -20, 50}},
-    {.id = 8, .position = {-80, 80, 20}},
-    {.id = 9, .position = {-60, 60, 70}},
-    {.id = 10, .position = {20, -80, 40}},
+    {.id = 1, .position = {-20, -60, -60}, .half = {16, 24, 24}},
+    {.id = 2, .position = {40, 40, -60}, .half = {30, 12, 40}},
+    {.id = 3, .position = {52, 2, -30}, .velocity = {0, 6, 0}, .half = {14, 14, 14}},
+    {.id = 4, .position = {64, -70, 40}, .velocity = {-6, 3, 0}, .half = {9, 9, 9}},
+    {.id = 5, .position = {-60, 40, 50}, .half = {20, 16, 8}},
+    {.id = 6, .position = {-30, 84, 66}, .velocity = {0, -2, 0}, .half = {5, 5, 5}},
+    {.id = 7, .position = {80, -80, -60}},
+    {.id = 8, .position = {-80, 80, -50}},
+    {.id = 9, .position = {80, 80, 70}},
 };
 
 static const octree_query shelf[] = {
-    {.tick = OCTREE_EVERY_TICK, .kind = OCTREE_QUERY_RANGE, .box = {{0, 20, 0}, {50, 90, 80}}}};
+    {.tick = OCTREE_EVERY_TICK, .kind = OCTREE_QUERY_RANGE, .box = {{-80, 20, 30}, {-10, 90, 90}}}};
 
 static octree_session session_of_boxes(void)
 {
     octree_session session = octree_session_default();
     session.tree.world = (octree_box){{-100, -100, -100}, {100, 100, 100}};
-    session.player = (octree_player){.id = 0, .position = {-70, -40, -60}, .step = 10, .box_size = 8};
-    session.keys = "dd..wdd.";
+    session.tree.leaf_capacity = 4;
+    session.player = (octree_player){.id = 0, .position = {-70, -60, -60}, .step = 10, .box_size = 10};
+    session.keys = "d.dd";
     session.bodies = boxes;
     session.body_count = sizeof boxes / sizeof boxes[0];
     session.queries = shelf;

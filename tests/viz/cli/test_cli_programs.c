@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* test_cli_programs.c - the programs of tests/examples, in Python, JavaScript and awk, are recorded while they print
- * their sessions, and their answers are audited. */
+ * their sessions, and their answers are audited; and the session of boxes. */
 #include <stdio.h>
 #include <string.h>
 
@@ -100,14 +100,30 @@ static void every_awk_prints_the_same_hunt(void **state)
     command_release(&result);
 }
 
+static void boxes_collide_and_overlap_as_in_the_golden_frame(void **state)
+{
+    const shell_word examples = shell_quote(OCTREEL_EXAMPLES);
+    const place film = place_in(*state, "film");
+    command_result result = run_script("%1$s record %2$s/boxes.json --size 640x360 -o %3$s && "
+                                       "%1$s diff %2$s/../../golden/bodies.ref.png %3$s/frame_000004.png",
+                                       octreel_program(), examples.text, film.path);
+    assert_done(&result);
+    assert_non_null(strstr(result.out, "moved 2, refused 0, collided 1, full 0, split 0, merged 0, overlapped 3\n"));
+    command_release(&result);
+}
+
 #define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(answers_of_a_python_program_are_right),     IN_FOLDER(stale_index_of_a_python_program_is_found),
-        IN_FOLDER(answers_of_a_javascript_program_are_right), IN_FOLDER(stale_index_of_a_javascript_program_is_found),
-        IN_FOLDER(both_programs_print_the_same_session),      IN_FOLDER(every_awk_prints_the_same_hunt),
+        IN_FOLDER(answers_of_a_python_program_are_right),
+        IN_FOLDER(stale_index_of_a_python_program_is_found),
+        IN_FOLDER(answers_of_a_javascript_program_are_right),
+        IN_FOLDER(stale_index_of_a_javascript_program_is_found),
+        IN_FOLDER(both_programs_print_the_same_session),
+        IN_FOLDER(every_awk_prints_the_same_hunt),
+        IN_FOLDER(boxes_collide_and_overlap_as_in_the_golden_frame),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -34,6 +34,7 @@ static const struct {
     {LAYER_VELOCITIES, SCENE_SEGMENT, "the velocity of point 700 at (", false, true},
     {LAYER_BODIES, SCENE_BOX, "), half extents (", false, true},
     {LAYER_PAIRS, SCENE_BOX, "the overlap of body 700 and body 701, box (", false, false},
+    {LAYER_PAIRS, SCENE_MARKER, "the overlap of body 700 and body 701, box (", false, false},
     {LAYER_RANGE, SCENE_BOX, "the box of the range query", false, false},
     {LAYER_RANGE, SCENE_MARKER, "found by a range query", false, true},
     {LAYER_RADIUS, SCENE_SEGMENT, "radius 450 about (", false, false},
