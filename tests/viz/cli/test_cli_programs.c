@@ -112,6 +112,20 @@ static void boxes_collide_and_overlap_as_in_the_golden_frame(void **state)
     command_release(&result);
 }
 
+static void changed_overlap_of_a_recording_is_found(void **state)
+{
+    const shell_word examples = shell_quote(OCTREEL_EXAMPLES);
+    const place film = place_in(*state, "film");
+    command_result result =
+        run_script("%1$s record %2$s/boxes.json --size 64x36 -q -o %3$s && "
+                   "sed 's/\"pairs\": \\[\\[2, 3/\"pairs\": [[2, 4/' %3$s/ticks.jsonl >%3$s/changed && "
+                   "mv %3$s/changed %3$s/ticks.jsonl && %1$s verify %3$s",
+                   octreel_program(), examples.text, film.path);
+    assert_int_equal(result.status, 1);
+    assert_non_null(strstr(result.out, "pairs[0][1] is 4 in ticks.jsonl, but 3 when the tick is played again"));
+    command_release(&result);
+}
+
 #define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
 
 int main(void)
@@ -124,6 +138,7 @@ int main(void)
         IN_FOLDER(both_programs_print_the_same_session),
         IN_FOLDER(every_awk_prints_the_same_hunt),
         IN_FOLDER(boxes_collide_and_overlap_as_in_the_golden_frame),
+        IN_FOLDER(changed_overlap_of_a_recording_is_found),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
