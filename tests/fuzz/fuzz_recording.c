@@ -74,6 +74,16 @@ static const filmed films[] = {
              "\"seed\": 1}, \"player\": null, \"ticks\": 2}",
      VIEW "\"size\": [48, 48], \"camera\": \"top\", \"color_by\": \"plain\", \"lod\": 0, \"budget\": 100, "
           "\"aa\": 2, \"shade\": \"edl\", \"layers\": [\"world\", \"points\"], \"every\": 2}"},
+    {SESSION
+     "\"world\": {\"min\": [-9, -9, -9], \"max\": [9, 9, 9]}, \"keys\": \"dd\", \"pairs\": true, "
+     "\"player\": {\"position\": [-6, 0, 0], \"step\": 1, \"box_size\": 1, \"sweep\": true}, \"points\": [{\"id\": 1, "
+     "\"position\": [-3, 0, 0], \"half\": [1, 2, 3]}, {\"id\": 2, \"position\": [2, 0, 0], \"half\": [4, 0.5, 0], "
+     "\"velocity\": [-1, 0.5, 0]}, [5, 5, 5, 3]], \"queries\": [{\"radius\": 4, \"at\": [1, 1, 1], \"answer\": [1, "
+     "2]}, "
+     "{\"knearest\": 2, \"at\": \"player\"}]}\n"
+     "{\"tick\": 1, \"edits\": [{\"insert\": {\"id\": 4, \"position\": [0, 0, 0], \"half\": [20, 0, 1e-310]}}]}\n",
+     VIEW "\"size\": [64, 48], \"camera\": \"iso\", \"color_by\": \"depth\", \"lod\": 0, \"budget\": 100, "
+          "\"aa\": 1, \"layers\": [\"points\", \"bodies\", \"pairs\", \"box\", \"text\"], \"every\": 1}"},
 };
 
 enum { FILMS = sizeof films / sizeof films[0], FOLDER = 64 };

@@ -74,6 +74,36 @@ static void each_box_on_screen_is_drawn_once_in_the_order_of_ids(void **state)
     scene_release(&s);
 }
 
+/* The world is 20 wide, so that the sizes on screen are on both sides of eight pixels. */
+static void boxes_appear_from_eight_pixels_on(void **state)
+{
+    (void)state;
+    octree_session session = session_of_boxes();
+    const view v = whole_view();
+    scene s = {0};
+    size_t shown[2] = {0};
+    for (size_t i = 0; i < BODIES; i++)
+        for (int axis = 0; axis < 3; axis++)
+            bodies[i].half[axis] = 0.02 * (double)(i + 1);
+    octree_game *game = start_game(&session);
+    build_tick(&s, &v, game);
+    for (size_t i = 0; i < BODIES; i++) {
+        octree_box box;
+        for (int axis = 0; axis < 3; axis++) {
+            box.min[axis] = bodies[i].position[axis] - bodies[i].half[axis];
+            box.max[axis] = bodies[i].position[axis] + bodies[i].half[axis];
+        }
+        size_t boxes = 0;
+        for (size_t j = 0; j < s.boxes.count; j++)
+            boxes += s.boxes.items[j].style.layer == LAYER_BODIES && s.boxes.items[j].id == bodies[i].id;
+        assert_int_equal(boxes, camera_box_size_in_pixels(&s.camera, &box) >= 8);
+        shown[boxes]++;
+    }
+    assert_true(shown[0] > 3 && shown[1] > 3);
+    octree_game_destroy(game);
+    scene_release(&s);
+}
+
 static void overlap_of_each_pair_lies_in_both_boxes(void **state)
 {
     (void)state;
@@ -152,6 +182,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_box_on_screen_is_drawn_once_in_the_order_of_ids),
+        cmocka_unit_test(boxes_appear_from_eight_pixels_on),
         cmocka_unit_test(overlap_of_each_pair_lies_in_both_boxes),
         cmocka_unit_test(filter_and_budget_limit_boxes_as_they_limit_points),
         cmocka_unit_test(session_of_points_has_no_boxes),
