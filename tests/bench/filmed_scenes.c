@@ -169,7 +169,7 @@ static void ask(octree_query *queries, size_t count, size_t asked, const octree_
     for (size_t i = 0; i < count; i++) {
         octree_query *q = &queries[i];
         const octree_game_body *body = &bodies[octree_random(&random) % body_count];
-        *q = (octree_query){.tick = i / asked, .kind = i % OCTREE_QUERY_KINDS, .k = NEIGHBORS, .radius = REACH};
+        *q = (octree_query){.tick = i / asked, .kind = i % OCTREE_QUERY_RAY, .k = NEIGHBORS, .radius = REACH};
         for (int axis = 0; axis < 3; axis++) {
             q->target[axis] = body->position[axis] + (double)(octree_random(&random) % REACH) - REACH / 2;
             q->box.min[axis] = q->target[axis] - REACH;

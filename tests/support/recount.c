@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "recount.h"
+#include "octree/bodies.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -177,6 +178,30 @@ static octree_cost recount_nearest_bodies(recount *all, const octree_game *game,
     return cost;
 }
 
+octree_cost recount_ray(recount *all, const octree_bodies *bodies, const octree_answer *ray, const octree_search *how)
+{
+    octree_cost cost = {0};
+    octree_search traced = *how;
+    octree_region region = {.kind = OCTREE_REGION_RAY, .length = ray->length > 0 ? ray->length : HUGE_VAL};
+    const size_t k = ray->k < octree_bodies_count(bodies) ? ray->k : octree_bodies_count(bodies);
+    octree_hit *hits = malloc((k + 1) * sizeof *hits);
+    size_t count;
+    assert_non_null(hits);
+    memcpy(region.origin, ray->target, sizeof region.origin);
+    memcpy(region.direction, ray->direction, sizeof region.direction);
+    for (int axis = 0; axis < 3; axis++)
+        region.half[axis] = ray->thickness;
+    traced.cost = &cost;
+    traced.trace = add_visit;
+    traced.trace_context = all;
+    assert_int_equal(octree_bodies_cast(bodies, &region, k, &traced, NULL, NULL, hits, &count), OCTREE_OK);
+    assert_int_equal(count, ray->count);
+    for (size_t i = 0; i < count; i++)
+        assert_true(hits[i].body.id == ray->neighbors[i].point.id && hits[i].at == ray->neighbors[i].distance);
+    free(hits);
+    return cost;
+}
+
 /* ---- A tick ------------------------------------------------------------------------------------------------- */
 
 static octree_walk_order collect_points(const octree_node *node, void *context)
@@ -270,6 +295,8 @@ static octree_cost recount_answer(recount *all, const octree_game *game, const o
     if (!octree_query_about(answer->kind)->neighbors)
         return walk_region(r, tree);
     how.skip = same_position(answer->target, octree_game_tick(game)->player) ? OCTREE_SKIP_ID : OCTREE_SKIP_NONE;
+    if (answer->kind == OCTREE_QUERY_RAY)
+        return recount_ray(all, octree_game_bodies(game), answer, &how);
     if (r.reach)
         return recount_nearest_bodies(all, game, answer, &how);
     return recount_neighbors(all, tree, answer->target, answer->k, &how);

@@ -27,6 +27,9 @@ octree_cost recount_ball(recount *all, const octree *tree, const double center[3
 octree_cost recount_neighbors(recount *all, const octree *tree, const double target[3], size_t k,
                               const octree_search *how);
 
+/* Add the nodes of a ray. They come from its trace, too. */
+octree_cost recount_ray(recount *all, const octree_bodies *bodies, const octree_answer *ray, const octree_search *how);
+
 /* Recount the last tick of the game; the test fails if the tick has other costs. `before` is the player's position at
  * the tick before: the collision test ran while the player was still there. */
 void recount_tick(recount *all, const octree_game *game, const double before[3]);

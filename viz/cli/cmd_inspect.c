@@ -138,6 +138,7 @@ typedef struct report {
     const char *name; /* the cloud's file name: the last part of its path */
     const inspection *made;
     octree_node node;
+    query_options queries; /* the queries of the command line; rays without a thickness have received one */
     inspect_answers answers;
     inspect_advice advice;       /* measured if a->advise is true */
     view view;                   /* the view of the picture */
@@ -160,8 +161,8 @@ static bool write_page(const report *r, octreel_error *error)
                              .node = a->node ? r->node.address : 0,
                              .made = r->made,
                              .view = &r->view,
-                             .queries = a->queries.items,
-                             .query_count = a->queries.count};
+                             .queries = r->queries.items,
+                             .query_count = r->queries.count};
     file_writer file;
     progress bar = progress_start("");
     progress_show_sentence(&bar, "writing %s", path);
@@ -260,7 +261,9 @@ static bool make_report(report *r, octreel_error *error)
         return false;
     if (a->advise && !measure_advice(r, error))
         return false;
-    if (!inspect_ask(r->made->tree, a->queries.items, a->queries.count, &r->answers, error))
+    r->queries = a->queries;
+    inspect_fill_queries(r->made->tree, r->queries.items, r->queries.count);
+    if (!inspect_ask(r->made->tree, r->queries.items, r->queries.count, &r->answers, error))
         return false;
     r->view = a->view;
     const bool ok = (!a->outputs[PICTURE].path ||
@@ -399,6 +402,8 @@ const command command_inspect = {
                 "octreel inspect scan.ply --advise\n"
                 "# print and draw the 8 nearest neighbours of a place in each of many clouds\n"
                 "for f in *.ply; do octreel inspect \"$f\" -o \"$f.png\" --nearest 1,2,3,8; done\n"
+                "# shoot a ray straight down, and print and draw the first 3 points that it hits\n"
+                "octreel inspect scan.pcd -o ray.png --ray 1,2,90,0,0,-1,3\n"
                 "# print the statistics of a cloud that pdal converts\n"
                 "pdal translate scan.laz STDOUT --writer text | octreel inspect -\n",
     .min_arguments = 1,

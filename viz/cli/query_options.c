@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* query_options.c - the options that ask queries: --nearest, --radius and --range. A kind of query has
+/* query_options.c - the options that ask queries: --ray, --nearest, --radius and --range. A kind of query has
  * an option if its row in query_looks.h has a text for the option's value, such as X,Y,Z. The numbers in the value are
- * the members of the query, in the order of OCTREE_QUERY_MEMBER_MAP. */
+ * the members of the query, in the order of OCTREE_QUERY_MEMBER_MAP; optional members may be missing at the end. */
 #include "query_options.h"
 #include "number.h"
 #include "octree/octree.h"
@@ -16,7 +16,7 @@ static const struct {
     octree_query_kind kind;
     /* The placeholder of the option's value in --help; null: no option asks this kind of query. */
     const char *value;
-    octree_query_kind with_more; /* the kind of query that is asked if the value has one more number */
+    octree_query_kind with_more; /* the kind of query that is asked if the value has too many numbers for `kind` */
     const char *help;            /* the option's description in --help */
     const char *takes;           /* words for a valid value, used in errors */
 } rows[] = {
@@ -28,27 +28,41 @@ static const struct {
 
 static size_t count_numbers_of_type(octree_member_type type)
 {
-    static const size_t numbers[] = {[OCTREE_MEMBER_BOX] = 6,
-                                     [OCTREE_MEMBER_POSITION] = 3,
-                                     [OCTREE_MEMBER_COUNT] = 1,
-                                     [OCTREE_MEMBER_LENGTH] = 1,
-                                     [OCTREE_MEMBER_BOUNDS] = 0}; /* no number: bounds are always closed */
+    static const size_t numbers[] = {
+        [OCTREE_MEMBER_BOX] = 6,       [OCTREE_MEMBER_POSITION] = 3,
+        [OCTREE_MEMBER_DIRECTION] = 3, [OCTREE_MEMBER_COUNT] = 1,
+        [OCTREE_MEMBER_LENGTH] = 1,    [OCTREE_MEMBER_BOUNDS] = 0}; /* no number: bounds are always closed */
     return numbers[type];
 }
 
-static size_t count_numbers_of_kind(octree_query_kind kind)
+/* Returns the number of numbers of a kind of query, with or without its optional members. */
+static size_t count_numbers_of_kind(octree_query_kind kind, bool with_optional)
 {
+    const octree_query_traits *about = octree_query_about(kind);
     size_t count = 0;
-    for (size_t i = 0; i < OCTREE_QUERY_MEMBERS; i++)
-        if (octree_query_about(kind)->members & octree_query_member_at(i)->bit)
-            count += count_numbers_of_type(octree_query_member_at(i)->type);
+    for (size_t i = 0; i < OCTREE_QUERY_MEMBERS; i++) {
+        const octree_query_member_traits *member = octree_query_member_at(i);
+        if (about->members & member->bit && (with_optional || !member->optional || member->bit == about->named_by))
+            count += count_numbers_of_type(member->type);
+    }
     return count;
 }
 
-/* Sets the members of a query from numbers. Returns false if a count is not a whole number in its range. */
-static bool set_query_members(octree_query *query, const double *numbers)
+/* Parses the numbers of a kind of query. Returns how many there are, or 0 if the text is not valid. */
+static size_t parse_query_numbers(const char *text, octree_query_kind kind, double numbers[MOST_NUMBERS])
 {
-    for (size_t i = 0; i < OCTREE_QUERY_MEMBERS; i++) {
+    const size_t most = count_numbers_of_kind(kind, true);
+    for (size_t count = count_numbers_of_kind(kind, false); count <= most; count++)
+        if (numbers_parse(text, numbers, count))
+            return count;
+    return 0;
+}
+
+/* Sets the members of a query from numbers. Returns false if a count is not a whole number in its range. */
+static bool set_query_members(octree_query *query, const double *numbers, size_t count)
+{
+    const double *end = numbers + count;
+    for (size_t i = 0; numbers < end && i < OCTREE_QUERY_MEMBERS; i++) {
         const octree_query_member_traits *member = octree_query_member_at(i);
         char *value = (char *)query + member->in_query;
         if (!(octree_query_about(query->kind)->members & member->bit))
@@ -69,18 +83,21 @@ static bool read_query(const command_option *option, const char *text, void *int
     query_options *queries = into;
     const size_t row = option->min; /* the index of the option's row in `rows`; query_option_row() stored it in `min` */
     const char *name = option->name;
-    octree_query query = {.kind = rows[row].kind};
+    octree_query query = {.kind = rows[row].kind, .k = 1};
     double values[MOST_NUMBERS];
     if (queries->count == MOST_QUERIES)
         return print_refusal("at most %d queries can be given", MOST_QUERIES);
-    if (!numbers_parse(text, values, count_numbers_of_kind(query.kind))) {
+    size_t count = parse_query_numbers(text, query.kind, values);
+    if (count == 0) {
         query.kind = rows[row].with_more;
-        if (!numbers_parse(text, values, count_numbers_of_kind(query.kind)))
-            return refuse_value(option, rows[row].takes, text);
+        count = parse_query_numbers(text, query.kind, values);
     }
-    if (!set_query_members(&query, values))
-        return print_refusal("--%s: the number of neighbours must be a whole number from 1 to %.0f; found \"%s\"", name,
-                             0x1p53 - 1, text);
+    if (count == 0)
+        return refuse_value(option, rows[row].takes, text);
+    if (!set_query_members(&query, values, count))
+        return print_refusal(
+            "--%s: the number of neighbours or hits must be a whole number from 1 to %.0f; found \"%s\"", name,
+            0x1p53 - 1, text);
     const octree_status status = octree_query_check(&query);
     if (status != OCTREE_OK)
         return print_refusal("--%s: %s in \"%s\"", name, octree_status_text(status), text);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* query_options.h - the options that ask queries: --nearest, --radius, --range. */
+/* query_options.h - the options that ask queries: --ray, --nearest, --radius, --range. */
 #ifndef CLI_QUERY_OPTIONS_H
 #define CLI_QUERY_OPTIONS_H
 

@@ -32,7 +32,7 @@ static void add_layer(scene *s, const layer_source *in, view_layer layer)
         type->add(s, in, layer);
     for (size_t i = 0; type->add_answer && i < in->answer_count; i++)
         if (layer_of_query(in->answers[i].kind) == layer)
-            type->add_answer(s, &in->answers[i], i, layer);
+            type->add_answer(s, in, i, layer);
 }
 
 /* Add all layers. The names of points take the room that other labels leave. The panel comes last because it counts

@@ -17,7 +17,8 @@ struct session_items {
     /* For each kind of item, the members of its JSON object. The name of the first member is the name of the kind.
      * Null for queries: list_query_members() lists their members. */
     const json_member (*members)[2];
-    size_t size, kind; /* the size of an item, and the offset of the member `kind` in an item, in bytes */
+    size_t size, kind;   /* the size of an item, and the offset of the member `kind` in an item, in bytes */
+    const void *initial; /* the item before its members are read; null: all bytes are 0 */
 };
 
 /* ---- Edits -------------------------------------------------------------------------------------------------- */
@@ -134,20 +135,37 @@ JSON_NAMES(query_name, octree_query_name, octree_query_kind)
 
 JSON_NAMES(bounds_name, octree_bounds_name, octree_bounds)
 
+static bool read_direction(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    const double *direction = into;
+    return json_read_vector(r, value, at, into) && (direction[0] != 0 || direction[1] != 0 || direction[2] != 0 ||
+                                                    json_fail(r, at, "the direction of a ray must not be [0, 0, 0]"));
+}
+
+static void write_direction(json_writer *w, const void *from)
+{
+    json_write_numbers(w, from, 3);
+}
+
 /* Make the table row of one member of a query. If the member is a target, its value is a position or the text
- * "player". */
+ * "player". An optional member is written if it is not 0; a count is always written, because 1 is its default. */
 static json_member make_query_member(const octree_query_member_traits *member)
 {
+    static const json_codec direction = {read_direction, write_direction};
     static const json_member rows[] = {
-        [OCTREE_MEMBER_BOX] = {.codec = &json_box, .required = true},
-        [OCTREE_MEMBER_POSITION] = {.codec = &json_vector, .required = true},
-        [OCTREE_MEMBER_COUNT] = {.codec = &json_size, .required = true, .max = UINT32_MAX},
-        [OCTREE_MEMBER_LENGTH] = {.codec = &json_nonnegative, .required = true},
+        [OCTREE_MEMBER_BOX] = {.codec = &json_box},
+        [OCTREE_MEMBER_POSITION] = {.codec = &json_vector},
+        [OCTREE_MEMBER_DIRECTION] = {.codec = &direction},
+        [OCTREE_MEMBER_COUNT] = {.codec = &json_size, .max = UINT32_MAX},
+        [OCTREE_MEMBER_LENGTH] = {.codec = &json_nonnegative, .nonzero_size = sizeof(double)},
         [OCTREE_MEMBER_BOUNDS] = {.codec = &json_choice, .names = bounds_name, .nonzero_size = sizeof(octree_bounds)}};
     static const json_codec target = {read_target, write_target};
     json_member row = rows[member->type];
     row.name = member->key;
     row.offset = row.nonzero = member->in_query;
+    row.required = !member->optional;
+    if (row.required)
+        row.nonzero_size = 0;
     if (member->bit == OCTREE_QUERY_HAS_TARGET) {
         row.codec = &target;
         row.offset = 0;
@@ -235,10 +253,14 @@ JSON_NAMES(shape_name, octree_shape_name, octree_shape_kind)
 
 #define ITEM(type) sizeof(type), offsetof(type, kind)
 
-const session_items session_edits = {SESSION_EDITS, "a list of edits", edit_kind_name, edit_members, ITEM(octree_edit)};
-const session_items session_queries = {SESSION_QUERIES, "a list of queries", query_name, NULL, ITEM(octree_query)};
-const session_items session_shapes = {SESSION_SHAPES, "a list of shapes", shape_name, shape_members,
-                                      ITEM(octree_shape)};
+const session_items session_edits = {SESSION_EDITS, "a list of edits", edit_kind_name,
+                                     edit_members,  ITEM(octree_edit), NULL};
+static const octree_query initial_query = {.k = 1};
+
+const session_items session_queries = {SESSION_QUERIES,    "a list of queries", query_name, NULL,
+                                       ITEM(octree_query), &initial_query};
+const session_items session_shapes = {SESSION_SHAPES, "a list of shapes", shape_name,
+                                      shape_members,  ITEM(octree_shape), NULL};
 
 static void list_item_members(const session_items *type, int kind, json_member table[MOST_MEMBERS])
 {
@@ -268,6 +290,8 @@ static bool read_item(json_reader *r, json_t *value, const json_place *at, void 
     if (!item)
         return false;
     memset(item, 0, type->size);
+    if (type->initial)
+        memcpy(item, type->initial, type->size);
     memcpy(item, &s->tick, sizeof s->tick);
     memcpy(item + type->kind, &kind, sizeof kind);
     list_item_members(type, kind, table);

@@ -114,13 +114,6 @@ static const json_member cost_members[] = {
     {0},
 };
 
-static const json_member neighbor_members[] = {
-    {"id", &json_uint64, .offset = offsetof(octree_neighbor, point.id)},
-    {"position", &json_vector, .offset = offsetof(octree_neighbor, point.position)},
-    {"distance", &json_number, .offset = offsetof(octree_neighbor, distance)},
-    {0},
-};
-
 static const json_member refusal_members[] = {
     {"id", &json_uint64, .offset = offsetof(octree_refusal, id)},
     {"why", &json_choice, .offset = offsetof(octree_refusal, why), .names = status_name},
@@ -171,7 +164,13 @@ static const json_member last_answer_members[] = {
  * list. */
 static void write_result(json_writer *w, const octree_answer *answer, const octree_query_traits *about)
 {
-    static const json_member list = {.members = neighbor_members, .size = sizeof(octree_neighbor)};
+    const json_member members[] = {
+        {"id", &json_uint64, .offset = offsetof(octree_neighbor, point.id)},
+        {"position", &json_vector, .offset = offsetof(octree_neighbor, point.position)},
+        {about->measure, &json_number, .offset = offsetof(octree_neighbor, distance)},
+        {0},
+    };
+    const json_member list = {.members = members, .size = sizeof(octree_neighbor)};
     if (!about->neighbors) {
         json_write_key(w, "ids");
         write_point_ids(w, &(json_counted_array){answer->points, answer->count});
@@ -180,7 +179,7 @@ static void write_result(json_writer *w, const octree_answer *answer, const octr
         w->row = &list;
         json_structures.write(w, &(json_counted_array){answer->neighbors, answer->count});
     } else if (answer->count > 0) {
-        json_write_members(w, neighbor_members, answer->neighbors);
+        json_write_members(w, members, answer->neighbors);
     } else {
         json_write_text_member(w, "id", NULL);
     }
@@ -191,8 +190,9 @@ void tick_write_query_parameters(json_writer *w, const octree_answer *answer)
     static const json_member rows[] = {
         [OCTREE_MEMBER_BOX] = {.codec = &json_vector},
         [OCTREE_MEMBER_POSITION] = {.codec = &json_vector},
+        [OCTREE_MEMBER_DIRECTION] = {.codec = &json_vector},
         [OCTREE_MEMBER_COUNT] = {.codec = &json_size},
-        [OCTREE_MEMBER_LENGTH] = {.codec = &json_number},
+        [OCTREE_MEMBER_LENGTH] = {.codec = &json_number, .nonzero_size = sizeof(double)},
         [OCTREE_MEMBER_BOUNDS] = {.codec = &json_choice, .names = bounds_name, .nonzero_size = sizeof(octree_bounds)}};
     const octree_query_traits *about = octree_query_about(answer->kind);
     for (size_t i = 0; i < OCTREE_QUERY_MEMBERS; i++) {
@@ -200,10 +200,12 @@ void tick_write_query_parameters(json_writer *w, const octree_answer *answer)
         json_member table[] = {rows[member->type], {0}, {0}};
         if (!(about->members & member->bit))
             continue;
-        table[0].name = member->key;
+        table[0].name = member->bit == OCTREE_QUERY_HAS_TARGET      ? about->place
+                        : member->bit == OCTREE_QUERY_HAS_DIRECTION ? "direction"
+                                                                    : member->key;
         table[0].offset = table[0].nonzero = member->in_answer;
-        if (member->bit == OCTREE_QUERY_HAS_TARGET)
-            table[0].name = about->neighbors ? "target" : "center";
+        if (!member->optional)
+            table[0].nonzero_size = 0;
         if (member->type == OCTREE_MEMBER_BOX) {
             table[0].name = "min";
             table[1] = table[0];

@@ -55,19 +55,47 @@ static void append_found_count(description *d, const octree_answer *answer)
     append_text(d, ", %zu point%s found", answer->count, plural_ending(answer->count));
 }
 
-static void describe_neighbor(description *d, uint64_t place, uint64_t rank)
+static void describe_neighbor(description *d, uint64_t place, uint64_t rank, const char *noun)
 {
     const octree_answer *answer = append_query(d, "line", place);
     const octree_neighbor *neighbor = &answer->neighbors[rank];
-    append_text(d, " to neighbour %" PRIu64, rank + 1);
+    append_text(d, " to %s %" PRIu64, noun, rank + 1);
     describe_point(d, ": ", neighbor->point.id, neighbor->point.position);
-    append_number(d, ", distance ", neighbor->distance);
+    append_text(d, ", %s ", octree_query_about(answer->kind)->measure);
+    append_number(d, "", neighbor->distance);
+}
+
+/* Write the ids of the points of an answer that consists of neighbours. */
+static void write_neighbors(pen *p, const char *name, const octree_answer *answer)
+{
+    octree_point first[PEN_MOST_IDS];
+    for (size_t i = 0; i < answer->count && i < PEN_MOST_IDS; i++)
+        first[i] = answer->neighbors[i].point;
+    write_ids(p, name, first, answer->count);
+}
+
+/* Write the only neighbour of an answer, and its distance or t between two texts. */
+static void write_only_neighbor(pen *p, const char *name, const octree_answer *answer, const char *before,
+                                const char *after)
+{
+    char id[SCENE_TEXT], value[NUMBER_TEXT];
+    if (answer->count == 0) {
+        write_row(p, name, "", "none");
+        return;
+    }
+    number_format(answer->neighbors[0].distance, 6, value);
+    snprintf(id, sizeof id, "#%" PRIu64, answer->neighbors[0].point.id);
+    const bool fits = (int)strlen(id) <= detail_room(p, strlen(before) + strlen(value) + strlen(after));
+    if (!fits)
+        write_row(p, name, "", "%s", id);
+    write_row(p, fits ? name : "", fits ? id : "", "%s%s%s", before, value, after);
 }
 
 /* ---- Range queries ------------------------------------------------------------------------------------------ */
 
-static void add_range(scene *s, const octree_answer *answer, size_t place, view_layer layer)
+static void add_range(scene *s, const layer_source *in, size_t place, view_layer layer)
 {
+    const octree_answer *answer = &in->answers[place];
     scene_add_outline(s, place, &answer->box, make_layer_style(layer, STROKE_DASHED, 1));
     mark_answer_points(s, answer, layer, SHAPE_FRAME, 5);
 }
@@ -114,8 +142,9 @@ static void add_circle(scene *s, const octree_answer *ball, size_t place, int pl
     }
 }
 
-static void add_ball(scene *s, const octree_answer *answer, size_t place, view_layer layer)
+static void add_ball(scene *s, const layer_source *in, size_t place, view_layer layer)
 {
+    const octree_answer *answer = &in->answers[place];
     const scene_style style = make_layer_style(layer, STROKE_SOLID, 1);
     for (int plane = 0; plane < BALL_CIRCLES; plane++)
         add_circle(s, answer, place, plane, style);
@@ -146,33 +175,35 @@ const layer_type layer_RADIUS = {
 
 /* ---- Queries for k nearest points --------------------------------------------------------------------------- */
 
-/* Write the ranks of the nearest neighbours beside their points, on a background that hides points and lines behind the
- * rank. Nearer neighbours come first; if there is no free room beside a point, its rank is left out. */
-static void add_ranks(scene *s, const octree_answer *answer, size_t place, scene_style style)
+/* Write the ranks of the first neighbours beside their places, on a background that hides points and lines behind the
+ * rank. Lower ranks come first; if there is no free room beside a place, its rank is left out. */
+static void add_ranks(scene *s, double places[NUMBERED_RANKS][3], size_t ranks, unsigned half, size_t place,
+                      scene_style style)
 {
     text_space words = text_space_make(s);
-    const size_t ranks = answer->count < NUMBERED_RANKS ? answer->count : NUMBERED_RANKS;
     for (size_t i = 0; i < ranks; i++)
-        text_space_reserve_mark(&words, s, answer->neighbors[i].point.position, NEIGHBOR_HALF);
+        text_space_reserve_mark(&words, s, places[i], half);
     for (size_t i = 0; i < ranks; i++)
-        text_space_add_label_beside(&words, s, scene_make_label(make_part_id(place, i), style, "%zu", i + 1),
-                                    answer->neighbors[i].point.position, NEIGHBOR_HALF);
+        text_space_add_label_beside(&words, s, scene_make_label(make_part_id(place, i), style, "%zu", i + 1), places[i],
+                                    half);
 }
 
-static void add_knearest(scene *s, const octree_answer *answer, size_t place, view_layer layer)
+static void add_knearest(scene *s, const layer_source *in, size_t place, view_layer layer)
 {
+    const octree_answer *answer = &in->answers[place];
     const scene_style style = make_layer_style(layer, STROKE_SOLID, 1);
     for (size_t i = 0; i < answer->count; i++)
         scene_add_line(s, make_part_id(place, i), answer->target, answer->neighbors[i].point.position, style);
-    add_ranks(s, answer, place, style);
+    double ranked[NUMBERED_RANKS][3];
+    const size_t ranks = answer->count < NUMBERED_RANKS ? answer->count : NUMBERED_RANKS;
+    for (size_t i = 0; i < ranks; i++)
+        memcpy(ranked[i], answer->neighbors[i].point.position, sizeof ranked[i]);
+    add_ranks(s, ranked, ranks, NEIGHBOR_HALF, place, style);
 }
 
 static void write_knearest(pen *p, const octree_answer *answer)
 {
-    octree_point first[PEN_MOST_IDS];
-    for (size_t i = 0; i < answer->count && i < PEN_MOST_IDS; i++)
-        first[i] = answer->neighbors[i].point;
-    write_ids(p, "k nearest", first, answer->count);
+    write_neighbors(p, "k nearest", answer);
 }
 
 static void describe_knearest(description *d, const described_element *element)
@@ -182,7 +213,7 @@ static void describe_knearest(description *d, const described_element *element)
     else if (element->kind == SCENE_PANEL)
         append_text(d, "the background of the rank of a neighbour");
     else
-        describe_neighbor(d, element->id >> 32, element->id & UINT32_MAX);
+        describe_neighbor(d, element->id >> 32, element->id & UINT32_MAX, "neighbour");
 }
 
 const layer_type layer_KNEAREST = {
@@ -193,8 +224,9 @@ const layer_type layer_KNEAREST = {
 
 /* ---- Queries for the nearest point -------------------------------------------------------------------------- */
 
-static void add_nearest(scene *s, const octree_answer *answer, size_t place, view_layer layer)
+static void add_nearest(scene *s, const layer_source *in, size_t place, view_layer layer)
 {
+    const octree_answer *answer = &in->answers[place];
     for (size_t i = 0; i < answer->count; i++) {
         const octree_point *point = &answer->neighbors[i].point;
         scene_add_line(s, place, answer->target, point->position, make_layer_style(layer, STROKE_DASHED, 1));
@@ -204,22 +236,12 @@ static void add_nearest(scene *s, const octree_answer *answer, size_t place, vie
 
 static void write_nearest(pen *p, const octree_answer *answer)
 {
-    char id[SCENE_TEXT], distance[NUMBER_TEXT];
-    if (answer->count == 0) {
-        write_row(p, "nearest", "", "none");
-        return;
-    }
-    number_format(answer->neighbors[0].distance, 6, distance);
-    snprintf(id, sizeof id, "#%" PRIu64, answer->neighbors[0].point.id);
-    const bool fits = (int)strlen(id) <= detail_room(p, strlen(distance) + strlen(" away"));
-    if (!fits)
-        write_row(p, "nearest", "", "%s", id);
-    write_row(p, fits ? "nearest" : "", fits ? id : "", "%s away", distance);
+    write_only_neighbor(p, "nearest", answer, "", " away");
 }
 
 static void describe_nearest(description *d, const described_element *element)
 {
-    describe_neighbor(d, element->id, 0);
+    describe_neighbor(d, element->id, 0, "neighbour");
 }
 
 const layer_type layer_NEAREST = {
@@ -227,3 +249,94 @@ const layer_type layer_NEAREST = {
     .write_answer = write_nearest,
     .legend = {.order = 150, .sign = SIGN_DASHES, .text = "nearest point", .drop_order = DROP_LATE},
     .describe = describe_nearest};
+
+/* ---- Rays --------------------------------------------------------------------------------------------------- */
+
+/* The parts of a ray: the searched part, the part beyond the last of k hits, and a line from each hit to its point. */
+enum { RAY_SEARCHED, RAY_BEYOND, RAY_HITS };
+
+static void find_ray_position(const octree_answer *ray, double t, double position[3])
+{
+    for (int i = 0; i < 3; i++)
+        position[i] = ray->target[i] + t * ray->direction[i];
+}
+
+/* Return the parameter t at which a ray leaves the world, or at which it ends before. A ray that starts outside the
+ * world and moves away from it is drawn as long as the world. */
+static double find_ray_end(const octree_answer *ray, const octree_box *world)
+{
+    double end = HUGE_VAL, longest = 0, fastest = 0;
+    for (int i = 0; i < 3; i++) {
+        const double d = ray->direction[i], way = (d > 0 ? world->max : world->min)[i] - ray->target[i];
+        end = d != 0 && way / d < end ? way / d : end;
+        longest = fmax(longest, world->max[i] - world->min[i]);
+        fastest = fmax(fastest, fabs(d));
+    }
+    end = end > 0 ? end : longest / fastest;
+    return ray->length > 0 && ray->length < end ? ray->length : end;
+}
+
+/* Add the line of a ray: solid to the last of k hits, where the search ended, and dashed beyond. With fewer than k hits
+ * the search went on to the end. */
+static void add_ray_line(scene *s, const octree_answer *ray, const octree_box *world, size_t place, view_layer layer)
+{
+    const double end = find_ray_end(ray, world), last = ray->count ? ray->neighbors[ray->count - 1].distance : 0;
+    const double searched = ray->count > 0 && ray->count == ray->k ? last : fmax(end, last);
+    double middle[3], to[3];
+    find_ray_position(ray, searched, middle);
+    scene_add_line(s, make_part_id(place, RAY_SEARCHED), ray->target, middle, make_layer_style(layer, STROKE_ARROW, 3));
+    if (searched >= end)
+        return;
+    find_ray_position(ray, end, to);
+    scene_add_line(s, make_part_id(place, RAY_BEYOND), middle, to, make_layer_style(layer, STROKE_DASHED, 1));
+}
+
+static void add_ray(scene *s, const layer_source *in, size_t place, view_layer layer)
+{
+    const octree_answer *ray = &in->answers[place];
+    const unsigned half = ray->count <= FEW_MARKS ? 6 : ray->count <= MANY_MARKS ? 3 : 1;
+    double at[3], ranked[NUMBERED_RANKS][3];
+    add_ray_line(s, ray, &in->world, place, layer);
+    for (size_t i = 0; i < ray->count; i++) {
+        const octree_point *point = &ray->neighbors[i].point;
+        find_ray_position(ray, ray->neighbors[i].distance, at);
+        scene_add_line(s, make_part_id(place, RAY_HITS + i), at, point->position,
+                       make_layer_style(layer, STROKE_SOLID, 1));
+        scene_add_mark(s, point->id, at, SHAPE_DIAMOND, make_layer_style(layer, STROKE_SOLID, half));
+        if (i < NUMBERED_RANKS)
+            memcpy(ranked[i], at, sizeof at);
+    }
+    add_ranks(s, ranked, ray->count < NUMBERED_RANKS ? ray->count : NUMBERED_RANKS, half, place,
+              make_layer_style(layer, STROKE_SOLID, 1));
+}
+
+static void write_ray(pen *p, const octree_answer *answer)
+{
+    if (answer->k == 1)
+        write_only_neighbor(p, "ray", answer, "t ", "");
+    else
+        write_neighbors(p, "ray", answer);
+}
+
+static void describe_ray(description *d, const described_element *element)
+{
+    const uint64_t place = element->id >> 32, part = element->id & UINT32_MAX;
+    if (element->kind == SCENE_LABEL) {
+        append_text(d, ", the rank of a hit");
+    } else if (element->kind == SCENE_PANEL) {
+        append_text(d, "the background of the rank of a hit");
+    } else if (part >= RAY_HITS) {
+        describe_neighbor(d, place, part - RAY_HITS, "hit");
+    } else {
+        const octree_answer *answer = append_query(d, part == RAY_BEYOND ? "unsearched part" : "line", place);
+        append_position(d, ": from ", answer->target);
+        append_position(d, " in direction ", answer->direction);
+        append_found_count(d, answer);
+    }
+}
+
+const layer_type layer_RAY = {
+    .add_answer = add_ray,
+    .write_answer = write_ray,
+    .legend = {.order = 152, .sign = SIGN_ARROW, .text = "ray query", .drop_order = DROP_LATE},
+    .describe = describe_ray};

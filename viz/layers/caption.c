@@ -181,10 +181,11 @@ static void append_single_answer(words *w, const layer_source *in, const octree_
         stats = in->tick->stats;
     else
         octree_statistics(in->tree, &stats);
-    if (answer->kind == OCTREE_QUERY_RANGE)
-        append(w, "%zu point%s in the box", answer->count, plural_ending(answer->count));
-    else if (answer->kind == OCTREE_QUERY_RADIUS)
-        append(w, "%zu point%s in the ball", answer->count, plural_ending(answer->count));
+    const octree_query_traits *about = octree_query_about(answer->kind);
+    if (about->members & OCTREE_QUERY_HAS_DIRECTION)
+        append(w, "%zu hit%s of the ray", answer->count, plural_ending(answer->count));
+    else if (!about->neighbors)
+        append(w, "%zu point%s in the %s", answer->count, plural_ending(answer->count), about->region);
     else
         append_place(w, answer->k == 1 ? "nearest to " : "nearest points to ", answer->target);
     append(w, ": %" PRIu64 " of %zu nodes visited", answer->cost.nodes, stats.nodes);

@@ -87,12 +87,14 @@ static void describe(description *d, const described_element *element)
 {
     const layer_type *type = layer_types[element->style.layer];
     const bool found = type->add_answer && element->kind == SCENE_MARKER;
+    octree_point point; /* it can lie beside the marker, which is where a ray hits the point's body */
     if (type->describe && !found)
         type->describe(d, element);
     else if (element->kind == SCENE_BOX)
         describe_node(d, "", element->id);
     else if (element->kind == SCENE_MARKER)
-        describe_point(d, "", element->id, element->at);
+        describe_point(d, "", element->id,
+                       found && octree_game_find(d->game, element->id, &point) ? point.position : element->at);
     if (found)
         append_text(d, ", found by a %s query", layer_rows[element->style.layer].name);
 }

@@ -63,10 +63,11 @@ typedef struct layer_type {
      * compared sessions can, `octreel diff` does not report that only one of the recordings shows the layer. */
     bool (*in_session)(const octree_session *session);
 
-    /* add() adds the layer's elements. add_answer() adds the elements of one answer. These functions need not check
+    /* add() adds the layer's elements. add_answer() adds the elements of the answer with the index
+     * `place`. These functions need not check
      * whether the view hides the layer: scene_add_*() drops the elements of hidden layers. */
     void (*add)(scene *s, const layer_source *in, view_layer layer);
-    void (*add_answer)(scene *s, const octree_answer *answer, size_t place, view_layer layer);
+    void (*add_answer)(scene *s, const layer_source *in, size_t place, view_layer layer);
 
     /* Write the row of an answer in the text column. */
     void (*write_answer)(pen *p, const octree_answer *answer);

@@ -87,25 +87,24 @@ void inspect_print_numbers(const double *values, size_t count, FILE *out)
     }
 }
 
-void inspect_print_point(const octree_point *point, const double *distance, FILE *out)
+void inspect_print_point(const octree_point *point, const char *name, const double *distance, FILE *out)
 {
     fprintf(out, "  %" PRIu64 ":", point->id);
     inspect_print_numbers(point->position, 3, out);
     if (distance) {
-        fputs("  at", out);
+        fprintf(out, "  %s", name);
         inspect_print_numbers(distance, 1, out);
     }
     fputc('\n', out);
 }
 
-void inspect_write_point(json_writer *w, const octree_point *point, const double *distance)
+void inspect_write_point(json_writer *w, const octree_point *point, const char *name, const double *distance)
 {
     json_write_begin_object(w);
     json_write_integer_member(w, "id", point->id);
     json_write_vector_member(w, "position", point->position);
-    if (distance) {
-        json_write_number_member(w, "distance", *distance);
-    }
+    if (distance)
+        json_write_number_member(w, name, *distance);
     json_write_end_object(w);
 }
 
@@ -232,7 +231,7 @@ static void print_node(const octree_node *node, const char *name, FILE *out)
             node->leaf ? "leaf" : "inner node", node->count, plural_ending(node->count), node->depth);
     print_box(out, "  box", &node->box);
     for (size_t i = 0; node->leaf && i < node->count && i < LIST_LINES; i++)
-        inspect_print_point(&node->points[i], NULL, out);
+        inspect_print_point(&node->points[i], NULL, NULL, out);
     print_remaining_count(out, node->leaf ? node->count : 0, LIST_LINES, "--json lists all");
 }
 
@@ -249,7 +248,7 @@ static void write_node(const octree_node *node, const char *name, FILE *out)
     json_write_box_member(w, "box", &node->box);
     json_begin_array_member(w, "points");
     for (size_t i = 0; node->leaf && i < node->count; i++)
-        inspect_write_point(w, &node->points[i], NULL);
+        inspect_write_point(w, &node->points[i], NULL, NULL);
     json_write_end_array(w);
     json_write_end_object(w);
     json_write_end_line(w);

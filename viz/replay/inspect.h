@@ -43,11 +43,11 @@ void inspect_print_node(const octree_node *node, const char *name, bool json, FI
 
 /* Functions that print one item each. inspect_print_name() prints the name of the cloud on a separate line.
  * inspect_print_numbers() prints numbers with a space before each. The last two functions print a point, on a line or
- * as a JSON object. `distance` may be null. */
+ * as a JSON object. `name` is the word before the distance, or its key; `distance` may be null. */
 void inspect_print_name(const char *name, FILE *out);
 void inspect_print_numbers(const double *values, size_t count, FILE *out);
-void inspect_print_point(const octree_point *point, const double *distance, FILE *out);
-void inspect_write_point(json_writer *w, const octree_point *point, const double *distance);
+void inspect_print_point(const octree_point *point, const char *name, const double *distance, FILE *out);
+void inspect_write_point(json_writer *w, const octree_point *point, const char *name, const double *distance);
 
 /* Count the points of each class into i->classes. Returns false if memory runs out. */
 bool inspect_count_classes(inspection *i);

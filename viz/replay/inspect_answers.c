@@ -4,11 +4,13 @@
 #include "inspect_answers.h"
 #include "inspect.h"
 #include "json_write.h"
+#include "number.h"
 #include "octree/octree.h"
 #include "text.h"
 #include "ticks_write.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -41,6 +43,31 @@ static octree_status answer_query(const octree *tree, const octree_query *query,
     if (status == OCTREE_OK && is_ball(query->kind))
         status = find_distances(tree, query, answer->count, nearest);
     return status;
+}
+
+/* Returns the distance of neighbouring points if the points of a leaf lie on a surface, rounded up. The leaf has the
+ * median depth and the mean number of points. */
+static double find_default_thickness(const octree *tree)
+{
+    octree_stats stats;
+    double half = 0; /* half the longest side of the world; the whole side could overflow */
+    if (octree_statistics(tree, &stats) != OCTREE_OK || stats.points == 0)
+        return 0;
+    const octree_box world = octree_definition(tree).world;
+    for (int i = 0; i < 3; i++)
+        half = fmax(half, world.max[i] / 2 - world.min[i] / 2);
+    unsigned depth = 0;
+    for (size_t count = stats.leaves_at_depth[0]; count * 2 < stats.leaves; count += stats.leaves_at_depth[depth])
+        depth++;
+    const double points = (double)stats.points / (double)stats.leaves;
+    return number_round_up_to_1_2_5(ldexp(half, 1 - (int)depth) / sqrt(points));
+}
+
+void inspect_fill_queries(const octree *tree, octree_query *queries, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (octree_query_about(queries[i].kind)->members & OCTREE_QUERY_HAS_THICKNESS && queries[i].thickness == 0)
+            queries[i].thickness = find_default_thickness(tree);
 }
 
 bool inspect_ask(const octree *tree, const octree_query *queries, size_t count, inspect_answers *result,
@@ -80,6 +107,11 @@ typedef struct shown_answer {
     octree_box world;
 } shown_answer;
 
+static bool is_ray(const octree_query_traits *about)
+{
+    return about->members & OCTREE_QUERY_HAS_DIRECTION;
+}
+
 static shown_answer make_shown_answer(const inspect_answers *answers, size_t i)
 {
     const octree_answer *answer = &answers->answers[i];
@@ -117,7 +149,9 @@ static bool describe_answer_note(const shown_answer *shown, char note[NOTE_TEXT]
     memcpy(target.min, answer->target, sizeof target.min);
     memcpy(target.max, answer->target, sizeof target.max);
     *note = 0;
-    if (shown->about->neighbors && answer->count < answer->k)
+    if (is_ray(shown->about))
+        snprintf(note, answer->count == 0 ? NOTE_TEXT : 1, "the ray hits no point; a thicker ray may");
+    else if (shown->about->neighbors && answer->count < answer->k)
         snprintf(note, NOTE_TEXT, "the tree holds no %spoints", answer->count == 0 ? "" : "more ");
     else if (octree_answer_bound(answer, &bound) && is_outside(&shown->world, &bound))
         snprintf(note, NOTE_TEXT, "the %s lies outside the world", shown->about->region);
@@ -138,30 +172,39 @@ static void print_member(const shown_answer *shown, const octree_query_member_tr
         inspect_print_numbers(((const octree_box *)value)->max, 3, out);
         break;
     case OCTREE_MEMBER_POSITION:
-        fprintf(out, " %s",
-                member->bit != OCTREE_QUERY_HAS_TARGET ? member->key
-                : shown->about->neighbors              ? "to"
-                                                       : "about");
+        fprintf(out, " %s", is_ray(shown->about) ? "from" : shown->about->neighbors ? "to" : "about");
+        inspect_print_numbers((const double *)value, 3, out);
+        break;
+    case OCTREE_MEMBER_DIRECTION:
+        fputs(" in direction", out);
         inspect_print_numbers((const double *)value, 3, out);
         break;
     case OCTREE_MEMBER_LENGTH:
+        if (member->optional && *(const double *)value == 0)
+            break;
+        if (member->optional)
+            fprintf(out, ", %s", member->key);
         inspect_print_numbers((const double *)value, 1, out);
         break;
     case OCTREE_MEMBER_BOUNDS:
         if (*(const octree_bounds *)value != OCTREE_BOUNDS_CLOSED)
             fprintf(out, ", %s bounds", octree_bounds_name(*(const octree_bounds *)value));
         break;
-    case OCTREE_MEMBER_COUNT: /* a count is printed at the start of the question, before the name of the kind */
+    case OCTREE_MEMBER_COUNT: /* a count is printed at the start of the question */
         break;
     }
 }
 
-/* Print a query: "range MIN to MAX", "radius R about PLACE", "nearest to PLACE" or "8 nearest to PLACE". The member
- * that gives the query kind its name comes first. */
+/* Print a query: "range MIN to MAX", "radius R about PLACE", "nearest to PLACE", "8 nearest to PLACE" or "first 8 hits
+ * of the ray in direction D from PLACE". The member that gives the query kind its name comes first. */
 static void print_question(const shown_answer *shown, FILE *out)
 {
     const octree_query_traits *about = shown->about;
-    if (about->members & OCTREE_QUERY_HAS_K)
+    if (is_ray(about) && shown->answer->k == 1)
+        fputs("first hit of the ray", out);
+    else if (is_ray(about))
+        fprintf(out, "first %zu hits of the ray", shown->answer->k);
+    else if (about->members & OCTREE_QUERY_HAS_K)
         fprintf(out, "%zu nearest", shown->answer->k);
     else
         fputs(about->name, out);
@@ -182,7 +225,8 @@ static void print_answer(const shown_answer *shown, FILE *out)
     if (describe_answer_note(shown, note))
         fprintf(out, "  note: %s\n", note);
     for (size_t i = 0; i < shown->answer->count && i < LIST_LINES; i++)
-        inspect_print_point(point_at(shown, i), distance_at(shown, i), out);
+        inspect_print_point(point_at(shown, i), is_ray(shown->about) ? shown->about->measure : "at",
+                            distance_at(shown, i), out);
     print_remaining_count(out, shown->answer->count, LIST_LINES, "--json lists all");
     fprintf(out,
             "  cost: %" PRIu64 " node%s visited (%" PRIu64 " %s); %" PRIu64 " point%s compared; %" PRIu64
@@ -198,7 +242,7 @@ static void write_points(json_writer *w, const shown_answer *shown)
     json_write_integer_member(w, "found", shown->answer->count);
     json_begin_array_member(w, "points");
     for (size_t i = 0; i < shown->answer->count; i++)
-        inspect_write_point(w, point_at(shown, i), distance_at(shown, i));
+        inspect_write_point(w, point_at(shown, i), shown->about->measure, distance_at(shown, i));
     json_write_end_array(w);
 }
 

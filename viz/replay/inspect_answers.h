@@ -17,6 +17,10 @@ typedef struct inspect_answers {
     size_t count;
 } inspect_answers;
 
+/* Give each ray without a thickness one that suits the tree: about the distance of neighbouring points. Without it,
+ * rays would hit no points. */
+void inspect_fill_queries(const octree *tree, octree_query *queries, size_t count);
+
 /* Answer a list of queries. The region of a query may extend beyond the world. If a query is invalid or memory runs
  * out, returns false with an error; there is then nothing to release. */
 bool inspect_ask(const octree *tree, const octree_query *queries, size_t count, inspect_answers *result,

@@ -9,8 +9,8 @@
  * a phrase for it in sentences, its description in --help, and its colour (a row of theme.h; kinds may share a colour).
  *
  * The next columns describe the option of octreel inspect that makes such a query. They are: the option's value in
- * --help (null: the kind has no option of its own); the query kind that the option makes if its value has the optional
- * last number; the option's description in --help; and a phrase for the expected value, for error messages.
+ * --help (null: the kind has no option of its own); the query kind that the option makes if its value has more numbers
+ * than this kind; the option's description in --help; and a phrase for the expected value, for error messages.
  *
  * Each row calls Y(X, row...): the tables of layers and of options pass a Y that selects their columns. */
 #define QUERY_LOOKS(Y, X)                                                                                              \
@@ -25,7 +25,14 @@
       NULL, KNEAREST, NULL, NULL)                                                                                      \
     Y(X, NEAREST, "nearest", "nearest queries", "a line to the nearest point", ROLE_NEAREST, "X,Y,Z[,K]", KNEAREST,    \
       "print and draw the point nearest to a position, or the K nearest points",                                       \
-      "a position, and the number of neighbours if it is not 1, as in 1,2,3 or 1,2,3,8")
+      "a position, and the number of neighbours if it is not 1, as in 1,2,3 or 1,2,3,8")                               \
+    Y(X, RAY, "ray", "rays", "rays, the places at which they hit points, and the ranks of these hits", ROLE_RADIUS,    \
+      "X,Y,Z,DX,DY,DZ[,K[,THICKNESS[,LENGTH]]]", RAY,                                                                  \
+      "print and draw the first point that a ray from a position in a direction hits, or the first K points. A point " \
+      "is hit if it is at most THICKNESS from the ray on each axis (default: chosen from the sizes of the leaves). "   \
+      "The ray ends after LENGTH times the direction, or never",                                                       \
+      "a position, a direction, and optionally the number of hits, the thickness and the length of the ray, as in "    \
+      "0,0,0,1,0,0 or 0,0,0,1,0,0,8,0.5,100")
 
 #define QUERY_LAYER(X, kind, name, words, help, role, ...) X(kind, name, words, help, role, false, true)
 

@@ -19,11 +19,12 @@ extern "C" {
 /* The types of the members in OCTREE_QUERY_MEMBER_MAP. The type of a member decides how the member is checked, read,
  * written, printed and rounded to floats. */
 typedef enum octree_member_type {
-    OCTREE_MEMBER_BOX,      /* octree_box: six numbers, NaN is refused, infinities are allowed */
-    OCTREE_MEMBER_POSITION, /* double[3]: three finite numbers */
-    OCTREE_MEMBER_COUNT,    /* size_t: any number */
-    OCTREE_MEMBER_LENGTH,   /* double: finite, >= 0 */
-    OCTREE_MEMBER_BOUNDS,   /* octree_bounds; session files may leave it out, which means closed */
+    OCTREE_MEMBER_BOX,       /* octree_box: six numbers, NaN is refused, infinities are allowed */
+    OCTREE_MEMBER_POSITION,  /* double[3]: three finite numbers */
+    OCTREE_MEMBER_DIRECTION, /* double[3]: three finite numbers, not all zero */
+    OCTREE_MEMBER_COUNT,     /* size_t: any number */
+    OCTREE_MEMBER_LENGTH,    /* double: finite, >= 0 */
+    OCTREE_MEMBER_BOUNDS,    /* octree_bounds */
 } octree_member_type;
 
 /* Whether points exactly on the boundary of a region belong to the answer. Coordinates and distances are compared as
@@ -43,14 +44,18 @@ typedef enum octree_bounds {
 const char *octree_bounds_name(octree_bounds bounds);
 
 /* The members of octree_query and octree_answer that only some kinds of query read. The columns: the name of the
- * member's constants, the member, its type, and its key in session files. Answers list their members in this order. To
- * add a member, add a row here and a field to both structs. */
+ * member's constants, the member, its type, its key in session files, and REQUIRED or OPTIONAL: session files may leave
+ * out an optional member, which then is 0, and a count is 1. Answers list their members in this order. To add a member,
+ * add a row here and a field to both structs. */
 #define OCTREE_QUERY_MEMBER_MAP(X)                                                                                     \
-    X(BOX, box, BOX, "box")                                                                                            \
-    X(TARGET, target, POSITION, "at")                                                                                  \
-    X(K, k, COUNT, "k")                                                                                                \
-    X(RADIUS, radius, LENGTH, "radius")                                                                                \
-    X(BOUNDS, bounds, BOUNDS, "bounds")
+    X(BOX, box, BOX, "box", REQUIRED)                                                                                  \
+    X(TARGET, target, POSITION, "at", REQUIRED)                                                                        \
+    X(DIRECTION, direction, DIRECTION, "ray", REQUIRED)                                                                \
+    X(K, k, COUNT, "k", OPTIONAL)                                                                                      \
+    X(RADIUS, radius, LENGTH, "radius", REQUIRED)                                                                      \
+    X(THICKNESS, thickness, LENGTH, "thickness", OPTIONAL)                                                             \
+    X(LENGTH, length, LENGTH, "length", OPTIONAL)                                                                      \
+    X(BOUNDS, bounds, BOUNDS, "bounds", OPTIONAL)
 
 enum {
 #define OCTREE_QUERY_MEMBER_INDEX(member, ...) OCTREE_QUERY_MEMBER_##member,
@@ -72,6 +77,7 @@ typedef struct octree_query_member_traits {
     octree_query_member bit;
     octree_member_type type;
     const char *key;  /* the member's key in session files */
+    bool optional;    /* session files may leave the member out, unless the kind bears its name */
     size_t in_query;  /* the member's offset in octree_query, in bytes */
     size_t in_answer; /* the member's offset in octree_answer, in bytes */
 } octree_query_member_traits;
@@ -81,20 +87,25 @@ const octree_query_member_traits *octree_query_member_at(size_t index);
 
 /* One row for each kind of query. The columns: the kind's name; the members of octree_query that the kind reads; the
  * member whose key in a session file is the kind's name; POINTS or NEIGHBORS, the array of octree_answer that holds the
- * result; the kind's meaning in a few words; a noun for the searched region.
+ * result; the kind's meaning in a few words; a noun for the searched region; the keys of the target and of
+ * octree_neighbor.distance in ticks.jsonl.
  *
- * To add a kind: a row here; a file lib/src/ask/kind_NAME.c, which defines run_NAME_query() and, for POINTS,
- * compare_position_to_NAME() and find_bounds_of_NAME(); a row of viz/scene/query_looks.h; a layer_NAME in viz/layers; a
- * test. If one of these is missing, the program does not compile or link. */
+ * To add a kind: a row here; a file lib/src/ask/kind_NAME.c, which defines the functions of query_rules in
+ * lib/src/ask/kind.h; a row of viz/scene/query_looks.h; a layer_NAME in viz/layers; a test. If one of these is missing,
+ * the program does not compile or link. */
 #define OCTREE_QUERY_MAP(X)                                                                                            \
     X(RANGE, range, OCTREE_QUERY_HAS_BOX | OCTREE_QUERY_HAS_BOUNDS, OCTREE_QUERY_HAS_BOX, POINTS,                      \
-      "the points in a box", "box")                                                                                    \
+      "the points in a box", "box", "center", "distance")                                                              \
     X(NEAREST, nearest, OCTREE_QUERY_HAS_TARGET, OCTREE_QUERY_HAS_TARGET, NEIGHBORS, "the point nearest to a place",   \
-      "space")                                                                                                         \
+      "space", "target", "distance")                                                                                   \
     X(KNEAREST, knearest, OCTREE_QUERY_HAS_TARGET | OCTREE_QUERY_HAS_K, OCTREE_QUERY_HAS_K, NEIGHBORS,                 \
-      "the k points nearest to a place", "space")                                                                      \
+      "the k points nearest to a place", "space", "target", "distance")                                                \
     X(RADIUS, radius, OCTREE_QUERY_HAS_TARGET | OCTREE_QUERY_HAS_RADIUS | OCTREE_QUERY_HAS_BOUNDS,                     \
-      OCTREE_QUERY_HAS_RADIUS, POINTS, "the points in a ball", "ball")
+      OCTREE_QUERY_HAS_RADIUS, POINTS, "the points in a ball", "ball", "center", "distance")                           \
+    X(RAY, ray,                                                                                                        \
+      OCTREE_QUERY_HAS_TARGET | OCTREE_QUERY_HAS_DIRECTION | OCTREE_QUERY_HAS_K | OCTREE_QUERY_HAS_THICKNESS |         \
+          OCTREE_QUERY_HAS_LENGTH,                                                                                     \
+      OCTREE_QUERY_HAS_DIRECTION, NEIGHBORS, "the first k points that a ray hits", "ray", "origin", "t")
 
 typedef enum octree_query_kind {
 #define OCTREE_QUERY_ENUM(kind, ...) OCTREE_QUERY_##kind,
@@ -110,8 +121,10 @@ typedef struct octree_query_traits {
     octree_query_member named_by; /* the member whose key in a session file is the kind's name */
     /* true: octree_answer.neighbors holds the result; false: octree_answer.points holds it */
     bool neighbors;
-    const char *words;  /* the meaning of the kind, such as "the points in a box" */
-    const char *region; /* a noun for the searched region, such as "box" */
+    const char *words;   /* the meaning of the kind, such as "the points in a box" */
+    const char *region;  /* a noun for the searched region, such as "box" */
+    const char *place;   /* the key of the target in ticks.jsonl: "target", "center" or "origin" */
+    const char *measure; /* the key of octree_neighbor.distance in ticks.jsonl: "distance" or "t" */
 } octree_query_traits;
 
 /* Returns the table row of a kind of query, in static storage. Returns null for kind >= OCTREE_QUERY_KINDS. */
@@ -132,10 +145,14 @@ typedef struct octree_query {
     octree_query_kind kind;
     bool at_player; /* true: the player's position is the target, and `box` is relative to this position */
     octree_box box; /* the box of a range query */
-    /* the position whose neighbours are searched, or the center of the ball. Not read if at_player is true */
+    /* the position whose neighbours are searched, the center of the ball, or the origin of the ray. Not read if
+     * at_player is true */
     double target[3];
-    size_t k;             /* the number of neighbours to find; if the tree has fewer points, all points are found */
+    double direction[3];  /* the ray is target + t * direction for t >= 0; it need not have length 1 */
+    size_t k;             /* the number of neighbours or hits to find; if there are fewer, all are found */
     double radius;        /* the radius of the ball, >= 0 */
+    double thickness;     /* the half extent of the ray on each axis, >= 0; without it, a ray rarely hits a point */
+    double length;        /* the largest parameter t of the ray; 0: the ray has no end */
     octree_bounds bounds; /* read for boxes and balls: whether the boundary belongs to the answer */
     /* the points that no answer may contain. NONE: no point is skipped, except the game's player in a query for
      * neighbours with at_player. COINCIDENT: points at the target are skipped; this is an error in a query without a
@@ -173,14 +190,16 @@ typedef enum octree_wrong_kind {
     OCTREE_WRONG_UNKNOWN,
     OCTREE_WRONG_DUPLICATE, /* the answer contains a point twice */
     OCTREE_WRONG_SKIPPED,   /* the answer contains a point that the query skips */
-    /* only for neighbours: the number of neighbours is neither k nor, in a smaller tree, the number of points */
+    /* only for neighbours: the number of neighbours is neither k nor, in a smaller tree, the number of points. For
+     * rays, only if this is also true without the points that the ray misses */
     OCTREE_WRONG_COUNT,
     /* only for neighbours: at some rank, the neighbour is farther than the exact neighbour of this rank */
     OCTREE_WRONG_FARTHER,
     /* only for regions: a point in the region is not in the answer. The query's bounds decide about points on the
      * boundary, here and for EXTRA */
     OCTREE_WRONG_MISSING,
-    OCTREE_WRONG_EXTRA, /* only for regions: a point of the answer is outside the region */
+    OCTREE_WRONG_EXTRA, /* only for regions and rays: a point of the answer is outside the region, or the ray misses it
+                         */
     OCTREE_WRONG_KINDS
 } octree_wrong_kind;
 
@@ -190,8 +209,9 @@ const char *octree_wrong_name(octree_wrong_kind wrong);
 
 /* The result of comparing the answer of a foreign index with the exact answer.
  *
- * Regions (a box, a ball) are compared as sets of points. Neighbours are sorted by distance, whatever their order in
- * the answer, and compared rank by rank; if several points have the same distance, each of them is right. Real numbers
+ * Regions (a box, a ball) are compared as sets of points. Neighbours are sorted by distance, hits of a ray by t,
+ * whatever their order in the answer, and compared rank by rank; if several have the same, each of them is right. Real
+ * numbers
  * decide all comparisons. An epsilon above 0 allows extra points that are within epsilon of the region, and neighbours
  * up to 1 + epsilon times as far as the exact ones; because of rounding, a ratio within 2^-46 of that limit counts as
  * right. */
@@ -229,14 +249,18 @@ typedef struct octree_answer {
     bool by_key;    /* true: the query was asked by the key n, not by the session */
     octree_box box; /* the members of octree_query that the kind reads, in world coordinates */
     double target[3];
+    double direction[3];
     size_t k; /* the number of neighbours that the query asked for; 1 for a query of kind nearest */
     double radius;
+    double thickness;
+    double length;
     octree_bounds bounds;
     octree_skip skip; /* skip, skip_id and epsilon of the query; skip is NONE if only the player is skipped */
     uint64_t skip_id;
     double epsilon;
     const octree_point *points; /* the result of a kind whose result is points, sorted by id */
-    /* the result of a kind whose result is neighbours, sorted by distance, then by id */
+    /* the result of a kind whose result is neighbours, sorted by distance, then by id. For a ray, the distance is the
+     * parameter t of the first point of the ray that is in the body's box */
     const octree_neighbor *neighbors;
     size_t count; /* the number of points or neighbours */
     octree_cost cost;

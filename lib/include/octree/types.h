@@ -22,7 +22,7 @@
     X(BAD_WORLD, "bad_world", "the world must have finite corners with min below max on every axis")                   \
     X(BAD_CAPACITY, "bad_capacity", "the leaf capacity must be at least 1; OCTREE_AUTO needs OCTREE_GROW")             \
     X(BAD_RANGE, "bad_range", "the box's min is above its max")                                                        \
-    X(BAD_SIZE, "bad_size", "a size must not be negative")                                                             \
+    X(BAD_SIZE, "bad_size", "a size must not be negative, nor a direction zero")                                       \
     X(BAD_KEY, "bad_key", "the key is not one of w a s d e f n q .")                                                   \
     X(BAD_OPTION, "bad_option", "an enum has an unknown value, or only one of two allocator functions is set")         \
     X(BAD_TEXT, "bad_text", "text must be printable ASCII and end with a zero byte within its array")                  \

@@ -11,9 +11,11 @@
 
 const octree_query_member_traits *octree_query_member_at(size_t index)
 {
-#define MEMBER(member, field, type, key)                                                                               \
-    {OCTREE_QUERY_HAS_##member, OCTREE_MEMBER_##type, key, offsetof(octree_query, field),                              \
-     offsetof(octree_answer, field)},
+#define MEMBER_REQUIRED false
+#define MEMBER_OPTIONAL true
+#define MEMBER(member, field, type, key, presence)                                                                     \
+    {OCTREE_QUERY_HAS_##member, OCTREE_MEMBER_##type,          key,                                                    \
+     MEMBER_##presence,         offsetof(octree_query, field), offsetof(octree_answer, field)},
     static const octree_query_member_traits table[] = {OCTREE_QUERY_MEMBER_MAP(MEMBER)};
 #undef MEMBER
     return index < OCTREE_QUERY_MEMBERS ? &table[index] : NULL;
@@ -23,8 +25,7 @@ const octree_query_traits *octree_query_about(octree_query_kind kind)
 {
 #define RESULT_POINTS false
 #define RESULT_NEIGHBORS true
-#define TRAITS(kind, name, members, named_by, result, words, region)                                                   \
-    {#name, members, named_by, RESULT_##result, words, region},
+#define TRAITS(kind, name, members, named_by, result, ...) {#name, members, named_by, RESULT_##result, __VA_ARGS__},
     static const octree_query_traits table[] = {OCTREE_QUERY_MAP(TRAITS)};
 #undef TRAITS
     return (unsigned)kind < OCTREE_QUERY_KINDS ? &table[kind] : NULL;
@@ -74,6 +75,8 @@ static octree_status check_member(const octree_query *query, const octree_query_
         return check_box(value);
     case OCTREE_MEMBER_POSITION:
         return member->bit == OCTREE_QUERY_HAS_TARGET && query->at_player ? OCTREE_OK : check_finite_position(value);
+    case OCTREE_MEMBER_DIRECTION:
+        return check_direction(value);
     case OCTREE_MEMBER_LENGTH:
         return check_length(*(const double *)value);
     case OCTREE_MEMBER_BOUNDS:
@@ -160,6 +163,13 @@ octree_status collect_bodies_in_region(query_run *run, const octree_region *regi
     return octree_bodies_search(run->bodies, region, &how, collect_body_unless_skipped, run);
 }
 
+/* An octree_body_visitor with a query_run as its context: returns whether a body lies elsewhere than the target. */
+static bool is_beside_target(const octree_body *body, void *context)
+{
+    const query_run *run = context;
+    return !is_same_position(body->position, run->asked->target);
+}
+
 octree_status collect_first_bodies(query_run *run, const octree_answer *answer, const octree_region *ray)
 {
     const size_t all = octree_count(run->tree), k = answer->k < all ? answer->k : all;
@@ -167,8 +177,10 @@ octree_status collect_first_bodies(query_run *run, const octree_answer *answer, 
     if (k && !hits)
         return OCTREE_NO_MEMORY;
     size_t found = 0;
+    /* a cast has no target, so it does not skip bodies at the target itself */
+    const octree_body_visitor accept = run->how.skip == OCTREE_SKIP_COINCIDENT ? is_beside_target : NULL;
     const octree_status status =
-        ray ? octree_bodies_cast(run->bodies, ray, k, &run->how, NULL, NULL, hits, &found)
+        ray ? octree_bodies_cast(run->bodies, ray, k, &run->how, accept, run, hits, &found)
             : octree_bodies_nearest(run->bodies, answer->target, k, HUGE_VAL, &run->how, NULL, NULL, hits, &found);
     for (size_t i = 0; !run->failed && i < found; i++) {
         const octree_neighbor neighbor = {point_of_body(&hits[i].body), hits[i].at};
@@ -181,11 +193,10 @@ octree_status collect_first_bodies(query_run *run, const octree_answer *answer, 
 /* For each type of query member: its size in bytes, and the number of its doubles. */
 static const struct {
     size_t size, doubles;
-} member_sizes[] = {[OCTREE_MEMBER_BOX] = {sizeof(octree_box), 6},
-                    [OCTREE_MEMBER_POSITION] = {sizeof(double[3]), 3},
-                    [OCTREE_MEMBER_COUNT] = {sizeof(size_t), 0},
-                    [OCTREE_MEMBER_LENGTH] = {sizeof(double), 1},
-                    [OCTREE_MEMBER_BOUNDS] = {sizeof(octree_bounds), 0}};
+} member_sizes[] = {
+    [OCTREE_MEMBER_BOX] = {sizeof(octree_box), 6},      [OCTREE_MEMBER_POSITION] = {sizeof(double[3]), 3},
+    [OCTREE_MEMBER_DIRECTION] = {sizeof(double[3]), 3}, [OCTREE_MEMBER_COUNT] = {sizeof(size_t), 0},
+    [OCTREE_MEMBER_LENGTH] = {sizeof(double), 1},       [OCTREE_MEMBER_BOUNDS] = {sizeof(octree_bounds), 0}};
 
 octree_answer make_answer_to_query(const octree_query *query, const double player[3])
 {
@@ -209,13 +220,25 @@ octree_answer make_answer_to_query(const octree_query *query, const double playe
     return answer;
 }
 
+/* Round numbers to floats. If all of them become 0, but must not, they stay as they are. */
+static void round_to_floats(double *numbers, size_t count, bool keep)
+{
+    double rounded[6];
+    for (size_t i = 0; i < count; i++) {
+        rounded[i] = round_to_float(numbers[i]);
+        keep = keep && rounded[i] == 0;
+    }
+    if (!keep)
+        memcpy(numbers, rounded, count * sizeof *numbers);
+}
+
+/* A direction of 0 would be invalid, and an optional length of 0 would mean that there is none. */
 void round_answer_to_floats(octree_answer *answer)
 {
     for (size_t i = 0; i < OCTREE_QUERY_MEMBERS; i++) {
         const octree_query_member_traits *member = octree_query_member_at(i);
-        double *numbers = (double *)((char *)answer + member->in_answer);
-        for (size_t j = 0; j < member_sizes[member->type].doubles; j++)
-            numbers[j] = round_to_float(numbers[j]);
+        round_to_floats((double *)((char *)answer + member->in_answer), member_sizes[member->type].doubles,
+                        member->optional || member->type == OCTREE_MEMBER_DIRECTION);
     }
 }
 

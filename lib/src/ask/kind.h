@@ -62,10 +62,10 @@ typedef struct query_rules {
     /* The rules of kinds whose result is neighbours; null for other kinds. */
 
     /* Returns the sign of the difference of the keys of two bodies, in real numbers. A key is what the answer is sorted
-     * by, such as the distance of the body. */
+     * by, such as the distance of the body. Bodies that no answer contains have one key, the greatest. */
     int (*order)(const octree_answer *asked, const octree_body *a, const octree_body *b);
 
-    /* Returns the key of a body within 4 ulp. HUGE_VAL: no answer contains the body, or the key is beyond DBL_MAX. */
+    /* Returns the key of a body within 4 ulp, at most DBL_MAX. HUGE_VAL: no answer contains the body. */
     double (*measure)(const octree_answer *asked, const octree_body *body);
 
     /* Returns a region that meets every body whose key is at most `reach`, even after its position is moved by at most

@@ -35,7 +35,8 @@ int compare_knearest_order(const octree_answer *asked, const octree_body *a, con
 
 double measure_for_knearest(const octree_answer *asked, const octree_body *body)
 {
-    return body_distance(body, asked->target);
+    const double distance = body_distance(body, asked->target);
+    return distance < DBL_MAX ? distance : DBL_MAX;
 }
 
 octree_region find_region_of_knearest(const octree_answer *asked, double reach, double slack)

@@ -14,7 +14,7 @@
  *
  * For neighbours, the distances are compared rank by rank, so that ties need no rule. Distances in doubles decide if
  * they differ by more than their error; otherwise exact arithmetic decides. A kind of query may sort its neighbours by
- * another key than the distance (query_rules in kind.h).
+ * another key than the distance, as a ray does, and have points that no answer contains (query_rules in kind.h).
  *
  * If the index promises answers for floats, the exact answer is made again, for rounded positions. Rounding moves a
  * point by at most a fixed fraction of the world's largest coordinate. The region is enlarged by this distance. All
@@ -382,15 +382,30 @@ static void list_wrong_neighbors(judge_state *s)
             list_wrong_point(s, &foreign[i], &made->extra_count);
 }
 
+/* Returns the number of points of the sorted foreign answer that no right answer contains, such as the points that a
+ * ray misses. They are the last points. */
+static size_t count_impossible_neighbors(const judge_state *s)
+{
+    const judged_point *foreign = s->judge->foreign.items;
+    const size_t count = s->judge->foreign.count;
+    size_t possible = count;
+    while (possible > 0 && foreign[possible - 1].key == HUGE_VAL)
+        possible--;
+    return count - possible;
+}
+
 static void judge_neighbors(judge_state *s, size_t given)
 {
     judge *j = s->judge;
-    const size_t foreign = j->foreign.count, exact = j->exact.count, ranks = foreign < exact ? foreign : exact;
     list_sort(&j->foreign, sizeof(judged_point), compare_ranks);
+    const size_t impossible = count_impossible_neighbors(s), foreign = j->foreign.count - impossible;
+    const size_t exact = j->exact.count, ranks = foreign < exact ? foreign : exact;
     judge_ranks(s, j->foreign.items, j->exact.items, ranks);
-    if (given != exact)
+    if (given != exact && given - impossible != exact)
         record_wrong_kind(s, OCTREE_WRONG_COUNT, 0);
-    if (foreign != exact && s->made->rank == 0)
+    if (impossible)
+        record_wrong_kind(s, OCTREE_WRONG_EXTRA, 0);
+    if ((foreign != exact || impossible) && s->made->rank == 0)
         s->made->rank = ranks + 1;
     if (s->made->wrong)
         list_wrong_neighbors(s);

@@ -252,13 +252,6 @@ octree_box shape_bounds(const shape *s)
 
 /* ---- Checks ------------------------------------------------------------------------------------------------- */
 
-/* Check a vector that must not be zero. */
-static octree_status check_direction(const double v[3])
-{
-    const octree_status status = check_finite_position(v);
-    return status == OCTREE_OK && v[0] == 0 && v[1] == 0 && v[2] == 0 ? OCTREE_BAD_SIZE : status;
-}
-
 static octree_status check_half_spaces(const octree_half_space *half_spaces, size_t count)
 {
     if (count == 0 || count > OCTREE_MAX_HALF_SPACES)

@@ -21,6 +21,13 @@ static inline octree_status check_finite_position(const double position[3])
     return is_finite_position(position) ? OCTREE_OK : OCTREE_NOT_FINITE;
 }
 
+/* Check a direction. Returns OK, NOT_FINITE, or BAD_SIZE if it is zero. */
+static inline octree_status check_direction(const double v[3])
+{
+    const octree_status status = check_finite_position(v);
+    return status == OCTREE_OK && v[0] == 0 && v[1] == 0 && v[2] == 0 ? OCTREE_BAD_SIZE : status;
+}
+
 /* Check that a length is finite and not negative. Returns OK, NOT_FINITE, or BAD_SIZE for a negative length. */
 static inline octree_status check_length(double length)
 {

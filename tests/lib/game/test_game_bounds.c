@@ -329,7 +329,7 @@ static void bounds_are_checked_for_kinds_that_have_a_region(void **state)
     (void)state;
     for (int kind = 0; kind < OCTREE_QUERY_KINDS; kind++) {
         const octree_query_traits *about = octree_query_about((octree_query_kind)kind);
-        const octree_query q = {.kind = (octree_query_kind)kind, .bounds = OCTREE_BOUNDS_KINDS};
+        const octree_query q = {.kind = (octree_query_kind)kind, .direction = {1, 0, 0}, .bounds = OCTREE_BOUNDS_KINDS};
         assert_int_equal((about->members & OCTREE_QUERY_HAS_BOUNDS) != 0, !about->neighbors);
         assert_int_equal(octree_query_check(&q), about->neighbors ? OCTREE_OK : OCTREE_BAD_OPTION);
     }

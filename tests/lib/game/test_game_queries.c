@@ -16,7 +16,9 @@ static octree_query query_of(int kind, bool at_player)
                           .box = {{-4, -5, -6}, {3, 4, 6}},
                           .target = {1, -1, 0.5},
                           .k = 7,
-                          .radius = 5.5};
+                          .radius = 5.5,
+                          .direction = {-1, 1, 0.5},
+                          .thickness = 4};
 }
 
 static void every_kind_has_traits_and_no_other(void **state)
@@ -44,6 +46,7 @@ static void the_names_in_files_stay(void **state)
     assert_string_equal(octree_query_name(OCTREE_QUERY_NEAREST), "nearest");
     assert_string_equal(octree_query_name(OCTREE_QUERY_KNEAREST), "knearest");
     assert_string_equal(octree_query_name(OCTREE_QUERY_RADIUS), "radius");
+    assert_string_equal(octree_query_name(OCTREE_QUERY_RAY), "ray");
 }
 
 static void assert_same_answers(const octree_answer *a, const octree_answer *b)

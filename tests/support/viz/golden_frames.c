@@ -34,6 +34,7 @@ const golden_frame golden_frames[] = {
     {"clustered", "iso", SHAPES, 0, "clustered", 0, 0},
     {"knearest", "follow", SHAPES, 0, "knearest", 0, 0},
     {"radius", "follow", SHAPES, 0, "radius", 0, 0},
+    {"ray", "iso", "default", 0, "light", 640, 360},
     {"swept", "front", SHAPES, 1, "swept", 0, 0},
     {"closeup", "iso", "default", 219, NULL, 960, 540},
     {"slice", "iso", TREE, 0, "clustered", 0, 0},
@@ -202,6 +203,30 @@ static octree_session session_of_boxes(void)
     return session;
 }
 
+/* A ray from the player hits two of six boxes, and passes others. */
+static const octree_game_body targets[] = {
+    {.id = 1, .position = {-200, -200, -100}, .half = {100, 200, 300}},
+    {.id = 2, .position = {300, 200, 200}, .half = {200, 50, 200}},
+    {.id = 3, .position = {700, 600, 600}, .half = {100, 100, 100}},
+    {.id = 4, .position = {-600, 700, 200}, .half = {200, 100, 100}},
+    {.id = 5, .position = {500, -600, -400}, .half = {100, 300, 200}},
+    {.id = 6, .position = {650, 500, 450}, .half = {50, 100, 50}},
+};
+
+static const octree_query beam[] = {
+    {.tick = OCTREE_EVERY_TICK, .kind = OCTREE_QUERY_RAY, .at_player = true, .direction = {8, 6, 5}, .k = 2}};
+
+static octree_session session_of_ray(void)
+{
+    octree_session session = octree_session_default();
+    session.player = (octree_player){.position = {-900, -700, -500}, .box_size = 50};
+    session.bodies = targets;
+    session.body_count = sizeof targets / sizeof targets[0];
+    session.queries = beam;
+    session.query_count = 1;
+    return session;
+}
+
 /* A step over one point and past another, which comes along the same way from above. */
 static octree_session swept_session(void)
 {
@@ -249,6 +274,8 @@ static octree_session session_of(const golden_frame *frame, octree_game_body bod
         return foreign_session();
     case 'k':
         return sampled_session(OCTREE_SAMPLE_UNIFORM, neighbors, bodies, 60);
+    case 'l':
+        return session_of_ray();
     case 'm':
         return moving_session(bodies);
     case 'p':

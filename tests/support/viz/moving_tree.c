@@ -75,14 +75,19 @@ static void ask(moving_tree *m)
                                 .kind = (octree_query_kind)kind,
                                 .k = 3,
                                 .radius = 4,
+                                .direction = {1, -1, 0.5},
+                                .thickness = 2,
                                 .skip = kind % 2 ? OCTREE_SKIP_ID : OCTREE_SKIP_NONE,
                                 .skip_id = 3,
                                 .epsilon = 0.25 * kind};
-        random_place(m, query->target);
+        if (kind < OCTREE_QUERY_RAY)
+            random_place(m, query->target);
         for (int i = 0; i < 3; i++)
             query->box.max[i] = (query->box.min[i] = query->target[i]) + 3;
     }
-    m->about.query_count = random_below(&m->random, OCTREE_QUERY_KINDS + 1);
+    /* the kind "ray" is new and takes no random numbers: the trees of all seeds stay the same */
+    const size_t count = random_below(&m->random, OCTREE_QUERY_RAY + 1);
+    m->about.query_count = count == OCTREE_QUERY_RAY ? OCTREE_QUERY_KINDS : count;
 }
 
 static void show(moving_tree *m)

@@ -136,11 +136,11 @@ static void assert_range(const json_t *range, const octree_answer *answer)
     assert_ids(json_member(range, "ids"), answer->points, answer->count);
 }
 
-static void assert_neighbor(const json_t *object, const octree_neighbor *neighbor)
+static void assert_neighbor(const json_t *object, const char *measure, const octree_neighbor *neighbor)
 {
     assert_whole_number(json_member(object, "id"), neighbor->point.id);
     assert_position(object, "position", neighbor->point.position);
-    assert_number(json_member(object, "distance"), neighbor->distance);
+    assert_number(json_member(object, measure), neighbor->distance);
 }
 
 static void assert_nearest(const json_t *nearest, const octree_answer *answer)
@@ -148,7 +148,7 @@ static void assert_nearest(const json_t *nearest, const octree_answer *answer)
     assert_members(nearest, answer->count ? "target id position distance cost" : "target id cost");
     assert_position(nearest, "target", answer->target);
     if (answer->count)
-        assert_neighbor(nearest, &answer->neighbors[0]);
+        assert_neighbor(nearest, "distance", &answer->neighbors[0]);
     else
         assert_true(json_is_null(json_member(nearest, "id")));
 }
@@ -162,7 +162,24 @@ static void assert_knearest(const json_t *knearest, const octree_answer *answer)
     assert_int_equal(json_array_size(neighbors), answer->count);
     for (size_t i = 0; i < answer->count; i++) {
         assert_members(json_array_get(neighbors, i), "id position distance");
-        assert_neighbor(json_array_get(neighbors, i), &answer->neighbors[i]);
+        assert_neighbor(json_array_get(neighbors, i), "distance", &answer->neighbors[i]);
+    }
+}
+
+static void assert_ray(const json_t *ray, const octree_answer *answer)
+{
+    char names[80];
+    const json_t *hits = json_member(ray, "neighbors");
+    snprintf(names, sizeof names, "origin direction k%s%s neighbors cost", answer->thickness > 0 ? " thickness" : "",
+             answer->length > 0 ? " length" : "");
+    assert_members(ray, names);
+    assert_position(ray, "origin", answer->target);
+    assert_position(ray, "direction", answer->direction);
+    assert_whole_number(json_member(ray, "k"), answer->k);
+    assert_int_equal(json_array_size(hits), answer->count);
+    for (size_t i = 0; i < answer->count; i++) {
+        assert_members(json_array_get(hits, i), "id position t");
+        assert_neighbor(json_array_get(hits, i), "t", &answer->neighbors[i]);
     }
 }
 
@@ -184,6 +201,7 @@ static void assert_answers(const json_t *list, const octree_tick *tick)
         [OCTREE_QUERY_NEAREST] = {"nearest", assert_nearest},
         [OCTREE_QUERY_KNEAREST] = {"knearest", assert_knearest},
         [OCTREE_QUERY_RADIUS] = {"radius", assert_radius},
+        [OCTREE_QUERY_RAY] = {"ray", assert_ray},
     };
     assert_int_equal(json_array_size(list), tick->answer_count);
     for (size_t i = 0; i < tick->answer_count; i++) {

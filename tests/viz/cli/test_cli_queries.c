@@ -216,6 +216,14 @@ static void text_names_the_points_that_were_found(void **state)
         {"--radius 1e308,1e308,1e308,1e307", "  note: the ball lies outside the world\n"},
         {"--range -1e308,-1e308,-1e308,1e308,1e308,1e308", ": 3 found\n  0: 0 0 0\n  1: 8 8 8\n  2: 3 0 4\n"},
         {"--world 50,50,50,60,60,60 --nearest 0,0,0", ": 0 found\n  note: the tree holds no points\n"},
+        {"--ray -4,0,0,2,0,0", "first hit of the ray in direction 2 0 0 from -4 0 0, thickness 5: 1 found\n  "
+                               "0: 0 0 0  t 0\n  cost: "},
+        {"--ray -4,0,0,2,0,0,9,0.5",
+         "first 9 hits of the ray in direction 2 0 0 from -4 0 0, thickness 0.5: 1 found\n  "
+         "0: 0 0 0  t 1.75\n  cost: "},
+        {"--ray -4,0,0,2,0,0,2,4", " thickness 4: 2 found\n  0: 0 0 0  t 0\n  2: 3 0 4  t 1.5\n  cost: "},
+        {"--ray -4,0,0,2,0,0,2,4,1.25", " thickness 4, length 1.25: 1 found\n  0: 0 0 0  t 0\n  cost: "},
+        {"--ray -4,0,0,-2,0,0,1,1", ": 0 found\n  note: the ray hits no point; a thicker ray may\n  cost: "},
     };
     const place file = place_in(*state, "points.txt");
     file_write_text(file.path, "0 0 0\n8 8 8\n3 0 4\n");
@@ -242,6 +250,25 @@ static void json_contains_notes_about_answers(void **state)
     command_release(&result);
 }
 
+static void json_of_a_ray_has_its_thickness_and_the_t_of_each_hit(void **state)
+{
+    const place file = place_in(*state, "points.txt");
+    file_write_text(file.path, "0 0 0\n8 8 8\n3 0 4\n");
+    command_result result =
+        run_octreel(NULL, "inspect %s --json --ray -4,0,0,2,0,0,2,4 --ray 0,0,9,0,0,-1,1,1,5", file.path);
+    assert_done(&result);
+    json_t *object = json_read(result.out);
+    const json_t *ray = json_array_get(json_member(object, "answers"), 0), *points = json_member(ray, "points");
+    assert_members(ray, "query origin direction k thickness found points cost");
+    assert_true(real(ray, "thickness") == 4 && json_array_size(points) == 2);
+    assert_members(json_array_get(points, 1), "id position t");
+    assert_true(real(json_array_get(points, 1), "t") == 1.5);
+    ray = json_array_get(json_member(object, "answers"), 1);
+    assert_members(ray, "query origin direction k thickness length found points note cost");
+    json_decref(object);
+    command_release(&result);
+}
+
 static void invalid_queries_are_refused_in_one_sentence(void **state)
 {
     static const char *const rows[][2] = {
@@ -263,6 +290,11 @@ static void invalid_queries_are_refused_in_one_sentence(void **state)
         {"--radius 1,2,3,4,5", "--radius takes a centre and a radius"},
         {"--radius 1,2,3,-1", "must not be negative"},
         {"--radius 1,2,3,NaN", "not \"1,2,3,NaN\""},
+        {"--ray 1,2,3,4,5", "--ray takes a position, a direction"},
+        {"--ray 1,2,3,4,5,6,7,8,9,10", "--ray takes a position, a direction"},
+        {"--ray 1,2,3,0,0,0", "nor a direction zero in \"1,2,3,0,0,0\""},
+        {"--ray 1,2,3,0,0,1,0", "the number of neighbours or hits must be a whole number from 1"},
+        {"--ray 1,2,3,0,0,1,1,-1", "must not be negative"},
         {"--range 1,2,3,4,5", "--range takes two corners"},
         {"--range 1,2,3,4,5,6,7", "--range takes two corners"},
         {"--range 1,2,3,4,1,6", "the box's min is above its max in"},
@@ -281,22 +313,23 @@ static void invalid_queries_are_refused_in_one_sentence(void **state)
 static void queries_are_drawn_in_their_layers(void **state)
 {
     static const char *const queries[] = {"nearest 9,-9,9", "nearest 9,-9,9,5", "radius 9,-9,9,20",
-                                          "range 0,0,0,30,30,30"};
-    static const char *const layers[] = {"nearest", "knearest", "radius", "range"};
+                                          "range 0,0,0,30,30,30", "ray -30,-30,9,1,1,0"};
+    static const char *const layers[] = {"nearest", "knearest", "radius", "range", "ray"};
+    enum { KINDS = sizeof layers / sizeof layers[0] };
     brute all = make_points(5);
     const place file = write_points(state, "points.txt", &all), picture = place_in(*state, "tree.png");
-    for (size_t i = 0; i < 8; i++) {
+    for (size_t i = 0; i < 2 * KINDS; i++) {
         image frames[2];
         for (int asked = 0; asked < 2; asked++) {
-            command_result result =
-                run_octreel(NULL, "inspect %s -o %s --size 160x90 --layers nodes%s%s %s%s", file.path, picture.path,
-                            i < 4 ? "," : "", i < 4 ? layers[i] : "", asked ? "--" : "", asked ? queries[i % 4] : "");
+            command_result result = run_octreel(
+                NULL, "inspect %s -o %s --size 160x90 --layers nodes%s%s %s%s", file.path, picture.path,
+                i < KINDS ? "," : "", i < KINDS ? layers[i] : "", asked ? "--" : "", asked ? queries[i % KINDS] : "");
             assert_done(&result);
             command_release(&result);
             frames[asked] = assert_read(picture.path);
         }
         const image_difference asked = image_compare(&frames[0], &frames[1]);
-        assert_int_equal(image_has_no_difference(&asked), i >= 4);
+        assert_int_equal(image_has_no_difference(&asked), i >= KINDS);
         image_release(&frames[0]);
         image_release(&frames[1]);
     }
@@ -312,6 +345,7 @@ int main(void)
         IN_FOLDER(text_shows_at_most_ten_lines_of_an_answer),
         IN_FOLDER(text_names_the_points_that_were_found),
         IN_FOLDER(json_contains_notes_about_answers),
+        IN_FOLDER(json_of_a_ray_has_its_thickness_and_the_t_of_each_hit),
         IN_FOLDER(invalid_queries_are_refused_in_one_sentence),
         IN_FOLDER(queries_are_drawn_in_their_layers),
     };

@@ -125,9 +125,16 @@ static void each_query_is_described(void **state)
     assert_told("{\"queries\": [{\"radius\": 1, \"at\": \"player\"}]}",
                 "{\"queries\": [{\"radius\": 1, \"at\": \"player\", \"bounds\": \"open\"}]}",
                 "another query at every tick (radius 1, at \"player\", bounds \"open\", was none)");
+    assert_told("{\"queries\": [{\"ray\": [1, 0, 0], \"at\": [1, 2, 3], \"k\": 1}]}",
+                "{\"queries\": [{\"ray\": [1, 0, 0], \"at\": [1, 2, 3], \"k\": 1, \"thickness\": 0.5}]}",
+                "another query at every tick (ray (1, 0, 0), at (1, 2, 3), k 1, thickness 0.5, was none)");
 }
 
 #define BALL(r, x, ids) "{\"radius\": {\"center\": [" #x ", 0, 0], \"radius\": " #r ", \"ids\": [" ids "]}}"
+
+#define RAY(hits)                                                                                                      \
+    "{\"answers\": [{\"ray\": {\"origin\": [0, 0, 0], \"direction\": [1, 0, 0], \"k\": 1, \"neighbors\": [" hits "]}}" \
+    "]}"
 
 /* Whatever they found, and wherever they stand. */
 static void each_answer_is_named_by_its_query(void **state)
@@ -144,6 +151,10 @@ static void each_answer_is_named_by_its_query(void **state)
     assert_told("{\"answers\": [{\"nearest\": {\"target\": [0, 0, 0], \"id\": 4, \"position\": [1, 0, 0]}}]}",
                 "{\"answers\": [{\"nearest\": {\"target\": [0, 0, 0], \"id\": 4, \"position\": [2, 0, 0]}}]}",
                 "another position of the nearest point in the nearest query ((2, 0, 0), was (1, 0, 0))");
+    assert_told(RAY("{\"id\": 4, \"position\": [3, 0, 0], \"t\": 3}"),
+                RAY("{\"id\": 2, \"position\": [2, 0, 0], \"t\": 2}"),
+                "one more neighbour in the ray query (id 2, position (2, 0, 0), t 2), one neighbour fewer in the ray "
+                "query (id 4, position (3, 0, 0), t 3)");
 }
 
 int main(void)

@@ -338,9 +338,11 @@ static void bad_ticks_are_refused(void **state)
         {START "{\"tick\":1,\"edits\":[{\"remove\":\"all\"}]}",
          "3: edits[0].remove: expected a whole number from 0 to"},
         {START "{\"tick\":1,\"queries\":[{\"rnge\":1}]}",
-         "3: queries[0]: expected {\"range\": ...}, {\"nearest\": ...}, {\"knearest\": ...} or {\"radius\": ...}"},
+         "3: queries[0]: expected {\"range\": ...}, {\"nearest\": ...}, {\"knearest\": ...}, {\"radius\": ...} or "
+         "{\"ray\": ...}"},
         {START "{\"tick\":1,\"queries\":[{\"radius\":1,\"knearest\":2,\"at\":\"player\"}]}",
-         "3: queries[0]: expected one of {\"range\": ...}, {\"nearest\": ...}, {\"knearest\": ...} or {\"radius\": "
+         "3: queries[0]: expected one of {\"range\": ...}, {\"nearest\": ...}, {\"knearest\": ...}, {\"radius\": ...} "
+         "or {\"ray\": "
          "...}, "
          "found \"knearest\" and \"radius\" together"},
         {START "{\"tick\":1,\"queries\":[{\"nearest\":1}]}",
@@ -362,6 +364,14 @@ static void bad_ticks_are_refused(void **state)
          "2: queries[0].skip: a box has no target, so \"skip\" cannot be \"coincident\"; give an id"},
         {HEADER "\"queries\":[{\"radius\":8,\"at\":\"player\",\"epsilon\":-0.5}]}",
          "2: queries[0].epsilon: expected a number that is not negative, found -0.5"},
+        {HEADER "\"queries\":[{\"ray\":[0,-0,0],\"at\":[1,2,3]}]}",
+         "2: queries[0].ray: the direction of a ray must not be [0, 0, 0]"},
+        {HEADER "\"queries\":[{\"ray\":[0,1],\"at\":[1,2,3]}]}", "2: queries[0].ray: expected"},
+        {HEADER "\"queries\":[{\"ray\":[0,1,0]}]}", "2: queries[0]: the member \"at\" is missing"},
+        {HEADER "\"queries\":[{\"ray\":[0,1,0],\"at\":[1,2,3],\"bounds\":\"open\"}]}",
+         "2: queries[0]: unknown member \"bounds\"; known: ray, at, k, thickness, length"},
+        {HEADER "\"queries\":[{\"ray\":[0,1,0],\"at\":[1,2,3],\"thickness\":-1}]}",
+         "2: queries[0].thickness: expected a number that is not negative, found -1"},
         {HEADER "\"queries\":[{\"knearest\":8}]}", "2: queries[0]: the member \"at\" is missing"},
         {HEADER "\"queries\":[{\"knearest\":8,\"at\":\"home\"}]}",
          "2: queries[0].at: expected \"player\" or three numbers [x, y, z], found \"home\""},

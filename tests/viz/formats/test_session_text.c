@@ -78,6 +78,8 @@ static void session_text_names_every_member_and_kind(void **state)
     assert_names_members(text, session_body_members);
     for (int kind = 0; kind < OCTREE_QUERY_KINDS; kind++)
         assert_names(text, octree_query_name((octree_query_kind)kind));
+    for (size_t i = 0; i < OCTREE_QUERY_MEMBERS; i++)
+        assert_names(text, octree_query_member_at(i)->key);
     assert_names(text, "skip");
     assert_names(text, "coincident");
     assert_names(text, "epsilon");

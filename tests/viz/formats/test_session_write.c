@@ -67,8 +67,13 @@ static void assert_same_query(const octree_query *a, const octree_query *b)
         assert_memory_equal(&a->box, &b->box, sizeof a->box);
     else if (!a->at_player)
         assert_memory_equal(a->target, b->target, sizeof a->target);
-    if (a->kind == OCTREE_QUERY_KNEAREST)
+    if (a->kind == OCTREE_QUERY_KNEAREST || a->kind == OCTREE_QUERY_RAY)
         assert_int_equal(a->k, b->k);
+    if (a->kind == OCTREE_QUERY_RAY) {
+        assert_memory_equal(a->direction, b->direction, sizeof a->direction);
+        assert_memory_equal(&a->thickness, &b->thickness, sizeof a->thickness);
+        assert_memory_equal(&a->length, &b->length, sizeof a->length);
+    }
     if (a->kind == OCTREE_QUERY_RADIUS)
         assert_memory_equal(&a->radius, &b->radius, sizeof a->radius);
     assert_int_equal(a->bounds, b->bounds);
@@ -135,6 +140,32 @@ static void skips_and_epsilons_survive_the_round_trip(void **state)
     session.queries = queries;
     session.query_count = sizeof queries / sizeof queries[0];
     assert_round_trip(&session);
+}
+
+static void rays_survive_the_round_trip(void **state)
+{
+    static const octree_query queries[] = {
+        {.kind = OCTREE_QUERY_RAY, .direction = {0, -1, 0}, .k = 1},
+        {.kind = OCTREE_QUERY_RAY, .direction = {5e-324, 0, 0}, .k = 0, .length = 5e-324},
+        {.kind = OCTREE_QUERY_RAY, .at_player = true, .direction = {1, 2, DBL_MAX}, .k = 9, .thickness = 0.1},
+        {.kind = OCTREE_QUERY_RAY, .target = {1, 2, 3}, .direction = {1, 0, 0}, .k = 2, .thickness = 3, .length = 4},
+    };
+    octree_session session = octree_session_default();
+    (void)state;
+    session.queries = queries;
+    session.query_count = sizeof queries / sizeof queries[0];
+    assert_round_trip(&session);
+}
+
+static void a_ray_in_a_file_has_one_hit_and_no_end_by_default(void **state)
+{
+    (void)state;
+    session_file file = session_of_text("{\"octreel\": \"session\", \"version\": 2, \"queries\": [{\"ray\": [1, 0, 0], "
+                                        "\"at\": [0, 0, 0]}]}");
+    const octree_query *query = file.session.queries;
+    assert_true(file.session.query_count == 1 && query->kind == OCTREE_QUERY_RAY);
+    assert_true(query->k == 1 && query->thickness == 0 && query->length == 0 && query->direction[0] == 1);
+    session_release(&file);
 }
 
 /* Closed bounds are the default. Sessions without the member have the same bytes as before it existed. */
@@ -450,6 +481,8 @@ int main(void)
         cmocka_unit_test(number_of_neighbours_is_written_clamped),
         cmocka_unit_test(default_session_survives_the_round_trip),
         cmocka_unit_test(skips_and_epsilons_survive_the_round_trip),
+        cmocka_unit_test(rays_survive_the_round_trip),
+        cmocka_unit_test(a_ray_in_a_file_has_one_hit_and_no_end_by_default),
         cmocka_unit_test(bounds_survive_the_round_trip_and_closed_ones_are_not_written),
         cmocka_unit_test(answers_survive_the_round_trip),
         cmocka_unit_test(shapes_survive_the_round_trip),

@@ -42,7 +42,7 @@ static void check_nearest(const scene *s, const octree_answer *answer, size_t pl
 #define BALL_CHORDS 96
 
 /* Return the label with this id and rank, or null. It is next to the point, on a background of its own. */
-static const scene_label *rank_of(const scene *s, uint64_t id, size_t rank, const double at[3])
+static const scene_label *rank_of(const scene *s, unsigned layer, uint64_t id, size_t rank, const double at[3])
 {
     char number[24];
     double pixel[2];
@@ -50,14 +50,14 @@ static const scene_label *rank_of(const scene *s, uint64_t id, size_t rank, cons
     for (size_t i = 0; i < s->labels.count; i++) {
         const scene_label *label = &s->labels.items[i];
         size_t grounds = 0;
-        if (label->style.layer != LAYER_KNEAREST || label->id != id)
+        if (label->style.layer != layer || label->id != id)
             continue;
         pixel_of(s, at, pixel);
         assert_true(!label->in_world && strcmp(label->text, number) == 0);
         assert_true(fabs(label->at[0] - pixel[0]) < 3 * s->text.width + 8 * s->unit);
         assert_true(fabs(label->at[1] - pixel[1]) < 3 * s->text.height);
         for (size_t k = 0; k < s->panels.count; k++)
-            grounds += s->panels.items[k].style.layer == LAYER_KNEAREST && s->panels.items[k].id == id;
+            grounds += s->panels.items[k].style.layer == layer && s->panels.items[k].id == id;
         assert_int_equal(grounds, 1);
         return label;
     }
@@ -78,7 +78,7 @@ static void check_knearest(const scene *s, const octree_answer *answer, size_t p
         const double *at = answer->neighbors[i].point.position;
         const uint64_t id = (uint64_t)place << 32 | i;
         assert_int_equal(count_lines_between(s, LAYER_KNEAREST, id, answer->target, at), 1);
-        const bool ranked = rank_of(s, id, i + 1, at) != NULL;
+        const bool ranked = rank_of(s, LAYER_KNEAREST, id, i + 1, at) != NULL;
         assert_true(!ranked || (i < 9 && !is_behind_the_eye(s, at)));
         due->labels += ranked;
         due->panels += ranked;
@@ -116,6 +116,38 @@ static void check_radius(const scene *s, const octree_answer *answer, size_t pla
     due->markers += answer->count;
 }
 
+static void find_contact(const octree_answer *ray, double t, double at[3])
+{
+    for (int i = 0; i < 3; i++)
+        at[i] = ray->target[i] + t * ray->direction[i];
+}
+
+/* An arrow to the last of k hits and dashes beyond, or an arrow to the end; each hit has a marker and a line to its
+ * point, and the first nine may have their ranks. */
+static void check_ray(const scene *s, const octree_answer *answer, size_t place, layer_counts *due)
+{
+    const bool complete = answer->count > 0 && answer->count == answer->k;
+    const uint64_t id = (uint64_t)place << 32;
+    double at[3];
+    for (size_t i = 0; i < answer->count; i++) {
+        const octree_point *point = &answer->neighbors[i].point;
+        find_contact(answer, answer->neighbors[i].distance, at);
+        assert_int_equal(count_lines_between(s, LAYER_RAY, id | (2 + i), at, point->position), 1);
+        assert_true(count_markers_at(s, LAYER_RAY, point->id, at) >= 1);
+        const bool ranked = rank_of(s, LAYER_RAY, id | i, i + 1, at) != NULL;
+        due->labels += ranked;
+        due->panels += ranked;
+    }
+    if (complete)
+        assert_int_equal(count_lines_between(s, LAYER_RAY, id, answer->target, at), 1);
+    size_t beyond = 0;
+    for (size_t i = 0; i < s->segments.count; i++)
+        beyond += s->segments.items[i].style.layer == LAYER_RAY && s->segments.items[i].id == (id | 1);
+    assert_true(complete ? beyond <= 1 : beyond == 0);
+    due->segments += 1 + beyond + answer->count;
+    due->markers += answer->count;
+}
+
 /* Each answer is shown in the layer of its kind, and that layer shows nothing else. */
 static void check_answers(const scene *s, const octree_tick *tick)
 {
@@ -127,6 +159,7 @@ static void check_answers(const scene *s, const octree_tick *tick)
         [OCTREE_QUERY_NEAREST] = {LAYER_NEAREST, check_nearest},
         [OCTREE_QUERY_KNEAREST] = {LAYER_KNEAREST, check_knearest},
         [OCTREE_QUERY_RADIUS] = {LAYER_RADIUS, check_radius},
+        [OCTREE_QUERY_RAY] = {LAYER_RAY, check_ray},
     };
     for (int kind = 0; kind < OCTREE_QUERY_KINDS; kind++) {
         layer_counts due = {0}, found = count_layer(s, kinds[kind].layer);
@@ -188,10 +221,10 @@ static void ranks_of_neighbours_never_cover_each_other(void **state)
     build_tick(&s, &v, game);
     const octree_answer *answer = &octree_game_tick(game)->answers[0];
     for (size_t i = 0; i < 4; i++) {
-        const scene_label *rank = rank_of(&s, i, i + 1, answer->neighbors[i].point.position);
+        const scene_label *rank = rank_of(&s, LAYER_KNEAREST, i, i + 1, answer->neighbors[i].point.position);
         assert_non_null(rank);
         for (size_t k = 0; k < i; k++) {
-            const scene_label *other = rank_of(&s, k, k + 1, answer->neighbors[k].point.position);
+            const scene_label *other = rank_of(&s, LAYER_KNEAREST, k, k + 1, answer->neighbors[k].point.position);
             assert_true(fabs(rank->at[0] - other->at[0]) >= s.text.width ||
                         fabs(rank->at[1] - other->at[1]) >= s.text.height);
         }
@@ -234,7 +267,7 @@ static void answers_of_a_tree_are_drawn_like_answers_of_a_tick(void **state)
     const octree_tick *asked = octree_game_tick(game);
     const tree_subject about = {.title = "tree", .answers = asked->answers, .answer_count = asked->answer_count};
     assert_true(tree_scene_build(&tree, &v, octree_game_tree(game), &about));
-    for (unsigned layer = LAYER_RANGE; layer <= LAYER_NEAREST; layer++) {
+    for (unsigned layer = LAYER_RANGE; layer <= LAYER_RAY; layer++) {
         const layer_counts a = count_layer(&tick, layer), b = count_layer(&tree, layer);
         assert_true(a.boxes + a.segments + a.markers > 0 && a.boxes == b.boxes && a.segments == b.segments);
         assert_true(a.markers == b.markers && a.labels == b.labels);
@@ -259,7 +292,7 @@ static void many_marks_are_smaller_than_few(void **state)
         const octree_answer answer = {.kind = OCTREE_QUERY_RADIUS, .radius = 5, .points = points, .count = counts[i]};
         const view v = view_of(320, 180, CAMERA_ISO, VIEW_ALL_LAYERS);
         scene s = empty_scene(&v, &world);
-        layer_RADIUS.add_answer(&s, &answer, 0, LAYER_RADIUS);
+        layer_RADIUS.add_answer(&s, &(layer_source){.answers = &answer, .answer_count = 1}, 0, LAYER_RADIUS);
         assert_int_equal(s.markers.count, counts[i]);
         const unsigned width = s.markers.items[0].style.width;
         assert_true(width > 0 && (i % 2 ? width == before : width < before));

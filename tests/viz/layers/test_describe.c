@@ -44,6 +44,10 @@ static const struct {
     {LAYER_NEAREST, SCENE_SEGMENT, "to neighbour 1: point ", false, true},
     {LAYER_NEAREST, SCENE_MARKER, "found by a nearest query", false, true},
     {LAYER_KNEAREST, SCENE_PANEL, "the background of the rank of a neighbour", false, false},
+    {LAYER_RAY, SCENE_SEGMENT, " of the ray query (answer ", false, false},
+    {LAYER_RAY, SCENE_MARKER, "found by a ray query", false, true},
+    {LAYER_RAY, SCENE_LABEL, "the rank of a hit", false, false},
+    {LAYER_RAY, SCENE_PANEL, "the background of the rank of a hit", false, false},
     {LAYER_PLAYER, SCENE_SEGMENT, "down to the world's floor", false, false},
     {LAYER_PLAYER, SCENE_MARKER, "the player, point 6 at ", false, true},
     {LAYER_BOX, SCENE_BOX, "collision box", false, false},
@@ -120,7 +124,8 @@ static void check_element(const octree_game *game, const heat *h, const scene *s
                          scene_element_head(s, element).id == octree_game_session(game)->player.id);
     assert_true(strlen(subject.text) + 1 < ELEMENT_TEXT);
     assert_true(expected[i].about_node <= subject.has_node);
-    assert_int_equal(expected[i].about_point && !is_ring(s, element), subject.has_point);
+    const bool to_hit = expected[i].layer == LAYER_RAY && strstr(subject.text, " to hit "); /* not the ray itself */
+    assert_int_equal((expected[i].about_point && !is_ring(s, element)) || to_hit, subject.has_point);
     if (subject.has_node)
         check_node(game, &subject,
                    expected[i].layer == LAYER_SPLITS || expected[i].layer == LAYER_MERGES

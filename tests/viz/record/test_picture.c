@@ -146,6 +146,7 @@ static uint64_t roles_of(unsigned layer)
     case LAYER_RANGE:
         return one << ROLE_RANGE;
     case LAYER_RADIUS:
+    case LAYER_RAY:
         return one << ROLE_RADIUS;
     case LAYER_KNEAREST:
         return one << ROLE_KNEAREST;
