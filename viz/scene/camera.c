@@ -212,6 +212,37 @@ bool camera_find_pixel(const camera *c, const double position[3], double pixel[2
     return isfinite(pixel[0]) && isfinite(pixel[1]);
 }
 
+/* Returns the least depth of the corners of a box, or 0, the depth of the eye, if that is less. */
+static double find_least_depth(const camera *c, const octree_box *box)
+{
+    double least = 0;
+    for (unsigned corner = 0; corner < 8; corner++) {
+        double position[3], seen[3];
+        box_corner(box, corner, position);
+        camera_transform(c, position, seen);
+        least = fmin(least, seen[2]);
+    }
+    return least;
+}
+
+void camera_find_ray(const camera *c, const double pixel[2], const octree_box *world, double origin[3],
+                     double direction[3])
+{
+    const double right = (pixel[0] - c->middle[0]) / c->zoom, up = (c->middle[1] - pixel[1]) / c->zoom;
+    const double depth = c->perspective ? 0 : find_least_depth(c, world);
+    const double aside = c->perspective ? 0 : 1; /* parallel rays begin beside each other, others spread */
+    double ahead[3];
+    for (int i = 0; i < 3; i++) {
+        const double across = c->right[i] * right + c->up[i] * up;
+        const double begin = c->eye[i] + across * aside + c->forward[i] * depth;
+        origin[i] = ((begin + c->half[i]) * (c->size / 2) + c->origin[i]) / c->scale;
+        ahead[i] = c->forward[i] + across * (1 - aside);
+    }
+    const double length = sqrt(dot_product(ahead, ahead));
+    for (int i = 0; i < 3; i++)
+        direction[i] = ahead[i] / length;
+}
+
 /* Returns the size of a box on screen under orthographic projection, where the size does not depend on the position. */
 static double find_orthographic_box_size(const camera *c, const octree_box *box)
 {

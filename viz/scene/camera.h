@@ -99,6 +99,11 @@ static inline void camera_project(const camera *c, const double seen[3], double 
 /* Find the pixel of a world position. Returns false if the position is not in front of the camera. */
 bool camera_find_pixel(const camera *c, const double position[3], double pixel[2]);
 
+/* Compute the ray of positions that appear at a pixel: its origin, and its direction with length 1. Under perspective
+ * the origin is the eye; otherwise no point of the box `world` appears before the origin. */
+void camera_find_ray(const camera *c, const double pixel[2], const octree_box *world, double origin[3],
+                     double direction[3]);
+
 /* Returns the size of a box on screen in pixels: the longer side of the axis-aligned rectangle around the box's
  * projection. The size is infinite if a corner of the box is nearer than `near`. Nothing inside the box appears
  * larger. */

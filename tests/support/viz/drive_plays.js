@@ -78,6 +78,26 @@ async function sayAnswers()
     say("asked nothing", player().engine.digest() === digest);
 }
 
+/* A ray through the pixel at which a point is drawn hits the point; the picture shows the ray. */
+async function sayRay()
+{
+    const {engine} = player(), {live, form} = interaction;
+    live.drawNow();
+    const [width, height] = engine.size, places = [1, 2, 3, 4, 5, 7, 8, 9].map(id => [id, engine.point(id)]);
+    const seen = places.filter(([, place]) => place).map(([id, place]) => [id, ...engine.project([place])[0].map(Math.floor)]);
+    const [id, x, y] = seen.find(([, x, y]) => x >= 0 && y >= 0 && x < width && y < height);
+    say("ray point", id);
+    form.inputs.k.input.value = "9";
+    interaction.showPick(engine.pick(x, y, 3), engine.point(id), {...engine.ray(x + 0.5, y + 0.5), thickness: 30});
+    byId("shoot").click();
+    say("ray query", interaction.asked);
+    say("ray facts", engine.facts());
+    say("ray title", byId("facts-of-tick").textContent.match(/First 9 hits of the ray from/g)?.length);
+    live.drawNow();
+    say("ray picture", engine.pick(x, y, 3).elements.filter(({text}) => text.includes("of the ray query")).length > 0);
+    interaction.ask();
+}
+
 /* Report the buttons and the text of the bar. */
 function sayBar(when)
 {
@@ -202,6 +222,7 @@ async function drive()
     octreel.goTo(219);
     await until(() => !interaction.busy && player().engine.tick === 219, "tick 219");
     await sayAnswers();
+    await sayRay();
     await sayTakenOver();
     await sayRandom();
     await leaveMeanwhile();

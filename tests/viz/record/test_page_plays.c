@@ -9,9 +9,13 @@
 #include "browser.h"
 #include "driven_page.h"
 #include "fixture.h"
+#include "game_fixture.h"
 #include "played_page.h"
 #include "recordings.h"
 #include "session_file.h"
+#include "session_texts.h"
+#include "text.h"
+#include "ticks_write.h"
 
 enum { LAST = 252 }; /* last tick of the default session */
 
@@ -132,6 +136,42 @@ static void queries_on_the_page_have_the_answers_of_the_library(void **state)
     assert_reported_value(d->said, "open ball", "[[],\"open\"]");
     assert_reported_value(d->said, "refused", "query: range: min is above max on axis x");
     assert_reported_value(d->said, "asked nothing", "true");
+}
+
+/* The page makes a ray of the clicked pixel; the library gives the same answer to the same query. */
+static void ray_through_a_pixel_has_the_answer_of_the_library(void **state)
+{
+    const driven *d = need_page(state);
+    char *query = find_reported_value(d->said, "ray query"), *facts = find_reported_value(d->said, "ray facts"),
+         *point = find_reported_value(d->said, "ray point");
+    char header[1024], *line;
+    snprintf(header, sizeof header, "{\"octreel\": \"session\", \"version\": 2, \"queries\": [%s]}", query);
+    session_file asked = session_of_text(header);
+    const octree_session session = octree_session_default();
+    octree_game *game = start_game(&session);
+    while (octree_game_tick(game)->number < 219)
+        assert_int_equal(octree_game_advance(game), OCTREE_OK);
+    assert_int_equal(octree_game_ask(game, asked.session.queries, asked.session.query_count), OCTREE_OK);
+    const octree_tick *tick = octree_game_tick(game);
+    const octree_answer *answer = &tick->answers[tick->answer_count - 1];
+    bool hit = false;
+    for (size_t i = 0; i < answer->count; i++)
+        hit |= answer->neighbors[i].point.id == strtoull(point, NULL, 10);
+    assert_true(answer->kind == OCTREE_QUERY_RAY && answer->thickness == 30 && answer->k == 9 && hit);
+    text_stream s;
+    assert_true(text_stream_begin(&s));
+    tick_write(s.stream, tick, &(tick_extras){0});
+    assert_true(text_stream_end(&s, &line));
+    line[strcspn(line, "\n")] = 0;
+    assert_string_equal(facts, line);
+    assert_reported_value(d->said, "ray title", "1");
+    assert_reported_value(d->said, "ray picture", "true");
+    free(line);
+    free(query);
+    free(facts);
+    free(point);
+    session_release(&asked);
+    octree_game_destroy(game);
 }
 
 /* ---- Playing on --------------------------------------------------------------------------------------------- */
@@ -304,6 +344,7 @@ int main(void)
         cmocka_unit_test(inspector_tells_positions_and_counts_of_a_played_tick),
         cmocka_unit_test(links_select_nodes_and_points),
         cmocka_unit_test(queries_on_the_page_have_the_answers_of_the_library),
+        cmocka_unit_test(ray_through_a_pixel_has_the_answer_of_the_library),
         cmocka_unit_test(session_played_on_the_page_records_the_same),
         cmocka_unit_test(random_gestures_change_no_tick_and_raise_no_error),
         cmocka_unit_test(unreadable_session_is_reported_and_the_old_one_stays),

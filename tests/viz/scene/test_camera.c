@@ -328,6 +328,33 @@ static void a_box_is_below_a_size_if_it_appears_smaller(void **state)
     }
 }
 
+/* The positions of a ray appear at its pixel, before the camera, and all of the world lies ahead of its origin. */
+static void a_ray_through_a_pixel_appears_at_the_pixel(void **state)
+{
+    (void)state;
+    uint64_t random = 11;
+    for (int i = 0; i < 2000; i++) {
+        const octree_box world = i % 2 ? cube(-1000, 1000) : (octree_box){{1e6, -3, 0}, {1e6 + 8, 5, 2}};
+        const camera c =
+            camera_of((view_camera)random_below(&random, CAMERA_COUNT), &world, world.min, random_below(&random, 480));
+        const double pixel[2] = {random_between(&random, 40, 440), random_between(&random, 10, 310)};
+        double origin[3], direction[3], at[3], found[2], corner[3];
+        camera_find_ray(&c, pixel, &world, origin, direction);
+        assert_true(fabs(dot(direction, direction) - 1) < 1e-14);
+        const double far = (world.max[0] - world.min[0]) * random_between(&random, 0.7, 3);
+        for (int axis = 0; axis < 3; axis++)
+            at[axis] = origin[axis] + far * direction[axis];
+        assert_true(camera_find_pixel(&c, at, found));
+        assert_true(fabs(found[0] - pixel[0]) < 1e-5 && fabs(found[1] - pixel[1]) < 1e-5);
+        for (unsigned n = 0; !c.perspective && n < 8; n++) {
+            box_corner(&world, n, corner);
+            for (int axis = 0; axis < 3; axis++)
+                corner[axis] -= origin[axis];
+            assert_true(dot(corner, direction) > -1e-6);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -342,6 +369,7 @@ int main(void)
         cmocka_unit_test(only_the_orbit_turns_and_only_the_follower_moves),
         cmocka_unit_test(look_center_and_zoom_replace_those_of_the_camera),
         cmocka_unit_test(a_box_is_below_a_size_if_it_appears_smaller),
+        cmocka_unit_test(a_ray_through_a_pixel_appears_at_the_pixel),
         cmocka_unit_test(pixels_do_not_depend_on_position_and_scale_of_the_world),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

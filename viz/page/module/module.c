@@ -418,6 +418,22 @@ void web_project(size_t count)
     }
 }
 
+/* Returns the ray through a pixel of the drawn picture as six doubles: its origin, and its direction with length 1. */
+const double *web_ray(double x, double y)
+{
+    static double ray[6];
+    const scene *s = &page.playback.scene;
+    if (s->has_closeup) {
+        const scene *closeup = s->closeup;
+        const double left = x - closeup->place[0], top = y - closeup->place[1];
+        if (left >= 0 && top >= 0 && left < closeup->view.width && top < closeup->view.height)
+            s = closeup;
+    }
+    const double pixel[2] = {x - s->place[0], y - s->place[1]};
+    camera_find_ray(&s->camera, pixel, &page.session.session.tree.world, ray, ray + 3);
+    return ray;
+}
+
 /* ---- Questions ---------------------------------------------------------------------------------------------- */
 
 /* The parameters of web_pick(), for write_pick(). */

@@ -10,6 +10,9 @@ const QUERY_INPUTS = {
     radius: ["radius", "100"],
     at: ["position", "0,0,0"],
     box: ["box (two corners)", "-100,-100,-100,100,100,100"],
+    ray: ["direction", "1,0,0"],
+    thickness: ["thickness", "0"],
+    length: ["length (0: no end)", "0"],
     bounds: ["boundary"],
 };
 const INPUT_VALUES = {position: "0,0,0", number: "1", box: "-100,-100,-100,100,100,100"};
@@ -29,9 +32,15 @@ class AskForm {
         }
         const button = element("button", "Run query", {type: "submit"});
         const reset = element("button", "Clear", {type: "button"});
-        root.append(this.kind, ...Object.values(this.inputs).map(({label}) => label), button, reset);
+        this.shoot = element("button", "Shoot ray", {type: "button", id: "shoot", title: "Ray through the clicked pixel"});
+        this.shoot.hidden = true;
+        root.append(this.kind, ...Object.values(this.inputs).map(({label}) => label), button, reset, this.shoot);
         this.kind.addEventListener("change", () => this.showInputs());
         reset.addEventListener("click", forget);
+        this.shoot.addEventListener("click", () => {
+            this.setRay();
+            ask(this.query());
+        });
         root.addEventListener("submit", event => {
             event.preventDefault();
             ask(this.query());
@@ -60,13 +69,28 @@ class AskForm {
             label.hidden = !this.members.some(({name}) => name === member);
     }
 
-    /* Fill in the position `place`, a box around this position with a tenth of the world's extent, and a radius. */
-    setPlace(place, extent)
+    /* Fill in the position `place`, a box around this position with a tenth of the world's extent, and a radius. `ray`
+     * passes through the clicked pixel. */
+    setPlace(place, extent, ray)
     {
+        this.ray = ray;
+        this.shoot.hidden = false;
         this.inputs.at.input.value = place.map(roundedPlace).join(",");
         this.inputs.box.input.value =
             [-1, 1].flatMap(side => place.map(at => roundedPlace(at + side * extent / 20))).join(",");
         this.inputs.radius.input.value = rounded(extent / 20);
+    }
+
+    /* Select the kind "ray", and fill in the ray through the clicked pixel. */
+    setRay()
+    {
+        const {origin, direction, thickness} = this.ray;
+        this.kind.value = "ray";
+        this.inputs.at.input.value = origin.map(roundedPlace).join(",");
+        this.inputs.ray.input.value = direction.map(roundedPlace).join(",");
+        this.inputs.thickness.input.value = thickness;
+        this.inputs.length.input.value = 0;
+        this.showInputs();
     }
 
     value({name, type})

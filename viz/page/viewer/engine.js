@@ -188,6 +188,13 @@ class Engine {
         return places.map((place, i) => [numbers[2 * i], numbers[2 * i + 1]]);
     }
 
+    /* The ray through a pixel of the picture: its origin, and its direction with length 1. */
+    ray(x, y)
+    {
+        const at = new Float64Array(this.wasm.memory.buffer, this.wasm.web_ray(x, y) >>> 0, 6);
+        return {origin: [...at.slice(0, 3)], direction: [...at.slice(3)]};
+    }
+
     /* The position of the point with this id, or null if there is no such point. */
     point(id)
     {

@@ -8,7 +8,7 @@
 const TOLD_MEMBERS = ["tick", "key", "player", "events", "from", "attempt", "hits", "hit_cost", "answers", "visits",
                       "foreign_nodes", "refusals", "splits", "merges", "tree", "frame", "scene", "gap"];
 const COST_MEMBERS = ["nodes", "leaves", "points", "pruned", "taken"];
-const ANSWER_MEMBERS = ["ids", "neighbors", "id", "position", "distance", "cost", "judged", "bounds", "skip",
+const ANSWER_MEMBERS = ["ids", "neighbors", "id", "position", "distance", "t", "cost", "judged", "bounds", "skip",
                         "epsilon"];
 const QUERY_PARAMETERS = {
     __proto__: null,
@@ -16,6 +16,7 @@ const QUERY_PARAMETERS = {
     knearest: ["target", "k"],
     radius: ["center", "radius"],
     range: ["min", "max"],
+    ray: ["origin", "direction", "k", "thickness", "length"],
 };
 const FOREIGN_MEMBERS = ["count", "leaves", "depth", "digest", "visited", "pruned", "hit"];
 const JUDGED_MEMBERS = ["answer", "mode", "wrong", "wrong_id", "expected", "missing", "extra", "rank", "ratio"];
@@ -117,22 +118,22 @@ const distanceOf = (a, b) => Math.hypot(...a.map((at, i) => at - b[i]));
 
 /* ---- Queries ----------------------------------------------------------------------------------------------------- */
 
-/* The found points. The answer itself holds the positions and distances of neighbours. The page knows the positions of
- * other points only if it plays the session. */
-function showHits({neighbors, id, position, distance, ids, target, center}, look)
+/* The found points. The answer itself holds the positions and distances of neighbours, and the t of a ray's hits. The
+ * page knows the positions of other points only if it plays the session. */
+function showHits({neighbors, id, position, distance, ids, target, center, origin}, look)
 {
     const points = neighbors ?? ids ?? (id === undefined || id === null ? [] : [{id, position, distance}]);
-    const from = center ?? target, rows = keptEntries(points).map(point => {
+    const from = center ?? target ?? origin, rows = keptEntries(points).map(point => {
         const hit = typeof point === "object" ? point : {id: point, position: look.at(point)};
         const far = from && hit.position ? distanceOf(hit.position, from) : undefined;
-        return {...hit, distance: hit.distance ?? far};
+        return {...hit, distance: hit.t ?? hit.distance ?? far};
     });
     if (rows.length === 0)
         return [];
     if (!rows[0].position)
         return [paragraph(["Points ", ...enumerated(points, idLink, 100)])];
     const more = leftOut(points) ? [{more: leftOut(points)}] : [];
-    const heads = ["point", ...(from ? ["distance"] : []), "position"];
+    const heads = ["point", ...(from ? [origin ? "t" : "distance"] : []), "position"];
     return table(heads, [...rows, ...more], hit =>
         [idLink(hit.id), ...(from ? [numberText(hit.distance)] : []), placeText(hit.position)]);
 }

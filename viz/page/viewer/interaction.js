@@ -109,7 +109,7 @@ class Interaction {
         this.makeControls(player.engine.choices());
         this.live = new Live(this.stage, player, {
             showStatus: text => this.showStatus(text),
-            picked: (pick, place) => this.showPick(pick, place),
+            picked: (pick, place, ray) => this.showPick(pick, place, ray),
             changed: () => this.showView(),
             again: () => this.playAgain(),
             appears: () => this.viewer.stage.leave(),
@@ -434,12 +434,12 @@ class Interaction {
         this.showBackButton();
     }
 
-    showPick(pick, place)
+    showPick(pick, place, ray)
     {
         if (this.measure.isOn)
             this.measure.add(pick);
         const {min, max} = this.player.engine.world();
-        this.form.setPlace(place, Math.max(...max.map((high, i) => high - min[i])));
+        this.form.setPlace(place, Math.max(...max.map((high, i) => high - min[i])), ray);
         setOpen("sheet", true);
         this.viewer.inspector.showPick(pick, this.live.subject);
         this.viewer.address.writeSoon();

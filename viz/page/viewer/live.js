@@ -29,7 +29,8 @@ const rounded = number => Number(number.toPrecision(8));
 const roundedPlace = number => Number(number.toPrecision(15));
 
 class Live {
-    /* `showStatus(text)` shows a sentence. `picked(pick, place)` shows the elements at a pixel. `changed()` is called
+    /* `showStatus(text)` shows a sentence. `picked(pick, place, ray)` shows the elements at a pixel, through
+     * which a ray passes. `changed()` is called
      * after the view has changed. `again()` plays from tick 0 to the shown tick once more. `appears()` is called before
      * the picture takes the stage. `showRows(rows)` shows the rows of the column of text. */
     constructor(stage, player, {showStatus, picked, changed, again, appears, showRows})
@@ -314,7 +315,8 @@ class Live {
         const pick = this.engine.pick(x, y, Math.round(PICK_RADIUS * this.ratio));
         this.subject = ["point", "node", "foreign_node", "query"].map(kind => pick.elements.find(found => found[kind]))
             .find(found => found) ?? null;
-        this.picked(pick, this.placeOfSubject() ?? this.placeAt([x, y]));
+        const thickness = rounded(this.cameraAt([x, y]).pixel * PICK_RADIUS * this.ratio);
+        this.picked(pick, this.placeOfSubject() ?? this.placeAt([x, y]), {...this.engine.ray(x + 0.5, y + 0.5), thickness});
         this.mark();
     }
 

@@ -198,6 +198,10 @@ const QUERY_TITLES = {
     nearest: ({target}) => ["Nearest to ", placeText(target)],
     knearest: ({target, k}) => [`${textOf(k)} nearest to `, placeText(target)],
     radius: ({center, radius}) => ["Within ", numberText(radius), " of ", placeText(center)],
+    ray: ({origin, direction, k, thickness, length}) =>
+        [k === 1 ? "First hit of the ray from " : `First ${textOf(k)} hits of the ray from `, placeText(origin),
+         " in direction ", placeText(direction), ...(thickness ? [", thickness ", numberText(thickness)] : []),
+         ...(length ? [", length ", numberText(length)] : [])],
     range: ({min, max}) => ["In the box ", placeText(min), " to ", placeText(max)],
 };
 
