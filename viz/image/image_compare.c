@@ -191,6 +191,14 @@ static bool have_same_storage(const image *a, const image *b)
     return a->channels == 3 || memcmp(a->palette.colors, b->palette.colors, sizeof a->palette.colors) == 0;
 }
 
+static int largest_channel_difference(const pixel_samples *a, const pixel_samples *b)
+{
+    int largest = 0;
+    for (int i = 0; i < 3; i++)
+        largest = maximum(largest, abs(a->of[i] - b->of[i]));
+    return largest;
+}
+
 /* Measure the difference of two colours. Store the results in c->last_square and c->last_channel. */
 static void measure_colors(image_comparison *c, const pixel_samples *a, const pixel_samples *b)
 {
@@ -199,9 +207,7 @@ static void measure_colors(image_comparison *c, const pixel_samples *a, const pi
     memcpy(c->last[0], a, sizeof *a);
     memcpy(c->last[1], b, sizeof *b);
     c->last_square = squared_color_distance(a, b, c->difference.channel_range);
-    c->last_channel = 0;
-    for (int i = 0; i < 3; i++)
-        c->last_channel = maximum(c->last_channel, abs(a->of[i] - b->of[i]));
+    c->last_channel = largest_channel_difference(a, b);
 }
 
 static void add_to_tally(image_tally *tally, int x, int y, const image_comparison *c)
@@ -224,12 +230,12 @@ static void add_to_tally(image_tally *tally, int x, int y, const image_compariso
 typedef enum verdict { COUNTED, IGNORED, CLOSE, ANTIALIASED } verdict;
 
 /* Decide whether a differing pixel is counted, ignored or forgiven, and why. `y` is the pixel's row in the band,
- * `square` the squared distance of its two colours. */
-static verdict judge_pixel(const image_tolerance *t, const rows *r, int x, int y, double square)
+ * `square` the squared distance of its two colours, `channel` the largest difference of their samples. */
+static verdict judge_pixel(const image_tolerance *t, const rows *r, int x, int y, double square, int channel)
 {
     if (image_is_pixel_ignored(t, r->a->width, x, r->first + y))
         return IGNORED;
-    if (square <= t->max_delta * t->max_delta)
+    if (square <= t->max_delta * t->max_delta || channel <= t->max_channel)
         return CLOSE;
     return t->antialias && is_antialiased(r->a, r->b, x, y) ? ANTIALIASED : COUNTED;
 }
@@ -239,7 +245,7 @@ static void count_pixel(image_comparison *c, const rows *r, int x, int y, const 
 {
     image_difference *difference = &c->difference;
     measure_colors(c, a, b);
-    const verdict v = judge_pixel(c->tolerance, r, x, y, c->last_square);
+    const verdict v = judge_pixel(c->tolerance, r, x, y, c->last_square, c->last_channel);
     difference->ignored += v == IGNORED;
     difference->close += v == CLOSE;
     difference->antialiased += v == ANTIALIASED;
@@ -278,6 +284,7 @@ image_comparison image_begin_comparison(const image *a, const image *b, const im
     return (image_comparison){
         .tolerance = tolerance,
         .difference = {.same_size = a->width == b->width && a->height == b->height,
+                       .area = (uint64_t)a->width * (uint64_t)a->height,
                        .channel_range = common_sample_range(a, b),
                        .unlike = none,
                        .counted = none},
@@ -325,7 +332,10 @@ bool image_has_no_difference(const image_difference *difference)
 bool image_is_within_tolerance(const image_difference *difference, const image_tolerance *tolerance)
 {
     const bool invisible = tolerance->flip && difference->has_flip && difference->flip.mean <= tolerance->max_flip;
-    return difference->same_size && (invisible || difference->counted.pixels <= tolerance->max_pixels);
+    /* The factor makes up for rounding: 0.07 % of 10000 pixels are 7 pixels, not 6.9999. */
+    const double share = tolerance->max_share * (double)difference->area * (1 + 1e-12);
+    const uint64_t counted = difference->counted.pixels;
+    return difference->same_size && (invisible || counted <= tolerance->max_pixels || (double)counted <= share);
 }
 
 /* ---- The picture of the difference --------------------------------------------------------------------------- */
@@ -373,9 +383,12 @@ static uint8_t grey_index(const pixel_samples *p, int range)
     return (uint8_t)((GREYS - 1) * sqrt(luma)); /* the square root keeps dark pictures recognizable */
 }
 
-static uint8_t difference_index(const rows *r, const image_tolerance *tolerance, int x, int y, double square)
+/* Return the index for a pixel with the colours p and q. */
+static uint8_t difference_index(const rows *r, const image_tolerance *tolerance, int x, int y, const pixel_samples *p,
+                                const pixel_samples *q)
 {
-    if (judge_pixel(tolerance, r, x, y, square) != COUNTED)
+    const double square = squared_color_distance(p, q, common_sample_range(r->a, r->b));
+    if (judge_pixel(tolerance, r, x, y, square, largest_channel_difference(p, q)) != COUNTED)
         return FORGIVEN;
     /* With the square root of the distance, half of the colours are left for barely visible differences. `square` is
      * the squared distance, so two square roots are taken. */
@@ -393,9 +406,7 @@ void image_draw_difference_row(const image *a, const image *b, const image_toler
         pixel_samples p, q;
         read_samples(a, (size_t)y * (size_t)a->width + (size_t)x, 1, range, &p);
         read_samples(b, (size_t)y * (size_t)b->width + (size_t)x, 1, range, &q);
-        row[x] = are_samples_equal(&p, &q)
-                     ? grey_index(&p, range)
-                     : difference_index(&r, tolerance, x, y, squared_color_distance(&p, &q, range));
+        row[x] = are_samples_equal(&p, &q) ? grey_index(&p, range) : difference_index(&r, tolerance, x, y, &p, &q);
     }
     memset(row + common, OUTSIDE, (size_t)(longest - common));
 }

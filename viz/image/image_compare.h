@@ -17,7 +17,9 @@ typedef octreel_rectangle image_rectangle; /* a rectangle of pixels; it may exte
 /* The rules by which differing pixels are forgiven or ignored. A zeroed struct forgives and ignores none. */
 typedef struct image_tolerance {
     uint64_t max_pixels; /* forgive up to this many differing pixels that no other rule forgives */
+    double max_share;    /* forgive up to this share of the image's pixels, from 0 to 1, as with max_pixels */
     double max_delta;    /* forgive pixels whose two colours have at most this distance, in IMAGE_DELTA_UNIT */
+    int max_channel;     /* forgive pixels whose samples differ by at most this much in each channel */
     bool antialias;      /* true: forgive pixels on anti-aliased edges */
     /* true: forgive all differences of an image if its mean FLIP at pixels_per_degree is at most max_flip */
     bool flip;
@@ -58,12 +60,13 @@ typedef struct image_flip {
 } image_flip;
 
 typedef struct image_difference {
-    bool same_size;       /* false: the images differ in size, and nothing was counted */
-    int channel_range;    /* the largest possible value of largest_channel: 255, or 65535 for 16-bit samples */
-    image_tally unlike;   /* all differing pixels, except those that are ignored */
-    image_tally counted;  /* differing pixels that are neither ignored nor forgiven by max_delta or `antialias` */
-    uint64_t close;       /* number of pixels that are forgiven because their distance is within max_delta */
-    uint64_t antialiased; /* number of pixels that are forgiven by `antialias`, and not by max_delta */
+    bool same_size;      /* false: the images differ in size, and nothing was counted */
+    uint64_t area;       /* the number of pixels of an image */
+    int channel_range;   /* the largest possible value of largest_channel: 255, or 65535 for 16-bit samples */
+    image_tally unlike;  /* all differing pixels, except those that are ignored */
+    image_tally counted; /* differing pixels that are neither ignored nor forgiven as close or by `antialias` */
+    uint64_t close; /* number of pixels that are forgiven because their distance is within max_delta or max_channel */
+    uint64_t antialiased; /* number of pixels that are forgiven by `antialias`, and not because they are close */
     /* number of differing pixels that the ignored rectangles or the mask exclude; no tally counts these pixels */
     uint64_t ignored;
     bool has_flip;   /* true: FLIP was measured, by the caller of the functions below */
@@ -99,8 +102,8 @@ image_difference image_end_comparison(const image_comparison *comparison);
 /* Returns whether the sizes are equal and no pixel differs, not even an ignored pixel. */
 bool image_has_no_difference(const image_difference *difference);
 
-/* Returns whether the sizes are equal, and at most max_pixels differing pixels are neither ignored nor forgiven by
- * another rule or the mean FLIP is within max_flip. */
+/* Returns whether the sizes are equal, and at most max_pixels differing pixels, or the share max_share, are neither
+ * ignored nor forgiven by another rule or the mean FLIP is within max_flip. */
 bool image_is_within_tolerance(const image_difference *difference, const image_tolerance *tolerance);
 
 /* Draw row y of a picture that shows the difference of two images, as indices of the palette

@@ -191,7 +191,7 @@ image_difference naive_compare(const image *a, const image *b, const image_toler
             const double delta = naive_delta(from, to);
             const int channel = channel_difference(from, to, d.channel_range);
             tally(&d.unlike, x, y, delta, channel);
-            if (delta <= tolerance->max_delta)
+            if (delta <= tolerance->max_delta || channel <= tolerance->max_channel)
                 d.close++;
             else if (tolerance->antialias && naive_antialiased(a, b, x, y))
                 d.antialiased++;

@@ -95,6 +95,7 @@ static void counts_equal_the_naive_comparison(void **state)
     for (int i = 0; i < 1500; i++) {
         const int width = 1 + (int)(next_random(&random) % 40), height = 1 + (int)(next_random(&random) % 20);
         const image_tolerance tolerance = {.max_delta = i % 3 == 0 ? 0 : (next_random(&random) % 100) / 150.0,
+                                           .max_channel = i % 4 == 1 ? i % 97 : 0,
                                            .antialias = i % 2 == 0,
                                            .ignored = ignored,
                                            .ignored_count = next_random(&random) % 4,
