@@ -3,6 +3,7 @@
  * Build with clang -fsanitize=fuzzer,address,undefined.
  */
 #include "baseline.h"
+#include "rule.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -50,13 +51,30 @@ static void check_round_trip(const diff_side *side)
     diff_side_release(&again);
 }
 
+/* The rule of a frame can be applied to a frame of any size. */
+static void check_rules(const diff_side *side)
+{
+    for (size_t i = 0; i < side->count; i++) {
+        const baseline_rule *rule = rule_find(side, side->frames[i].name);
+        pixel_mask mask = {0};
+        octreel_error error;
+        if (rule && !rule->mask && !rule_add_mask(rule, 24, 16, &mask, &error))
+            abort();
+        if (rule && (!rule->reason || rule_has_expired(rule, "")))
+            abort();
+        mask_release(&mask);
+    }
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     diff_side side;
     if (size == 0)
         return 0;
-    if (parse(data, size, &side))
+    if (parse(data, size, &side)) {
         check_round_trip(&side);
+        check_rules(&side);
+    }
     diff_side_release(&side);
     return 0;
 }

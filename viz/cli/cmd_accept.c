@@ -3,11 +3,11 @@
 #include "command.h"
 #include "accept.h"
 #include "outputs.h"
+#include "rule.h"
 
 #include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
 typedef struct arguments {
     const char *from, *date, *reason, *store;
@@ -44,33 +44,26 @@ static const command_option options[] = {
     {"reason", "TEXT",
      "the reason for the change, one line of text. If REFERENCE does not exist, a baseline is created",
      .read = read_reason, OPTION_VALUE(arguments, reason)},
-    {"date", "DATE", "the date of the change, as YYYY-MM-DD (default: today)", .read = read_date,
-     OPTION_VALUE(arguments, date)},
+    {"date", "DATE",
+     "the date of the change, as YYYY-MM-DD (default: that of SOURCE_DATE_EPOCH, if it is set, else today)",
+     .read = read_date, OPTION_VALUE(arguments, date)},
     {"variant", NULL, "keep the previously accepted digests: a frame then passes if it matches any of its digests",
      .read = read_flag, OPTION_VALUE(arguments, variant)},
     {0},
 };
 
-/* Writes today's date in the local time zone as YYYY-MM-DD. Returns `text`. */
-static const char *format_today(char text[11])
-{
-    const time_t now = time(NULL);
-    struct tm local;
-    if (!localtime_r(&now, &local) || strftime(text, 11, "%Y-%m-%d", &local) == 0)
-        snprintf(text, 11, "1970-01-01");
-    return text;
-}
-
 static int accept_given_frames(const arguments *a, char **paths, int count)
 {
-    char date[11];
+    char today[11] = "";
     octreel_error error;
     frame_list names = {0};
+    if (a->reason && !a->date && !rule_today(today, &error))
+        return print_error("%s", error.text);
     const accept_options all = {.reference = paths[0],
                                 .frames = paths[1],
                                 .flat = a->flat,
                                 .names = &names,
-                                .note = {a->date ? a->date : format_today(date), a->reason},
+                                .note = {a->date ? a->date : today, a->reason},
                                 .store = a->store,
                                 .variant = a->variant,
                                 .json = a->json};
@@ -113,7 +106,7 @@ const command command_accept = {
         "and is created if it does not exist. FRAME is a path below NEW, as in menu/1.png. References with the same "
         "pixels are not changed. A reference without a frame in NEW is removed if you accept all frames or name this "
         "reference. Like octreel diff, this command prints the differences and searches subfolders. Look at the "
-        "pictures before you accept them.\n",
+        "pictures before you accept them. Rules and comments of a baseline are kept.\n",
     .more = "Several processes may accept into one reference at the same time; each sees the changes of the others. "
             "Nothing is accepted when the disk is full. Nothing is accepted from a damaged or unfinished recording, "
             "because this would remove the references of its missing frames. Nothing is accepted when the environment "
@@ -128,7 +121,8 @@ const command command_accept = {
         "octreel accept baseline.txt frames --reason \"the letters are larger\" --store pictures\n"
         "# accept the findings that you ticked in the page, and keep the old digests\n"
         "octreel accept baseline.txt frames --from accept.txt --variant --reason \"Mesa 26 rounds otherwise\"\n",
-    .environment = "  CI  if set, nothing is accepted\n",
+    .environment = "  CI  if set, nothing is accepted\n"
+                   "  SOURCE_DATE_EPOCH  the default of --date, in seconds since 1970-01-01\n",
     .min_arguments = 2,
     .max_arguments = INT_MAX,
     .takes = "a reference and new frames",

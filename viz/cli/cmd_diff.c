@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* cmd_diff.c - octreel diff: compares two pictures, folders or recordings frame by frame. */
 #include "command.h"
+#include "baseline.h"
 #include "contact_sheet.h"
 #include "explain.h"
-#include "flip.h"
 #include "hint.h"
 #include "ignored_layers.h"
-#include "number.h"
 #include "outputs.h"
 #include "picture_store.h"
 #include "report.h"
@@ -22,8 +21,6 @@ enum { PAGE, JUNIT, MARKDOWN, OUTPUTS };
 
 typedef struct arguments {
     diff_options options;
-    unsigned layers;          /* the ignored layers, as bits 1 << view_layer */
-    image_rectangle *ignored; /* the ignored parts of the pictures; this structure owns the array */
     output_file outputs[OUTPUTS];
     uint64_t max_ticks;
     uint64_t causes; /* the value of --causes: how many differing frames and ticks are explained */
@@ -32,50 +29,11 @@ typedef struct arguments {
     bool flat, json, force, each, annotate;
 } arguments;
 
-static bool read_delta(const command_option *option, const char *text, void *into)
+/* Reads a tolerance, an option whose name is that of a row of tolerance.c. */
+static bool read_tolerance(const command_option *option, const char *text, void *into)
 {
-    double *delta = into;
-    if (numbers_parse(text, delta, 1) && *delta >= 0 && *delta <= 1)
-        return true;
-    return refuse_value(option, "a number from 0 to 1", text);
-}
-
-static bool read_flip(const command_option *option, const char *text, void *into)
-{
-    image_tolerance *t = into;
-    t->flip = true;
-    return read_delta(option, text, &t->max_flip);
-}
-
-static bool read_resolution(const command_option *option, const char *text, void *into)
-{
-    double *resolution = into;
-    if (numbers_parse(text, resolution, 1) && *resolution >= FLIP_LEAST_PIXELS_PER_DEGREE &&
-        *resolution <= FLIP_MOST_PIXELS_PER_DEGREE)
-        return true;
-    return print_refusal("--%s takes a number from %d to %d, not \"%s\"", option->name, FLIP_LEAST_PIXELS_PER_DEGREE,
-                         FLIP_MOST_PIXELS_PER_DEGREE, text);
-}
-
-static bool read_rectangle(const command_option *option, const char *text, void *into)
-{
-    arguments *a = into;
-    image_tolerance *t = &a->options.tolerance;
-    const char *at = text;
-    uint64_t values[4] = {0};
-    bool ok = true;
-    for (int i = 0; ok && i < 4; i++, at++)
-        ok = whole_number_parse(&at, INT32_MAX, &values[i]) && *at == (i < 3 ? ',' : 0);
-    if (!ok || values[2] == 0 || values[3] == 0)
-        return print_refusal("--%s takes left, top, width and height in pixels, such as 10,20,300,40, each at most %d, "
-                             "width and height at least 1, not \"%s\"",
-                             option->name, INT32_MAX, text);
-    image_rectangle *grown = realloc(a->ignored, (t->ignored_count + 1) * sizeof *grown);
-    if (!grown)
-        return print_refusal("out of memory for the rectangles of --%s", option->name);
-    grown[t->ignored_count++] = (image_rectangle){(int)values[0], (int)values[1], (int)values[2], (int)values[3]};
-    t->ignored = a->ignored = grown;
-    return true;
+    octreel_error error;
+    return tolerance_read(tolerance_find(option->name), text, "--", into, &error) || print_refusal("%s", error.text);
 }
 
 static bool refuse_layer(const command_option *option, const char *bad)
@@ -93,13 +51,19 @@ static bool read_layers(const command_option *option, const char *text, void *in
 {
     arguments *a = into;
     const char *bad;
-    if (a->options.mask)
+    if (a->options.ignored_layers)
         return print_refusal("--%s can be given once; separate the names of several layers by commas", option->name);
-    if (!view_layers_parse(text, &a->layers, &bad))
+    if (!view_layers_parse(text, &a->options.ignored_layers, &bad))
         return refuse_layer(option, bad);
-    a->options.mask = ignore_layers;
-    a->options.mask_context = &a->layers;
     a->options.layers = text;
+    return true;
+}
+
+static bool read_today(const command_option *option, const char *text, void *into)
+{
+    if (!baseline_is_date(text))
+        return refuse_value(option, "an existing date such as 2026-11-22", text);
+    memcpy(into, text, option->size);
     return true;
 }
 
@@ -114,24 +78,31 @@ static bool read_causes(const command_option *option, const char *text, void *in
 static const command_option options[] = {
     {.help =
          "What counts as the same (the default is exact equality). The verdict names every tolerance that was used:"},
-    {"max-pixels", "N", "accept up to N different pixels in a frame, after the tolerances below are applied",
-     .read = read_whole, OPTION_VALUE(arguments, options.tolerance.max_pixels), .max = UINT32_MAX},
+    {"max-pixels", "N",
+     "accept up to N different pixels in a frame, or N% of its pixels, such as 0.5%, after the tolerances below are "
+     "applied",
+     .read = read_tolerance, OPTION_VALUE(arguments, options.tolerance)},
     {"max-delta", "D",
      "accept colours at most D apart in YIQ (Kotsarenko and Ramos 2010), from 0, equal, to 1. This is the threshold "
      "of pixelmatch and odiff, whose default is 0.1",
-     .read = read_delta, OPTION_VALUE(arguments, options.tolerance.max_delta)},
-    {"antialias", NULL, "ignore pixels on anti-aliased edges (Vysniauskas 2009, as in pixelmatch)", .read = read_flag,
-     OPTION_VALUE(arguments, options.tolerance.antialias)},
+     .read = read_tolerance, OPTION_VALUE(arguments, options.tolerance)},
+    {"max-channel", "N",
+     "accept colours whose red, green and blue each differ by at most N of 255, or of 65535 in frames with 16 bits a "
+     "channel",
+     .read = read_tolerance, OPTION_VALUE(arguments, options.tolerance)},
+    {"antialias", NULL, "ignore pixels on anti-aliased edges (Vysniauskas 2009, as in pixelmatch)",
+     .read = read_tolerance, OPTION_VALUE(arguments, options.tolerance)},
     {"flip", "X",
      "accept a frame whose mean FLIP (Andersson and others 2020) is at most X. FLIP is how visible a difference is to "
      "a person who sees the two frames in alternation, from 0, invisible, to 1. It is measured and reported with any "
      "X. A mean hides small differences: a missing line in a frame of 640 x 360 pixels has about 0.001",
-     .read = read_flip, OPTION_VALUE(arguments, options.tolerance)},
+     .read = read_tolerance, OPTION_VALUE(arguments, options.tolerance)},
     {"pixels-per-degree", "N",
      "resolution that a person sees, for --flip, from 1 to 200 (default 67: a display 0.7 m and 3840 pixels wide, seen "
      "from 0.7 m)",
-     .read = read_resolution, OPTION_VALUE(arguments, options.tolerance.pixels_per_degree)},
-    {"ignore", "X,Y,W,H", "ignore a rectangle of pixels; can be given several times", .read = read_rectangle},
+     .read = read_tolerance, OPTION_VALUE(arguments, options.tolerance)},
+    {"ignore", "X,Y,W,H", "ignore a rectangle of pixels; can be given several times", .read = read_tolerance,
+     OPTION_VALUE(arguments, options.tolerance)},
     {"ignore-layer", "LIST",
      "ignore pixels of recordings where these layers, such as nodes,points, are on top in either frame; octreel record "
      "--help lists the layers",
@@ -153,8 +124,13 @@ static const command_option options[] = {
     FLAT_OPTION(arguments, flat),
     {"store", "DIR",
      "with a baseline as REFERENCE: show the expected pictures that octreel accept --store has saved in DIR, and apply "
-     "the tolerances to these pictures. Without a tolerance, the pictures never change the verdict",
+     "the tolerances and the rules of the baseline to these pictures. Without a tolerance or rule, the pictures never "
+     "change the verdict",
      .read = read_name, OPTION_VALUE(arguments, options.store)},
+    {"today", "DATE",
+     "with a baseline as REFERENCE: the date, as YYYY-MM-DD, on which rules of the baseline expire or not (default: "
+     "the date of SOURCE_DATE_EPOCH, if it is set, else today)",
+     .read = read_today, OPTION_VALUE(arguments, options.today)},
     {"background", "RRGGBB", "colour behind transparent pixels (default ffffff, white)", .read = read_color,
      OPTION_VALUE(arguments, options.background)},
     {"output", "DIR",
@@ -245,10 +221,10 @@ static int write_reports(const arguments *a, diff_report *all)
     return verdict == DIFF_TROUBLE ? print_first_error(all->result, all->why) : statuses[verdict];
 }
 
-static bool check_resolution(const image_tolerance *t)
+static bool check_resolution(const image_tolerance *tolerance)
 {
-    const bool given = t->pixels_per_degree < FLIP_PIXELS_PER_DEGREE || t->pixels_per_degree > FLIP_PIXELS_PER_DEGREE;
-    return t->flip || !given || print_refusal("--pixels-per-degree has no effect without --flip: add --flip X");
+    return !tolerance_has_idle_resolution(tolerance) ||
+           print_refusal("--pixels-per-degree has no effect without --flip: add --flip X");
 }
 
 /* Checks everything that can be checked before the folder of evidence is changed. */
@@ -279,9 +255,8 @@ static int compare_sides(const arguments *a, const char *paths[2])
     octreel_error error;
     bool ok = open_sides(a, paths, sides, &error) && check_before_writing(a, sides, &error) &&
               diff_run(&sides[0], &sides[1], &a->options, &result, &error);
-    if (ok)
-        picture_store_fetch(&sides[0], &result);
-    ok = ok && explain(&sides[0], &sides[1], &result, a->causes, &why, &error) &&
+    ok = ok && picture_store_fetch(&sides[0], &sides[1], &result, &error) &&
+         explain(&sides[0], &sides[1], &result, a->causes, &why, &error) &&
          frame_groups_make(&groups, &result, &why, a->each, &error);
     diff_report all = {
         .a = &sides[0], .b = &sides[1], .result = &result, .why = &why, .lines = a->lines, .groups = &groups};
@@ -301,6 +276,7 @@ static int run(int argc, char **argv)
     arguments a = {.options = diff_options_default(),
                    .outputs = {{.option = "-o"}, {.option = "--junit"}, {.option = "--markdown"}},
                    .causes = EXPLAIN_DEFAULT};
+    a.options.mask = ignore_layers;
     int status = command_read_arguments(&command_diff, &a, argc, argv);
     a.annotate = a.annotate || getenv("GITHUB_ACTIONS");
     a.lines = a.has_causes && a.causes > LIST_LINES ? (size_t)a.causes : LIST_LINES;
@@ -317,7 +293,7 @@ static int run(int argc, char **argv)
                      ? compare_sides(&a, (const char *[]){argv[optind], argv[optind + 1]})
                      : EXIT_TROUBLE;
     free(path);
-    free(a.ignored);
+    tolerance_release(&a.options.tolerance);
     return status;
 }
 
@@ -331,7 +307,8 @@ const command command_diff = {
              "a recording, or a baseline that octreel accept has made; - is a PNG or a baseline from standard input. "
              "Frames are paired by name; in a subfolder, the name is the path below the folder, as in menu/1.png. A "
              "frame that only one side has is a difference. Where a baseline accepts several digests of a frame, any "
-             "of them passes. Recordings without frames are compared by their ticks.\n"
+             "of them passes. A rule in the baseline forgives differences of some frames; octreel help baseline "
+             "describes rules. Recordings without frames are compared by their ticks.\n"
              "\n"
              "In a folder, octreel diff ignores files and subfolders whose names begin with a dot, links to folders, "
              "folders that octreel diff -o has written, the folder of --store, and the other side if it lies in the "
@@ -349,8 +326,12 @@ const command command_diff = {
                 "# compare with a baseline, and show the expected pictures from its store\n"
                 "octreel diff baseline.txt frames --store pictures -o evidence\n"
                 "# compare with a baseline, with a colour tolerance for the frames whose digests differ\n"
-                "octreel diff baseline.txt frames --store pictures --max-delta 0.02\n",
-    .environment = "  GITHUB_ACTIONS  if set, GitHub annotations are printed, as with --annotate\n",
+                "octreel diff baseline.txt frames --store pictures --max-delta 0.02\n"
+                "# list the frames that will fail because rules of the baseline expire before the end of the year\n"
+                "octreel diff baseline.txt frames --store pictures --today 2026-12-31\n",
+    .environment =
+        "  GITHUB_ACTIONS  if set, GitHub annotations are printed, as with --annotate\n"
+        "  SOURCE_DATE_EPOCH  the default of --today, in seconds since 1970-01-01 (reproducible-builds.org)\n",
     .files = "  DIR/report.html  the page, which needs no other file\n"
              "  DIR/contact.png  small copies of the pictures of all findings\n"
              "  DIR/NAME.expected.png, DIR/NAME.actual.png, DIR/NAME.difference.png  the first frame of a finding\n"

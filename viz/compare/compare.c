@@ -8,7 +8,7 @@
 #include "file.h"
 #include "file_kind.h"
 #include "flip.h"
-#include "pair.h"
+#include "stored_picture.h"
 #include "text.h"
 
 #include <errno.h>
@@ -61,6 +61,10 @@ static bool check_definition(const octreel_compare_def *def, octreel_error *erro
 {
     if (!(def->max_delta >= 0 && def->max_delta <= 1)) /* a NaN is refused, too */
         return error_set(error, "max_delta is %g; it must be from 0 to 1", def->max_delta);
+    if (!(def->max_share >= 0 && def->max_share <= 1))
+        return error_set(error, "max_share is %g; it must be from 0 to 1", def->max_share);
+    if (def->max_channel < 0 || def->max_channel > UINT16_MAX)
+        return error_set(error, "max_channel is %d; it must be from 0 to 65535", def->max_channel);
     if (def->flip && !(def->max_flip >= 0 && def->max_flip <= 1))
         return error_set(error, "max_flip is %g; it must be from 0 to 1", def->max_flip);
     if (def->flip && !(def->pixels_per_degree >= FLIP_LEAST_PIXELS_PER_DEGREE &&
@@ -71,6 +75,8 @@ static bool check_definition(const octreel_compare_def *def, octreel_error *erro
         return error_set(error, "background is 0x%08x; it must be 0xRRGGBB", (unsigned)def->background);
     if (def->ignored_count > 0 && !def->ignored)
         return error_set(error, "ignored is null, but ignored_count is %zu", def->ignored_count);
+    if (def->today && !baseline_is_date(def->today))
+        return error_set(error, "today is \"%s\"; it must be an existing date such as 2026-11-22, or null", def->today);
     for (size_t i = 0; i < def->ignored_count; i++)
         if (!check_rectangle(&def->ignored[i], i, error))
             return false;
@@ -82,13 +88,16 @@ static void set_options(comparing *c)
     const octreel_compare_def *def = c->def;
     c->options = diff_options_default();
     c->options.tolerance = (image_tolerance){.max_pixels = def->max_pixels,
+                                             .max_share = def->max_share,
                                              .max_delta = def->max_delta,
+                                             .max_channel = def->max_channel,
                                              .antialias = def->antialias,
                                              .flip = def->flip,
                                              .max_flip = def->max_flip,
                                              .pixels_per_degree = def->pixels_per_degree,
                                              .ignored = def->ignored,
                                              .ignored_count = def->ignored_count};
+    c->options.store = def->store;
     c->options.background =
         (image_color){(uint8_t)(def->background >> 16), (uint8_t)(def->background >> 8), (uint8_t)def->background};
 }
@@ -161,17 +170,20 @@ static bool find_frame(comparing *c, octreel_error *error)
 
 static bool open_baseline(comparing *c, octreel_error *error)
 {
-    if (!diff_is_exact(&c->options))
+    if (!diff_is_exact(&c->options) && !c->options.store)
         return error_set(error,
-                         "%s: a baseline holds digests, which allow no tolerance; compare with a PNG file, or set "
-                         "max_delta, flip, antialias, max_pixels and ignored_count to 0",
+                         "%s: a baseline holds digests, which allow no tolerance; set `store` to the folder of octreel "
+                         "accept --store, compare with a PNG file, or forgive and ignore nothing",
                          c->reference.path);
     c->has_baseline = true;
     c->baseline = (diff_side){.path = c->reference.path, .source = c->reference.path};
     if (!baseline_read(&c->baseline, error))
         return false;
     c->options.background = c->baseline.background;
-    return find_frame(c, error);
+    if (c->def->today)
+        memcpy(c->options.today, c->def->today, sizeof c->options.today);
+    return find_frame(c, error) &&
+           (c->def->today || c->baseline.rule_count == 0 || rule_today(c->options.today, error));
 }
 
 /* Open the reference first: a baseline decides the background with which the pixels are blended. */
@@ -191,6 +203,8 @@ static void close_pair(comparing *c)
 {
     if (c->has_baseline)
         diff_side_release(&c->baseline);
+    mask_release(&c->pair.mask);
+    free(c->pair.no_picture);
     free(c->pair.trouble);
     free(c->reference.owned);
     free(c->actual.owned);
@@ -246,6 +260,16 @@ static bool describe_difference(const comparing *c, octreel_error *sentence)
     return ok || error_no_memory(sentence);
 }
 
+/* If the digest differs, compare with the stored pictures, under the definition and then under the rule. */
+static void compare_stored(comparing *c)
+{
+    diff_frame *frame = &c->baseline.frames[c->pair.a - c->baseline.frames];
+    c->pair.rule = rule_find(&c->baseline, frame->name);
+    stored_picture_compare(&c->pair, frame, &c->options);
+    stored_picture_choose_rule(&c->pair, &c->options, false);
+    stored_picture_apply_rule(&c->pair, frame, &c->options);
+}
+
 static bool compare_pair(comparing *c, octreel_comparison *result, octreel_error *sentence)
 {
     if (!check_definition(c->def, sentence))
@@ -256,6 +280,8 @@ static bool compare_pair(comparing *c, octreel_comparison *result, octreel_error
     errno = 0; /* set_unreadable() reads it */
     if (!compare_bytes(&c->pair))
         compare_pixels(&c->pair, &c->options);
+    if (c->has_baseline)
+        compare_stored(c);
     if (c->pair.finding == FOUND_UNREADABLE)
         return c->pair.trouble ? error_set(sentence, "%s", c->pair.trouble) : error_no_memory(sentence);
     if (!describe_difference(c, sentence))

@@ -11,9 +11,10 @@
 # REFERENCE  a PNG, a folder of PNGs, or a baseline of `octreel accept`, relative to the current source folder. It may
 #            be missing at first: the test then fails, and prints the command that creates it.
 # ACTUAL     the PNG or the folder that the program writes, relative to its folder. Default: the last part of REFERENCE.
-# TOLERANCE  options of `octreel diff`: --max-delta D, --flip X, --max-pixels N, --antialias,
+# TOLERANCE  options of `octreel diff`: --max-delta D, --max-channel N, --flip X, --max-pixels N, --antialias,
 #            --ignore X,Y,W,H, --ignore-layer LIST, --pixels-per-degree N, --background RRGGBB, --store DIR,
-#            --no-recursive. Without them the pictures must be equal.
+#            --today DATE, --no-recursive. Without them the pictures must be equal, or within the rules of a baseline,
+#            which need --store with an absolute path.
 # LABELS     labels of the test, besides `image`.
 #
 # The test fails if the program fails, with the program's exit status, if ACTUAL is missing, or if pictures differ. The
@@ -33,7 +34,8 @@ endfunction()
 # options that do not say what counts as the same.
 function(octreel_check_tolerance name)
   set(flags --antialias --no-recursive)
-  set(valued --max-delta --flip --pixels-per-degree --max-pixels --ignore --ignore-layer --background --store)
+  set(valued --max-delta --max-channel --flip --pixels-per-degree --max-pixels --ignore --ignore-layer --background --store
+      --today)
   set(expects_value FALSE)
   foreach(word IN LISTS ARGN)
     if(expects_value)

@@ -46,8 +46,10 @@ bool accept_digests(accepting *a, octreel_error *error)
     diff_side now = a->reference;
     now.frames = NULL;
     now.count = now.room = 0;
-    a->reference.acceptances = NULL; /* `now` owns the acceptances from here on */
-    a->reference.acceptance_count = 0;
+    a->reference.acceptances = NULL; /* `now` owns the acceptances and the rules from here on */
+    a->reference.rules = NULL;
+    a->reference.notes = NULL;
+    a->reference.acceptance_count = a->reference.rule_count = a->reference.notes_size = 0;
     bool ok = store_pictures(a, error);
     for (size_t i = 0; ok && i < a->result.count; i++) {
         const diff_pair *pair = &a->result.pairs[i];

@@ -5,6 +5,7 @@
 #include "file.h"
 #include "file_kind.h"
 #include "octree/digest.h"
+#include "rule.h"
 #include "text.h"
 
 #include <inttypes.h>
@@ -194,9 +195,7 @@ static bool read_acceptance(diff_side *side, char *line, size_t number, octreel_
                      side->path, number, a.id);
 }
 
-/* Return whether a name is the path of a file in a folder or its subfolders: no part of the path is empty, "." or
- * "..". */
-static bool is_path_below(const char *name)
+bool baseline_is_path(const char *name)
 {
     for (const char *at = name;; at++) {
         const size_t length = strcspn(at, "/");
@@ -213,7 +212,7 @@ static bool add_written_frame(diff_side *side, const char *written, frame_digest
 {
     char *name = read_name(written);
     bool ok = name || error_no_memory(error);
-    if (ok && !is_path_below(name))
+    if (ok && !baseline_is_path(name))
         ok = error_set(error, "%s:%zu: expected a path relative to the compared folder, such as \"menu/1\", not \"%s\"",
                        side->path, number, written);
     ok = ok && diff_side_add_frame(side, name, digest, error);
@@ -272,9 +271,21 @@ static bool is_conflict_marker(const char *line)
            (line[7] == 0 || line[7] == ' ');
 }
 
+/* Keep a line that baseline_write() writes as it is. */
+static bool keep_line(diff_side *side, const char *line, octreel_error *error)
+{
+    const size_t length = strlen(line);
+    if (!array_grow(&side->notes, side->notes_size + length + 1, &side->notes_room, 1))
+        return error_no_memory(error);
+    memcpy(side->notes + side->notes_size, line, length);
+    side->notes_size += length + 1;
+    side->notes[side->notes_size - 1] = '\n';
+    return true;
+}
+
 static bool read_line(diff_side *side, char *line, size_t number, octreel_error *error)
 {
-    static const char accepted[] = "accepted ";
+    static const char accepted[] = "accepted ", rule[] = "rule ";
     if (is_conflict_marker(line))
         return error_set(error,
                          "%s:%zu: unresolved merge conflict; keep the lines that are right and delete git's markers",
@@ -285,6 +296,10 @@ static bool read_line(diff_side *side, char *line, size_t number, octreel_error 
         return read_background(side, line, error);
     if (strncmp(line, accepted, sizeof accepted - 1) == 0)
         return read_acceptance(side, line + sizeof accepted - 1, number, error);
+    if (strncmp(line, rule, sizeof rule - 1) == 0)
+        return rule_read(side, line + sizeof rule - 1, number, error) && keep_line(side, line, error);
+    if (line[0] == '#')
+        return keep_line(side, line, error);
     return read_digest(side, line, number, error);
 }
 
@@ -299,7 +314,7 @@ bool baseline_parse(diff_side *side, char *text, size_t size, octreel_error *err
             return false;
     if (number < 2)
         return error_set(error, "%s: the file ends before its second line", side->path);
-    return baseline_merge_frames(side, error);
+    return baseline_merge_frames(side, error) && rules_check(side, side->source, error);
 }
 
 bool baseline_read(diff_side *side, octreel_error *error)
@@ -436,6 +451,8 @@ bool baseline_write(FILE *out, const diff_side *side, octreel_error *error)
         if (has_control_character(side->frames[i].name))
             return report_bad_name(side, side->frames[i].name, error);
     fprintf(out, "%s2\nbackground %02x%02x%02x\n", DIGEST_FILE_BEGINNING, ground.r, ground.g, ground.b);
+    if (side->notes_size > 0)
+        fwrite(side->notes, 1, side->notes_size, out);
     if (!write_acceptances(out, side))
         return error_no_memory(error);
     for (size_t i = 0; i < side->count; i++) {

@@ -18,6 +18,9 @@
  * choose the same id for different acceptances; if they do, the reader reports an error. Date, size and reason are
  * stored once for all frames of an acceptance, and ".png" is left out: 1,000 frames with 3 variants each take 99 KB.
  *
+ * A baseline may also have rules, which rule.h describes, and comments, which are lines that begin with #. The writer
+ * puts both before the acceptances, in the order in which they were read, and changes no byte of them.
+ *
  * The accepted digests of a frame are its variants. A frame matches a baseline when its digest equals any variant.
  */
 #ifndef DIFF_BASELINE_H
@@ -38,6 +41,10 @@ bool baseline_is_date(const char *text);
 
 /* Return whether a text can be a reason: it is not empty, is one line, and neither begins nor ends with a blank. */
 bool baseline_is_reason(const char *text);
+
+/* Return whether a name is the path of a file in a folder or its subfolders: no part of the path is empty, "." or
+ * "..". */
+bool baseline_is_path(const char *name);
 
 /* Read the baseline at side->source into `side`. On failure return false with an error that names the file, the line
  * and the reason. Cost: O(n log n) time for a file of n bytes; at most 16 bytes of memory for each byte of the file. */

@@ -3,7 +3,9 @@
 #include "diff.h"
 #include "file.h"
 #include "frame_file.h"
+#include "hint.h"
 #include "parallel.h"
+#include "layer.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -69,6 +71,21 @@ static bool check_baseline(const diff_side *side, bool is_reference, const diff_
                      side->background.r, side->background.g, side->background.b);
 }
 
+/* Check the names of the layers in rules. baseline.c does not know these names, because the library octreel-compare
+ * contains it. */
+static bool check_layers(const diff_side *side, octreel_error *error)
+{
+    unsigned ignored;
+    const char *bad;
+    for (size_t i = 0; i < side->rule_count; i++) {
+        const baseline_rule *rule = &side->rules[i];
+        if (rule->layers && !view_layers_parse(rule->layers, &ignored, &bad))
+            return error_set(error, "%s:%zu: unknown layer \"%.*s\"; %s record --help lists them", rule->file,
+                             rule->line, (int)strcspn(bad, ","), bad, hint_program_name());
+    }
+    return true;
+}
+
 bool diff_check(const diff_side *a, const diff_side *b, const diff_options *options, octreel_error *error)
 {
     const diff_side *const sides[2] = {a, b};
@@ -88,7 +105,7 @@ bool diff_check(const diff_side *a, const diff_side *b, const diff_options *opti
     for (int i = 0; i < 2; i++)
         if (sides[i]->kind == DIFF_BASELINE && !check_baseline(sides[i], i == 0, options, error))
             return false;
-    return true;
+    return check_layers(a, error) && check_layers(b, error);
 }
 
 /* Compare the name of frame i of `a` with the name of frame j of `b`; the result has the sign of strcmp(). Two
@@ -150,7 +167,9 @@ static bool compare_all_pairs(const diff_side *a, const diff_side *b, pending *p
 {
     parallel_for(p->count, compare_bytes_of_pair, p);
     remove_pairs_with_same_bytes(p);
-    if (p->options->mask && !p->options->mask(p->options->mask_context, a, b, p->pairs, p->count, error))
+    for (size_t i = 0; i < p->count; i++)
+        p->pairs[i]->layers = p->options->ignored_layers;
+    if (p->options->ignored_layers && !p->options->mask(a, b, p->pairs, p->count, error))
         return false;
     parallel_for(p->count, compare_pixels_of_pair, p);
     return true;

@@ -11,6 +11,9 @@ typedef struct diff_result {
     size_t count;
     size_t found[DIFF_FINDINGS]; /* found[f]: the number of pairs with finding f */
     diff_verdict verdict;
+    /* the rules of the reference, set by picture_store_fetch(); not owned */
+    const baseline_rule *rules;
+    size_t rule_count;
     bool by_ticks; /* true: neither recording has frames, so their ticks.jsonl files were compared byte by byte */
 } diff_result;
 

@@ -65,6 +65,41 @@ static void print_pixels(FILE *out, const diff_pair *pair)
     print_flip(out, d);
 }
 
+/* What a rule did: a name, and the words before and after the place of the rule. */
+static const struct {
+    const char *name, *before, *after;
+} effects[] = {
+    [RULE_UNUSED] = {"unused", "", ""},
+    [RULE_FORGAVE] = {"forgave", "forgiven by the rule", ""},
+    [RULE_EXCEEDED] = {"exceeded", "more than the rule", " forgives"},
+    [RULE_EXPIRED] = {"expired", "the rule", " expired on "},
+    [RULE_LACKS_STORE] = {"lacks_store", "the rule",
+                          " was not applied: it needs the stored picture, so name the store "
+                          "(diff --store DIR)"},
+    [RULE_LACKS_PICTURE] = {"lacks_picture", "the rule", " was not applied: it needs this picture"},
+    [RULE_LACKS_RECORDING] = {"lacks_recording", "the rule",
+                              " was not applied: it ignores layers, and the frame is not of a recording"},
+};
+
+const char *diff_rule_effect_name(rule_effect effect)
+{
+    return effects[effect].name;
+}
+
+void diff_print_rule(FILE *out, const diff_pair *pair)
+{
+    const baseline_rule *rule = pair->rule;
+    fprintf(out, "%s ", effects[pair->effect].before);
+    write_escaped(out, rule->file, escape_nothing);
+    fprintf(out, ":%zu%s", rule->line, effects[pair->effect].after);
+    if (pair->effect == RULE_EXPIRED)
+        fputs(rule->expires, out);
+    else if (pair->effect == RULE_FORGAVE && rule->expires)
+        fprintf(out, " until %s", rule->expires);
+    fputs(": ", out);
+    write_escaped(out, rule->reason, escape_nothing);
+}
+
 static void print_difference(FILE *out, const diff_pair *pair)
 {
     static const char *const beginnings[] = {
@@ -97,6 +132,10 @@ void diff_print_difference(FILE *out, const diff_pair *pair)
         fprintf(out, "; matches none of the %zu accepted variants", pair->a->variant_count);
     if (pair->no_picture)
         fprintf(out, "; no picture of the reference: %s", pair->no_picture);
+    if (pair->effect != RULE_UNUSED) {
+        fputs("; ", out);
+        diff_print_rule(out, pair);
+    }
 }
 
 void diff_print_pair(FILE *out, const diff_pair *pair)
@@ -198,6 +237,30 @@ static void print_unapplied(FILE *out, const diff_result *result)
         fprintf(out, "; not applied to %zu frame%s without a stored picture", count, plural_ending(count));
 }
 
+/* Print the rules that forgave frames, and the rules that no frame has. */
+static void print_rules(FILE *out, const diff_result *result)
+{
+    for (size_t n = 0; n < result->rule_count; n++) {
+        const baseline_rule *rule = &result->rules[n];
+        size_t forgiven = 0;
+        const diff_pair *last = NULL;
+        for (size_t i = 0; i < result->count; i++)
+            if (result->pairs[i].rule == rule && result->pairs[i].effect == RULE_FORGAVE) {
+                forgiven++;
+                last = &result->pairs[i];
+            }
+        if (last) {
+            fprintf(out, "; %zu frame%s ", forgiven, plural_ending(forgiven));
+            diff_print_rule(out, last);
+        } else if (rule->matched == 0) {
+            fputs("; warning: the rule ", out);
+            write_escaped(out, rule->file, escape_nothing);
+            fprintf(out, ":%zu applies to no frame; correct its pattern or remove it: ", rule->line);
+            write_escaped(out, rule->pattern, escape_nothing);
+        }
+    }
+}
+
 void diff_print_tolerance(FILE *out, const diff_result *result)
 {
     const diff_options *options = &result->options;
@@ -206,8 +269,12 @@ void diff_print_tolerance(FILE *out, const diff_result *result)
     bool first = true;
     if (t->max_pixels)
         print_item(out, &first, "up to %" PRIu64 " pixel%s a frame", t->max_pixels, plural_ending(t->max_pixels));
+    if (t->max_share > 0)
+        print_item(out, &first, "up to %g%% of the pixels", 100 * t->max_share);
     if (t->max_delta > 0)
         print_item(out, &first, "colours within %g " IMAGE_DELTA_UNIT, t->max_delta);
+    if (t->max_channel > 0)
+        print_item(out, &first, "channels within %d", t->max_channel);
     if (t->flip)
         print_item(out, &first, "a mean FLIP up to %g at %.4g pixels per degree", t->max_flip, t->pixels_per_degree);
     if (t->antialias)
@@ -217,12 +284,13 @@ void diff_print_tolerance(FILE *out, const diff_result *result)
         print_item(out, &first, "the %dx%d pixels at (%d,%d)%s", r->width, r->height, r->x, r->y,
                    is_outside(r, result) ? ", outside every frame that was compared" : "");
     }
-    if (options->mask)
+    if (options->ignored_layers)
         print_item(out, &first, "the layer%s %s", strchr(options->layers, ',') ? "s" : "", options->layers);
     if (first)
         fputs("compared exactly", out);
     else
         print_unapplied(out, result);
+    print_rules(out, result);
     if (has_transparent_pair(result))
         fprintf(out, "; transparent pixels lie over #%02x%02x%02x", options->background.r, options->background.g,
                 options->background.b);

@@ -24,6 +24,13 @@ void diff_print_tolerance(FILE *out, const diff_result *result);
 void diff_print_pair(FILE *out, const diff_pair *pair);
 void diff_print_difference(FILE *out, const diff_pair *pair);
 
+/* Print what the rule of a pair did, as in "forgiven by the rule baseline.txt:12 until 2027-01-31: the clock shows the
+ * time". The rule must have been used. */
+void diff_print_rule(FILE *out, const diff_pair *pair);
+
+/* Return the name of an effect in JSON, such as "forgave". */
+const char *diff_rule_effect_name(rule_effect effect);
+
 /* Round a color difference or a mean FLIP up to four decimals. The rounded number is not smaller than the difference,
  * so a user can give it to --max-delta or --flip. */
 double diff_round_delta(double delta);

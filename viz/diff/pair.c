@@ -40,14 +40,24 @@ const char *diff_pair_name(const diff_pair *pair)
 
 bool diff_is_exact(const diff_options *options)
 {
-    const image_tolerance *t = &options->tolerance;
-    return t->max_pixels == 0 && t->max_delta == 0 && !t->antialias && !t->flip && t->ignored_count == 0 &&
-           !options->mask;
+    return tolerance_is_exact(&options->tolerance) && !options->ignored_layers;
+}
+
+static bool is_rule_applied(const diff_pair *pair)
+{
+    return pair->effect == RULE_FORGAVE || pair->effect == RULE_EXCEEDED;
+}
+
+bool pair_is_exact(const diff_pair *pair, const diff_options *options)
+{
+    return diff_is_exact(options) && !pair->rule;
 }
 
 bool pair_tolerance(const diff_pair *pair, const diff_options *options, image_tolerance *tolerance)
 {
     *tolerance = options->tolerance;
+    if (is_rule_applied(pair))
+        tolerance_widen(tolerance, &pair->rule->tolerance);
     tolerance->ignored_mask = mask_unpack(&pair->mask);
     return tolerance->ignored_mask || !pair->mask.runs;
 }
@@ -66,6 +76,11 @@ bool compare_bytes(diff_pair *pair)
     pair->about[0] = pair->about[1] = about;
     pair->finding = FOUND_SAME_BYTES;
     return true;
+}
+
+bool has_picture(const diff_frame *frame)
+{
+    return frame->pixels || frame->path;
 }
 
 void set_unreadable(diff_pair *pair, const octreel_error *error)
@@ -90,13 +105,13 @@ typedef struct reading {
 
 /* Open a picture. With --antialias or --flip the band is the whole picture, because recognizing anti-aliasing and
  * measuring FLIP need the rows above and below each row. */
-static void open_reading(reading *r, const diff_frame *frame, const diff_options *options)
+static void open_reading(reading *r, const diff_frame *frame, const image_tolerance *tolerance, image_color background)
 {
-    const bool whole = options->tolerance.antialias || options->tolerance.flip;
+    const bool whole = tolerance->antialias || tolerance->flip;
     r->about = frame->pixels;
     r->in_memory = frame->pixels;
     if (!r->in_memory)
-        r->source = image_source_open(frame->path, options->background, whole, &r->error);
+        r->source = image_source_open(frame->path, background, whole, &r->error);
     if (r->source)
         r->about = image_source_description(r->source);
     if (r->about)
@@ -178,9 +193,10 @@ static void compare_pictures(diff_pair *pair, const diff_options *options)
 {
     reading of[2] = {{0}, {0}};
     image_tolerance tolerance;
+    const bool ok = pair_tolerance(pair, options, &tolerance);
     for (int i = 0; i < 2; i++)
-        open_reading(&of[i], i ? pair->b : pair->a, options);
-    if (!pair_tolerance(pair, options, &tolerance)) {
+        open_reading(&of[i], i ? pair->b : pair->a, &tolerance, options->background);
+    if (!ok) {
         error_no_memory(&of[0].error);
         set_unreadable(pair, &of[0].error);
     } else {
@@ -203,11 +219,6 @@ typedef struct known_digests {
     const frame_digest *list;
     size_t count;
 } known_digests;
-
-static bool has_picture(const diff_frame *frame)
-{
-    return frame->pixels || frame->path;
-}
 
 static bool digest_frame(const diff_frame *frame, image_color background, frame_digest *digest, octreel_error *error)
 {

@@ -4,9 +4,7 @@
 #ifndef DIFF_PAIR_H
 #define DIFF_PAIR_H
 
-#include "mask.h"
-#include "side.h"
-#include "image_compare.h"
+#include "rule.h"
 
 /* The findings. Each row has the finding, its name in reports, and the verdict for a pair with this finding. */
 #define DIFF_FINDING_MAP(X)                                                                                            \
@@ -35,19 +33,31 @@ diff_verdict diff_finding_verdict(diff_finding finding);
 
 struct diff_pair;
 
-/* A callback that adds the pixels of ignored layers to the mask of each pair. The caller of diff_run() provides it,
- * because this folder cannot play recordings. The callback returns false with an error on failure. */
-typedef bool diff_mask(void *context, const diff_side *a, const diff_side *b, struct diff_pair **pairs, size_t count,
+/* A callback that adds the pixels of the layers pair->layers to the mask of each pair. The caller of diff_run()
+ * provides it, because this folder cannot play recordings. The callback returns false with an error on failure. */
+typedef bool diff_mask(const diff_side *a, const diff_side *b, struct diff_pair **pairs, size_t count,
                        octreel_error *error);
 
 typedef struct diff_options {
     image_tolerance tolerance;
-    image_color background; /* the color that is drawn behind transparent pixels */
-    diff_mask *mask;        /* the callback that masks ignored layers; null: no layer is ignored */
-    void *mask_context;
-    const char *layers; /* the names of the ignored layers, separated by commas */
-    const char *store;  /* the picture store of the reference, which must be a baseline; null: no picture store */
+    image_color background;  /* the color that is drawn behind transparent pixels */
+    diff_mask *mask;         /* the callback that masks ignored layers; null: no layers can be ignored */
+    unsigned ignored_layers; /* the layers that are not compared, as bits 1 << view_layer */
+    const char *layers;      /* their names, separated by commas */
+    const char *store;       /* the picture store of the reference, which must be a baseline; null: no picture store */
+    char today[11];          /* YYYY-MM-DD: rules that expire before this day forgive nothing; "": see rule_today() */
 } diff_options;
+
+/* What the rule for a frame did. */
+typedef enum rule_effect {
+    RULE_UNUSED,         /* no rule, or nothing to forgive */
+    RULE_FORGAVE,        /* the difference is within the rule, and was not within the tolerance of the options */
+    RULE_EXCEEDED,       /* the difference is larger than the rule forgives */
+    RULE_EXPIRED,        /* the rule was not applied: its last day is over */
+    RULE_LACKS_STORE,    /* the rule was not applied: no store was given */
+    RULE_LACKS_PICTURE,  /* the rule was not applied: the store has no picture; see pair->no_picture */
+    RULE_LACKS_RECORDING /* the rule was not applied: it ignores layers, and the frame is not of a recording */
+} rule_effect;
 
 /* Return options without a tolerance and with a white background. */
 diff_options diff_options_default(void);
@@ -61,8 +71,11 @@ typedef struct diff_pair {
     bool transparent;            /* true: a frame has transparent pixels, so the background color is visible */
     bool other_color_space;      /* true: the frames differ in gamma or color profile, which the comparison ignores */
     image_difference difference; /* valid only if both frames were decoded */
-    pixel_mask mask;             /* the pixels of ignored layers */
-    char *trouble;               /* the error, if a frame could not be read; else null; owned */
+    unsigned layers;             /* the layers that diff_mask adds to the mask, as bits 1 << view_layer */
+    pixel_mask mask;             /* the pixels of ignored layers and of the masks of a rule */
+    const baseline_rule *rule;   /* in a comparison with a baseline, the rule for the frame; null: none */
+    rule_effect effect;
+    char *trouble; /* the error, if a frame could not be read; else null; owned */
     /* why the store has no picture of the reference, so that the tolerance cannot be applied; else null; owned */
     char *no_picture;
     /* true: the system lacked memory or file handles, so the frame itself may be readable */
@@ -77,17 +90,22 @@ bool compare_bytes(diff_pair *pair);
  * pixels. */
 void compare_pixels(diff_pair *pair, const diff_options *options);
 
+/* Return whether the pixels of a frame are known, not only their digests. */
+bool has_picture(const diff_frame *frame);
+
 /* Set the finding of a pair that cannot be compared, and copy the error. The function sets pair->lacks_resources by
  * errno. The caller must set errno to 0 before it reads the pictures. */
 void set_unreadable(diff_pair *pair, const octreel_error *error);
 
-/* Set *tolerance to the tolerance of the options, with the mask of this pair added. Return false if memory runs out.
- * The caller releases the tolerance in any case. */
+/* Set *tolerance to the tolerance of the options, widened by the rule if one is applied, with the mask of this pair.
+ * Return false if memory runs out. The caller releases the tolerance in any case. */
 bool pair_tolerance(const diff_pair *pair, const diff_options *options, image_tolerance *tolerance);
 void pair_tolerance_release(image_tolerance *tolerance);
 
-/* Return whether the options accept no difference. */
+/* diff_is_exact() returns whether the options accept no difference, pair_is_exact() whether, in addition, the pair has
+ * no rule. */
 bool diff_is_exact(const diff_options *options);
+bool pair_is_exact(const diff_pair *pair, const diff_options *options);
 
 /* Return the name of a pair: the name of its frame or, if the frame is missing, of its reference. */
 const char *diff_pair_name(const diff_pair *pair);

@@ -1,48 +1,24 @@
 /* SPDX-License-Identifier: MIT */
-/* picture_store.c - stores pictures under their digests and fetches them. */
+/* picture_store.c - stores pictures under their digests, and compares the frames of a baseline with them. */
 #include "picture_store.h"
 #include "file.h"
 #include "folder.h"
 #include "parallel.h"
+#include "stored_picture.h"
+#include "layer.h"
 
-#include <errno.h>
-#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-
-/* Return the path of the picture with a digest: DIR/runs/01/0123456789abcdef.png. The caller frees the path. */
-static char *make_picture_path(const char *store, const frame_digest *digest)
-{
-    const char *kind = image_digest_kind_name(digest->kind);
-    const size_t size = strlen(store) + strlen(kind) + sizeof "//01/0123456789abcdef.png";
-    char *path = malloc(size);
-    if (path)
-        snprintf(path, size, "%s/%s/%02x/%016" PRIx64 ".png", store, kind, (unsigned)(digest->pixels >> 56),
-                 digest->pixels);
-    return path;
-}
-
-/* Return whether a file is a picture with this digest. If the file is not such a picture, the error says why. */
-static bool is_picture_with_digest(const char *path, const frame_digest *digest, image_color background,
-                                   octreel_error *error)
-{
-    frame_digest found = {.kind = digest->kind};
-    if (!digest_picture(path, background, &found, error))
-        return false;
-    return found.pixels == digest->pixels ||
-           error_set(error, "%s: the pixels do not match the file name: their digest is %016" PRIx64, path,
-                     found.pixels);
-}
 
 bool picture_store_add(const char *store, const char *picture, const frame_digest *digest, image_color background,
                        octreel_error *error)
 {
     octreel_error ignored;
-    char *path = make_picture_path(store, digest);
+    char *path = stored_picture_path(store, digest);
     if (!path)
         return error_no_memory(error);
-    bool ok = access(path, F_OK) == 0 && is_picture_with_digest(path, digest, background, &ignored);
+    bool ok = access(path, F_OK) == 0 && stored_picture_check(path, digest, background, &ignored);
     if (!ok) {
         char *slash = strrchr(path, '/');
         *slash = 0;
@@ -54,15 +30,6 @@ bool picture_store_add(const char *store, const char *picture, const frame_diges
     return ok;
 }
 
-char *picture_store_find(const char *store, const frame_digest *digest, image_color background, octreel_error *error)
-{
-    char *path = make_picture_path(store, digest);
-    if (path ? is_picture_with_digest(path, digest, background, error) : error_no_memory(error))
-        return path;
-    free(path);
-    return NULL;
-}
-
 /* ---- For a comparison ---------------------------------------------------------------------------------------- */
 
 typedef struct fetching {
@@ -70,81 +37,77 @@ typedef struct fetching {
     diff_result *result;
 } fetching;
 
-/* Compare the frame of a pair with the picture of an accepted variant. The picture is kept as frame->path if it is the
- * first picture or if the frame is within the tolerance of the picture. Else the pair stays unchanged: its frames
- * differ by digest, even if another process replaces the picture meanwhile. If the system lacks resources, the
- * pictures cannot be compared, and the pair becomes unreadable. */
-static void compare_variant(diff_pair *pair, diff_frame *frame, char *picture, const diff_options *options)
+static diff_frame *reference_of(const fetching *f, const diff_pair *pair)
 {
-    const diff_pair before = *pair;
-    char *const first = frame->path;
-    frame->path = picture;
-    errno = 0;
-    if (pair->b && pair->b->path)
-        compare_pixels(pair, options);
-    if (pair->finding == FOUND_WITHIN || (!first && diff_finding_verdict(pair->finding) == DIFF_DIFFERENT)) {
-        free(first);
-        return;
-    }
-    if (!pair->lacks_resources || diff_is_exact(options)) {
-        free(pair->trouble);
-        *pair = before;
-    }
-    frame->path = first ? first : picture;
-    if (first)
-        free(picture);
+    return &f->reference->frames[pair->a - f->reference->frames];
 }
 
-static bool is_same_picture(const frame_digest *a, const frame_digest *b)
-{
-    return a->kind == b->kind && a->pixels == b->pixels;
-}
-
-/* Fetch the picture of a digest and compare the frame with it. If the store does not have the picture, the error
- * says why. */
-static void compare_picture_of_digest(const fetching *f, diff_pair *pair, diff_frame *frame, const frame_digest *digest,
-                                      octreel_error *error)
-{
-    const diff_options *options = &f->result->options;
-    octreel_error ignored;
-    errno = 0;
-    char *picture = picture_store_find(options->store, digest, f->reference->background, error);
-    if (picture)
-        compare_variant(pair, frame, picture, options);
-    else if (pair->b && !diff_is_exact(options) && !check_system_resources(&ignored))
-        set_unreadable(pair, error);
-}
-
-/* Compare a frame with the picture of its newest variant. If the store does not have this picture, or the frame
- * differs from it beyond the tolerance, try the pictures of the other variants. If the store has none of these
- * pictures, pair->no_picture says why the newest is missing. */
-static void fetch_picture(size_t i, void *context)
+static void compare_pair(size_t i, void *context)
 {
     const fetching *f = context;
     diff_pair *pair = &f->result->pairs[i];
-    if (!pair->a || pair->a->path ||
-        (pair->finding != FOUND_DIGEST && pair->finding != FOUND_SIZE && pair->finding != FOUND_NO_FRAME))
-        return;
-    diff_frame *frame = &f->reference->frames[pair->a - f->reference->frames];
-    const bool tries_all = pair->b && !diff_is_exact(&f->result->options);
-    octreel_error why = {""}, ignored;
-    for (size_t n = 0; n <= frame->variant_count && !pair->lacks_resources &&
-                       (!frame->path || (tries_all && pair->finding != FOUND_WITHIN));
-         n++) {
-        const frame_digest *digest = n ? &frame->variants[frame->variant_count - n] : &frame->digest;
-        if (n == 0 || !is_same_picture(digest, &frame->digest))
-            compare_picture_of_digest(f, pair, frame, digest, n ? &ignored : &why);
-    }
-    if (!frame->path && !pair->lacks_resources)
-        pair->no_picture = strdup(why.text);
+    if (pair->a)
+        stored_picture_compare(pair, reference_of(f, pair), &f->result->options);
 }
 
-void picture_store_fetch(diff_side *reference, diff_result *result)
+static void apply_rule(size_t i, void *context)
+{
+    const fetching *f = context;
+    diff_pair *pair = &f->result->pairs[i];
+    if (pair->rule)
+        stored_picture_apply_rule(pair, reference_of(f, pair), &f->result->options);
+}
+
+/* Find the rule for each frame of the reference. */
+static void match_rules(const fetching *f)
+{
+    f->result->rules = f->reference->rules;
+    f->result->rule_count = f->reference->rule_count;
+    for (size_t i = 0; f->result->rule_count > 0 && i < f->result->count; i++) {
+        diff_pair *pair = &f->result->pairs[i];
+        baseline_rule *rule = pair->a ? rule_find(f->reference, pair->a->name) : NULL;
+        pair->rule = rule;
+        if (rule)
+            rule->matched++;
+    }
+}
+
+/* Choose the rules that are applied, and mask the layers that these rules ignore. */
+static bool choose_rules(const fetching *f, const diff_side *compared, octreel_error *error)
+{
+    const diff_options *options = &f->result->options;
+    const bool is_recording = compared->kind == DIFF_RECORDING && options->mask;
+    diff_pair **masked = malloc((f->result->count + 1) * sizeof *masked);
+    size_t count = 0;
+    const char *bad;
+    bool ok = masked || error_no_memory(error);
+    for (size_t i = 0; ok && i < f->result->count; i++) {
+        diff_pair *pair = &f->result->pairs[i];
+        stored_picture_choose_rule(pair, options, is_recording);
+        if (pair->effect == RULE_EXCEEDED && pair->rule->layers &&
+            view_layers_parse(pair->rule->layers, &pair->layers, &bad))
+            masked[count++] = pair;
+    }
+    ok = ok && (count == 0 || options->mask(f->reference, compared, masked, count, error));
+    free(masked);
+    return ok;
+}
+
+bool picture_store_fetch(diff_side *reference, const diff_side *compared, diff_result *result, octreel_error *error)
 {
     fetching f = {reference, result};
-    if (!result->options.store)
-        return;
-    parallel_for(result->count, fetch_picture, &f);
+    if (reference->kind != DIFF_BASELINE)
+        return true;
+    match_rules(&f);
+    if (result->options.store)
+        parallel_for(result->count, compare_pair, &f);
+    if (result->rule_count > 0) {
+        char *today = result->options.today;
+        if (!(today[0] || rule_today(today, error)) || !choose_rules(&f, compared, error))
+            return false;
+        parallel_for(result->count, apply_rule, &f);
+    }
     result->verdict = DIFF_SAME;
     diff_count_findings(result);
+    return true;
 }

@@ -15,14 +15,11 @@
 bool picture_store_add(const char *store, const char *picture, const frame_digest *digest, image_color background,
                        octreel_error *error);
 
-/* Return the path of the picture with a digest. The caller frees the path. Return null with an error if the store
- * lacks the picture, the picture is damaged, or memory runs out. */
-char *picture_store_find(const char *store, const frame_digest *digest, image_color background, octreel_error *error);
-
-/* If the options of the result name a store, do the following for each differing pair of a baseline: fetch the
- * picture of the reference and compare the pixels. A pair within the tolerance of an accepted picture is no longer
- * different. The verdict of other pairs does not improve. If the store has no picture for a pair, the reason is
- * written to pair->no_picture. */
-void picture_store_fetch(diff_side *reference, diff_result *result);
+/* For a comparison with a baseline, after diff_run(): find the rule for each frame. If the options name a store,
+ * compare each differing pair with the pictures of its accepted digests. A pair within the tolerance, or within its
+ * rule, is no longer different. The verdict of other pairs does not improve. If the store has no picture for a pair,
+ * the reason is written to pair->no_picture; pair->effect says what the rule did. Return false with an error if the
+ * layers of a rule cannot be drawn, SOURCE_DATE_EPOCH is invalid, or memory runs out. */
+bool picture_store_fetch(diff_side *reference, const diff_side *compared, diff_result *result, octreel_error *error);
 
 #endif

@@ -39,6 +39,8 @@ typedef struct diff_frame {
     size_t variant_count;
 } diff_frame;
 
+struct baseline_rule;
+
 typedef struct diff_side {
     /* the name in messages, and the path of a folder: "standard input" if the user gave "-", else equal to `source`;
      * not owned */
@@ -53,6 +55,10 @@ typedef struct diff_side {
     image_color background;  /* in a baseline, the color that was drawn behind transparent pixels */
     acceptance *acceptances; /* the acceptances of a baseline; owned */
     size_t acceptance_count, acceptance_room;
+    struct baseline_rule *rules; /* the rules of a baseline, in the order of their lines; owned */
+    size_t rule_count, rule_room;
+    char *notes; /* the lines of the rules and comments of a baseline, each with a line end; owned */
+    size_t notes_size, notes_room;
 } diff_side;
 
 /* Which folders are not searched for frames. */

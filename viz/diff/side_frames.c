@@ -2,7 +2,7 @@
 /* side_frames.c - the list of a side's frames: appends, sorts and frees them. */
 #include "array.h"
 #include "file.h"
-#include "side.h"
+#include "rule.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -59,6 +59,7 @@ void diff_side_release(diff_side *side)
     }
     for (size_t i = 0; i < side->acceptance_count; i++)
         free(side->acceptances[i].reason);
+    rules_release(side);
     free(side->acceptances);
     free(side->frames);
     *side = (diff_side){0};

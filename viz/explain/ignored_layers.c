@@ -17,12 +17,6 @@ typedef struct frame_mask {
     int width, height;
 } frame_mask;
 
-/* The state while a recording is played to draw the masks of its frames. */
-typedef struct masking {
-    replay replay;
-    unsigned layers;
-} masking;
-
 static int clamp(int value, int limit)
 {
     return value < 0 ? 0 : value > limit ? limit : value;
@@ -38,29 +32,29 @@ static void add_box_to_mask(const draw_box *box, void *context)
         memset(m->bytes + (size_t)y * (size_t)m->width + left, 1, (size_t)(right - left));
 }
 
-static bool draw_mask(masking *w, frame_mask *m, octreel_error *error)
+static bool draw_mask(replay *playing, unsigned layers, frame_mask *m, octreel_error *error)
 {
-    const scene *s = &w->replay.playback.scene;
+    const scene *s = &playing->playback.scene;
     const renderer_choice any = {0};
-    if (w->layers & ~TEXT_ALONE) {
-        renderer *drawing = replay_renderer(&w->replay, &any, error);
-        if (!drawing || !renderer_find_layer_mask(drawing, s, w->layers, m->bytes, error))
+    if (layers & ~TEXT_ALONE) {
+        renderer *drawing = replay_renderer(playing, &any, error);
+        if (!drawing || !renderer_find_layer_mask(drawing, s, layers, m->bytes, error))
             return false;
     }
-    if (w->layers & TEXT_ALONE)
+    if (layers & TEXT_ALONE)
         visit_text_boxes(s, add_box_to_mask, m);
     return true;
 }
 
-static bool add_mask(masking *w, diff_pair *pair, octreel_error *error)
+static bool add_mask(replay *playing, diff_pair *pair, octreel_error *error)
 {
-    if (!replay_play_up_to(&w->replay, diff_pair_tick(pair), error) ||
-        !playback_compose_scene(&w->replay.playback, error))
+    if (!replay_play_up_to(playing, diff_pair_tick(pair), error) || !playback_compose_scene(&playing->playback, error))
         return false;
-    const view *v = &w->replay.playback.scene.view;
+    const view *v = &playing->playback.scene.view;
     frame_mask m = {calloc((size_t)v->width, (size_t)v->height), v->width, v->height};
     bool ok = m.bytes || error_no_memory(error);
-    ok = ok && draw_mask(w, &m, error) && (mask_add(&pair->mask, m.bytes, m.width, m.height) || error_no_memory(error));
+    ok = ok && draw_mask(playing, pair->layers, &m, error) &&
+         (mask_add(&pair->mask, m.bytes, m.width, m.height) || error_no_memory(error));
     free(m.bytes);
     return ok;
 }
@@ -71,20 +65,18 @@ static int compare_by_tick(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-static bool add_masks(const diff_side *side, unsigned layers, diff_pair **pairs, size_t count, octreel_error *error)
+static bool add_masks(const diff_side *side, diff_pair **pairs, size_t count, octreel_error *error)
 {
-    masking w = {.layers = layers};
-    bool ok = replay_open(&w.replay, side->path, side->max_ticks, error);
+    replay playing = {0};
+    bool ok = replay_open(&playing, side->path, side->max_ticks, error);
     for (size_t i = 0; ok && i < count; i++)
-        ok = add_mask(&w, pairs[i], error);
-    replay_close(&w.replay);
+        ok = add_mask(&playing, pairs[i], error);
+    replay_close(&playing);
     return ok;
 }
 
-bool ignore_layers(void *context, const diff_side *a, const diff_side *b, diff_pair **pairs, size_t count,
-                   octreel_error *error)
+bool ignore_layers(const diff_side *a, const diff_side *b, diff_pair **pairs, size_t count, octreel_error *error)
 {
-    const unsigned layers = *(const unsigned *)context;
     if (a->kind != DIFF_RECORDING && b->kind != DIFF_RECORDING)
         return error_set(error, "--ignore-layer needs a recording, and neither %s nor %s is one", a->path, b->path);
     if (count == 0)
@@ -93,6 +85,6 @@ bool ignore_layers(void *context, const diff_side *a, const diff_side *b, diff_p
      * names of ticks with more than six digits are not in the order of ticks. Both frames of a pair have the same
      * name, so the order fits both recordings. */
     qsort(pairs, count, sizeof *pairs, compare_by_tick);
-    return (a->kind != DIFF_RECORDING || add_masks(a, layers, pairs, count, error)) &&
-           (b->kind != DIFF_RECORDING || add_masks(b, layers, pairs, count, error));
+    return (a->kind != DIFF_RECORDING || add_masks(a, pairs, count, error)) &&
+           (b->kind != DIFF_RECORDING || add_masks(b, pairs, count, error));
 }

@@ -259,6 +259,8 @@ static bool print_key(FILE *out, const explanation *e, const diff_pair *pair, co
 {
     const bool known = e->cause.session.count > 0 || e->cause.view.count > 0, both = pair->a && pair->b;
     fprintf(out, "%s, ", diff_finding_name(pair->finding));
+    if (pair->effect != RULE_UNUSED)
+        fprintf(out, "rule %zu %d, ", pair->rule->line, (int)pair->effect);
     if (pair->finding == FOUND_SIZE)
         fprintf(out, "%dx%d %dx%d, ", pair->about[0].width, pair->about[0].height, pair->about[1].width,
                 pair->about[1].height);

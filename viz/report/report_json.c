@@ -9,6 +9,31 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Write the members that describe a rule. */
+static void write_rule_members(json_writer *w, const baseline_rule *rule)
+{
+    json_write_text_member(w, "file", rule->file);
+    json_write_integer_member(w, "line", rule->line);
+    json_write_text_member(w, "pattern", rule->pattern);
+    if (rule->date)
+        json_write_text_member(w, "date", rule->date);
+    if (rule->expires)
+        json_write_text_member(w, "expires", rule->expires);
+    json_write_text_member(w, "reason", rule->reason);
+}
+
+static void write_rules(json_writer *w, const diff_result *result)
+{
+    json_begin_array_member(w, "rules");
+    for (size_t i = 0; i < result->rule_count; i++) {
+        json_write_begin_object(w);
+        write_rule_members(w, &result->rules[i]);
+        json_write_integer_member(w, "frames", result->rules[i].matched);
+        json_write_end_object(w);
+    }
+    json_write_end_array(w);
+}
+
 static void write_two_numbers(json_writer *w, const char *key, int a, int b)
 {
     json_write_key(w, key);
@@ -46,6 +71,10 @@ static void write_tolerance(json_writer *w, const diff_result *result)
     json_write_integer_member(w, "max_pixels", t->max_pixels);
     json_write_number_member(w, "max_delta", t->max_delta);
     json_write_text_member(w, "delta_unit", IMAGE_DELTA_UNIT);
+    if (t->max_share > 0)
+        json_write_number_member(w, "max_share", t->max_share);
+    if (t->max_channel > 0)
+        json_write_integer_member(w, "max_channel", (uint64_t)t->max_channel);
     if (t->flip) {
         json_write_number_member(w, "max_flip", t->max_flip);
         json_write_number_member(w, "pixels_per_degree", t->pixels_per_degree);
@@ -58,7 +87,7 @@ static void write_tolerance(json_writer *w, const diff_result *result)
     }
     json_write_end_array(w);
     json_begin_array_member(w, "ignore_layers");
-    if (options->mask)
+    if (options->ignored_layers)
         write_layers(w, options->layers);
     json_write_end_array(w);
     json_write_end_object(w);
@@ -124,6 +153,12 @@ void diff_json_finding(json_writer *w, const diff_report *report, size_t i)
         json_write_text_member(w, "trouble", pair->trouble);
     if (pair->no_picture)
         json_write_text_member(w, "no_picture", pair->no_picture);
+    if (pair->effect != RULE_UNUSED) {
+        json_begin_object_member(w, "rule");
+        json_write_text_member(w, "effect", diff_rule_effect_name(pair->effect));
+        write_rule_members(w, pair->rule);
+        json_write_end_object(w);
+    }
     if (cause)
         json_write_text_member(w, "cause", cause);
 }
@@ -203,6 +238,8 @@ void diff_json_summary(json_writer *w, const diff_report *report)
     write_side(w, "reference", report->a);
     write_side(w, "compared", report->b);
     write_tolerance(w, result);
+    if (result->rule_count > 0)
+        write_rules(w, result);
     write_counts(w, result);
 }
 

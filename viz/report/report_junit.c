@@ -4,6 +4,7 @@
 #include "diff_words.h"
 #include "junit.h"
 #include "report.h"
+#include "text.h"
 
 #include <stdlib.h>
 
@@ -64,10 +65,27 @@ static void write_picture_paths(FILE *out, const diff_report *report, size_t i)
     fputs("      </system-out>\n", out);
 }
 
+/* Write the rest of the element of a test case that passes because of a rule. */
+static void write_forgiven(FILE *out, const diff_pair *pair)
+{
+    text_stream s;
+    char *text = NULL;
+    if (text_stream_begin(&s))
+        diff_print_rule(s.stream, pair);
+    text_stream_end(&s, &text);
+    write_escaped_xml(out, ">\n      <system-out>", text ? text : "out of memory");
+    fputs("</system-out>\n    </testcase>\n", out);
+    free(text);
+}
+
 static void write_case(FILE *out, const diff_report *report, size_t i)
 {
     const diff_pair *pair = &report->result->pairs[i];
     junit_begin_case(out, report->b->path, diff_pair_name(pair));
+    if (pair->effect == RULE_FORGAVE) {
+        write_forgiven(out, pair);
+        return;
+    }
     if (diff_finding_verdict(pair->finding) == DIFF_SAME) {
         fputs("/>\n", out);
         return;

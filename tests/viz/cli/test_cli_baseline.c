@@ -296,7 +296,8 @@ static void tolerance_that_cannot_be_checked_is_an_error(void **state)
         options.tolerance.max_pixels = exact ? 0 : 5;
         comparison_of made = assert_compared(s.file.path, s.after.path, &options);
         const struct rlimit before = limit_open_files(i / 2);
-        picture_store_fetch(&made.a, &made.result);
+        octreel_error error;
+        assert_true(picture_store_fetch(&made.a, &made.b, &made.result, &error));
         assert_int_equal(setrlimit(RLIMIT_NOFILE, &before), 0);
         const diff_pair *pair = diff_find(&made.result, "2.png");
         assert_int_equal(made.result.verdict, exact ? DIFF_DIFFERENT : enough ? DIFF_SAME : DIFF_TROUBLE);

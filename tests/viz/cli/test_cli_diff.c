@@ -65,6 +65,12 @@ static void every_verdict_names_the_tolerances(void **state)
          0},
         {"--max-delta 1", "b.png: forgiven: 0 pixels count; 5 of 384 pixels differ, 5 of them close; worst 0.0027", 0},
         {"--max-delta 0", "compared exactly\n", 1},
+        {"--max-channel 1", "forgiven: channels within 1\n", 0},
+        {"--max-channel 1", "b.png: forgiven: 0 pixels count; 5 of 384 pixels differ, 5 of them close", 0},
+        {"--max-channel 0", "compared exactly\n", 1},
+        {"--max-pixels 1.3%", "forgiven: up to 1.3% of the pixels\n", 1},
+        {"--max-pixels 1.31%", "forgiven: up to 1.31% of the pixels\n", 0},
+        {"--max-pixels 2 --max-pixels 2%", "forgiven: up to 2 pixels a frame, up to 2% of the pixels\n", 0},
         {"--flip 0.1", "forgiven: a mean FLIP up to 0.1 at 67.02 pixels per degree\n", 0},
         {"--flip 0.1",
          "b.png: forgiven: 5 of 384 pixels differ; worst 0.0027 YIQ at (0,3), channels by up to 1 of "
@@ -91,6 +97,11 @@ static void errors_are_printed_with_status_2(void **state)
     file_write_text(text.path, "no picture");
     static const char *const bad[][2] = {
         {"--max-pixels -1", "--max-pixels takes a whole number"},
+        {"--max-pixels 100.1%", "--max-pixels takes a whole number from 0 to 4294967295, or a percentage such as 0.5%"},
+        {"--max-pixels %", "--max-pixels takes a whole number"},
+        {"--max-pixels -1%", "--max-pixels takes a whole number"},
+        {"--max-channel 65536", "--max-channel takes a whole number from 0 to 65535"},
+        {"--max-channel 1.5", "--max-channel takes a whole number from 0 to 65535"},
         {"--max-delta 1.5", "--max-delta takes a number from 0 to 1"},
         {"--max-delta x", "--max-delta takes a number from 0 to 1"},
         {"--max-delta nan", "--max-delta takes a number from 0 to 1"},

@@ -201,6 +201,14 @@ static void json_conforms_to_its_schema(void **state)
     command_release(&result);
     snprintf(more, sizeof more, "--store %s", place_in(*state, "store").path);
     assert_json_fits(state, digests.path, b.path, more);
+    char *text = file_read(digests.path, NULL), *with_rules = malloc(strlen(text) + 200);
+    assert_non_null(with_rules);
+    sprintf(with_rules, "%srule * max-pixels=9 date=2026-11-22 expires=2026-12-31 reason=x\n", text);
+    file_write_text(digests.path, with_rules);
+    assert_json_fits(state, digests.path, b.path, "--today 2026-11-27");
+    assert_json_fits(state, digests.path, b.path, "--today 2027-11-27");
+    free(with_rules);
+    free(text);
 }
 
 static void json_lists_each_frame_and_each_group(void **state)

@@ -16,7 +16,7 @@ enum { SIDE = 20 };
 /* Two pictures that differ, as pixels in a format that must be converted, and as files. */
 typedef struct pictures {
     unsigned char pixels[2][4 * SIDE * SIDE];
-    place files[2], baseline;
+    place files[2], baseline, store;
 } pictures;
 
 static void make_pictures(const temp_folder *folder, pictures *p)
@@ -33,14 +33,20 @@ static void make_pictures(const temp_folder *folder, pictures *p)
     octreel_error error;
     const frame_list all = {NULL, 0, 0, NULL};
     p->baseline = place_in(folder, "baseline.txt");
+    p->store = place_in(folder, "store");
     assert_true(accept_frames(&(accept_options){.reference = p->baseline.path,
                                                 .frames = p->files[0].path,
                                                 .names = &all,
+                                                .store = p->store.path,
                                                 .note = {.date = "2026-11-27", .reason = "a test"}},
                               NULL, &error));
+    char *text = file_read(p->baseline.path, NULL), with_rule[1000];
+    snprintf(with_rule, sizeof with_rule, "%srule * max-pixels=9 ignore=0,0,2,2 reason=a test\n", text);
+    file_write_text(p->baseline.path, with_rule);
+    free(text);
 }
 
-enum { PIXELS, PIXELS_TO_FILE, FILES, PIXELS_TO_BASELINE, WAYS };
+enum { PIXELS, PIXELS_TO_FILE, FILES, PIXELS_TO_BASELINE, PIXELS_TO_STORE, WAYS };
 
 /* Compare in one of these ways. They differ. */
 static octreel_verdict compare(const pictures *p, int way, bool antialias, octreel_comparison *found)
@@ -55,7 +61,9 @@ static octreel_verdict compare(const pictures *p, int way, bool antialias, octre
         return octreel_compare_files(p->files[1].path, p->files[0].path, &def, found);
     if (way == PIXELS_TO_FILE)
         return octreel_compare_pixels_to_file(&a, p->files[0].path, &def, found);
-    return octreel_compare_pixels_to_file(&a, p->baseline.path, NULL, found);
+    def.store = p->store.path;
+    def.today = "2026-11-27";
+    return octreel_compare_pixels_to_file(&a, p->baseline.path, way == PIXELS_TO_STORE ? &def : NULL, found);
 }
 
 static void lack_of_memory_is_trouble(void **state)

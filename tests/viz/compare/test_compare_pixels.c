@@ -255,12 +255,14 @@ static void tolerances_are_those_of_octreel_diff(void **state)
         const octreel_rectangle ignored[] = {{(int)(next_random(&random) % 13), 2, 5, 3}, {0, 8, 100, 100}};
         octreel_compare_def def = octreel_compare_def_default();
         def.max_delta = (double)(next_random(&random) % 4) / 20;
+        def.max_channel = round % 4 == 1 ? round % 97 : 0;
         def.antialias = next_random(&random) % 2;
         def.max_pixels = next_random(&random) % 20;
         def.ignored = ignored;
         def.ignored_count = next_random(&random) % 3;
         const image_tolerance tolerance = {.max_pixels = def.max_pixels,
                                            .max_delta = def.max_delta,
+                                           .max_channel = def.max_channel,
                                            .antialias = def.antialias,
                                            .ignored = ignored,
                                            .ignored_count = def.ignored_count};
@@ -346,6 +348,9 @@ static void invalid_definitions_are_refused(void **state)
         def.max_delta = deltas[i];
         assert_trouble(&good, &good, &def, "max_delta is ");
         def = octreel_compare_def_default();
+        def.max_share = deltas[i];
+        assert_trouble(&good, &good, &def, "max_share is ");
+        def = octreel_compare_def_default();
         def.flip = true;
         def.max_flip = deltas[i];
         assert_trouble(&good, &good, &def, "max_flip is ");
@@ -354,6 +359,9 @@ static void invalid_definitions_are_refused(void **state)
     def.flip = true;
     def.pixels_per_degree = 0.5;
     assert_trouble(&good, &good, &def, "pixels_per_degree is 0.5; it must be from 1 to 200");
+    def = octreel_compare_def_default();
+    def.max_channel = -1;
+    assert_trouble(&good, &good, &def, "max_channel is -1; it must be from 0 to 65535");
     def = octreel_compare_def_default();
     def.background = 0x1000000;
     assert_trouble(&good, &good, &def, "background is 0x01000000; it must be 0xRRGGBB");

@@ -407,7 +407,7 @@ static void baseline_allows_no_tolerance(void **state)
         {.tolerance = {.max_delta = 0.1}, .background = {255, 255, 255}},
         {.tolerance = {.antialias = true}, .background = {255, 255, 255}},
         {.tolerance = {.ignored = &corner, .ignored_count = 1}, .background = {255, 255, 255}},
-        {.mask = ignore_layers, .background = {255, 255, 255}},
+        {.mask = ignore_layers, .ignored_layers = 1u, .background = {255, 255, 255}},
     };
     write_by_kinds(a.path, file.path, 0);
     for (size_t i = 0; i < sizeof asked / sizeof asked[0]; i++)

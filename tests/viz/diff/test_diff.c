@@ -186,7 +186,7 @@ static void incomparable_sides_are_refused(void **state)
     assert_not_compared(folder.path, picture.path, NULL, "cannot compare one picture with a folder");
     assert_not_compared(empty.path, empty.path, NULL, "nothing to compare");
     options.mask = ignore_layers;
-    options.mask_context = &(unsigned){1u << LAYER_TEXT};
+    options.ignored_layers = 1u << LAYER_TEXT;
     assert_not_compared(folder.path, folder.path, &options, "--ignore-layer needs a recording");
     comparison_of made = assert_compared(empty.path, folder.path, NULL);
     assert_int_equal(find_finding(&made, "1.png"), FOUND_NO_REFERENCE);
@@ -282,6 +282,9 @@ static void tolerance_forgives_only_what_it_allows(void **state)
         {{.max_pixels = 6}, FOUND_WITHIN},
         {{.max_delta = 0.001}, FOUND_PIXELS},
         {{.max_delta = 0.01}, FOUND_WITHIN},
+        {{.max_channel = 1}, FOUND_WITHIN},
+        {{.max_share = 5. / (GALLERY_WIDTH * GALLERY_HEIGHT)}, FOUND_PIXELS},
+        {{.max_share = 6. / (GALLERY_WIDTH * GALLERY_HEIGHT)}, FOUND_WITHIN},
         {{.ignored = &row, .ignored_count = 1}, FOUND_PIXELS},
         {{.ignored = &row, .ignored_count = 1, .max_pixels = 1}, FOUND_PIXELS},
         {{.ignored = &row, .ignored_count = 1, .max_pixels = 2}, FOUND_WITHIN},

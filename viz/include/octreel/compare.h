@@ -20,8 +20,12 @@
  *   - A file may be any PNG with sides of up to 16384 pixels. A damaged, truncated or missing file, and a folder or
  * pipe in place of a file, give OCTREEL_VERDICT_TROUBLE and a sentence that says why.
  *   - A reference file is a PNG or a baseline, which `octreel accept` writes. A baseline holds one or more accepted
- *     digests for each frame, and no pixels. So it allows no tolerance, and only the verdict and the sentence say
- *     something about the difference. A baseline is read at each call, in time proportional to its size.
+ *     digests for each frame, and no pixels. So it allows no tolerance without a store, the folder in which `octreel
+ *     accept --store` saved the pictures, and only the verdict and the sentence say something about the difference.
+ * With a store, a frame whose digest differs is compared with its stored pictures, under the definition and then under
+ *     the rule that the baseline has for the frame; the sentence names the rule. `octreel help baseline` describes
+ * rules. Rules that ignore layers work only in `octreel diff`. A baseline is read at each call, in time proportional to
+ * its size.
  *   - Cost of a comparison with a PNG of equal pixels: that of decoding the PNG, and at most a fifth more. Two files
  * with equal bytes are not decoded.
  */
@@ -73,32 +77,41 @@ typedef struct octreel_rectangle {
     int x, y, width, height;
 } octreel_rectangle;
 
-/* What counts as the same. Start from octreel_compare_def_default(), and change what you need. The rules are those of
- * `octreel diff`. */
+/* What counts as the same. Start from octreel_compare_def_default(), and change what you need. The members
+ * mean the same as options of `octreel diff`. */
 typedef struct octreel_compare_def {
     /* Forgive pixels whose two colours are at most this far apart, from 0, equal, to 1. The distance is YIQ (Kotsarenko
      * and Ramos 2010), the one of pixelmatch's threshold. */
     double max_delta;
+    /* Forgive pixels whose samples differ by at most this much in each channel, of 255, or of 65535 if a picture has
+     * samples of 16 bits. */
+    int max_channel;
     /* true: call the pictures the same if their mean FLIP (Andersson et al. 2020), a measure of how visible their
      * difference is, is at most max_flip, from 0, invisible, to 1 */
     bool flip;
     double max_flip;
     double pixels_per_degree; /* for FLIP: the pixels of the display in a degree of the visual field, 1 to 200 */
     bool antialias;           /* true: forgive pixels on anti-aliased edges, as pixelmatch finds them */
-    uint64_t max_pixels;      /* forgive up to this many differing pixels that no other rule forgives */
+    uint64_t max_pixels;      /* forgive up to this many differing pixels that no other member forgives */
+    double max_share;         /* forgive up to this share of the picture's pixels, from 0 to 1, as with max_pixels */
     const octreel_rectangle *ignored; /* rectangles whose pixels are not compared; may be null if the count is 0 */
     size_t ignored_count;
     uint32_t background; /* 0xRRGGBB: the colour behind transparent pixels; a baseline has its own instead */
     /* The name of the picture in a baseline, with or without ".png", such as "menu/start". Null: the name of the
      * compared file without its folders; for pixels, the only frame of the baseline. Not used for other references. */
     const char *frame;
+    const char *store; /* for a baseline: the folder with the pictures of accepted digests; null: no pictures */
+    /* For a baseline with rules: the date on which they expire or not, such as "2026-11-22". Null: the date of the
+     * environment variable SOURCE_DATE_EPOCH, if it is set, else the local date. */
+    const char *today;
 } octreel_compare_def;
 
 /* Returns a definition that forgives nothing, with a white background, and a display of 67 pixels per degree. */
 octreel_compare_def octreel_compare_def_default(void);
 
 /* What a comparison found. Counts are numbers of pixels. Coordinates are in pixels from the left upper corner, and -1
- * if no pixel differs. Without a comparison of pixels (trouble, a baseline, sides of other lengths) counts are 0.
+ * if no pixel differs. Without a comparison of pixels (trouble, a baseline without a stored picture, sides of other
+ * lengths) counts are 0.
  *
  * The members from worst_delta to max_y describe the counted pixels or, if no pixel counts, all pixels that differ. */
 typedef struct octreel_comparison {
@@ -106,15 +119,15 @@ typedef struct octreel_comparison {
     int width, height;                     /* of the compared picture; 0: unknown */
     int reference_width, reference_height; /* of the reference; 0: unknown */
     uint64_t different;                    /* pixels whose colours differ, without the ignored ones */
-    uint64_t counted;                      /* different pixels that neither max_delta nor antialias forgives */
-    uint64_t close;                        /* different pixels that max_delta forgives */
-    uint64_t antialiased;                  /* different pixels that antialias forgives, and max_delta does not */
-    uint64_t ignored;                      /* pixels in ignored rectangles whose colours differ */
-    double worst_delta;                    /* the largest distance of the two colours of a pixel, as max_delta */
-    int worst_x, worst_y;                  /* the first pixel in reading order that has it */
-    double mean_flip, worst_flip;          /* if the definition asks for FLIP: the mean and the largest value, else 0 */
-    int largest_channel;                   /* the largest difference of two samples of a channel */
-    int channel_range; /* the largest possible one: 255, or 65535 with samples of 16 bits; 0: not compared */
+    uint64_t counted;             /* different pixels that none of max_delta, max_channel and antialias forgives */
+    uint64_t close;               /* different pixels that max_delta or max_channel forgives */
+    uint64_t antialiased;         /* different pixels that antialias alone forgives */
+    uint64_t ignored;             /* pixels in ignored rectangles whose colours differ */
+    double worst_delta;           /* the largest distance of the two colours of a pixel, as max_delta */
+    int worst_x, worst_y;         /* the first pixel in reading order that has it */
+    double mean_flip, worst_flip; /* if the definition asks for FLIP: the mean and the largest value, else 0 */
+    int largest_channel;          /* the largest difference of two samples of a channel */
+    int channel_range;            /* the largest possible one: 255, or 65535 with samples of 16 bits; 0: not compared */
     int min_x, min_y, max_x, max_y; /* the smallest rectangle around the pixels, both corners inclusive */
     /* One line for people: what differs and where, or the reason of OCTREEL_VERDICT_TROUBLE and what to do about it. */
     char sentence[512];
