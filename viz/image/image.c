@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* image.c - allocates images, reads single pixels, and shrinks supersampled images. */
+/* image.c - allocates images, reads pixels, and shrinks supersampled images. */
 #include "image.h"
 
 #include <stdlib.h>
@@ -51,6 +51,17 @@ image_color image_color_at(const image *image, int x, int y)
     memcpy(samples, at, sizeof samples);
     return (image_color){round_sample_to_8_bits(samples[0]), round_sample_to_8_bits(samples[1]),
                          round_sample_to_8_bits(samples[2])};
+}
+
+void image_read_row(const image *image, int y, image_color *colors)
+{
+    const uint8_t *at = image->pixels + (size_t)y * (size_t)image->width * image_pixel_size(image);
+    for (int x = 0; image->channels == 1 && x < image->width; x++)
+        colors[x] = image->palette.colors[at[x]];
+    if (image->channels == 3 && !image->wide)
+        memcpy(colors, at, (size_t)image->width * sizeof *colors);
+    for (int x = 0; image->wide && x < image->width; x++)
+        colors[x] = image_color_at(image, x, y);
 }
 
 /* ---- Shrinking ---------------------------------------------------------------------------------------------- */

@@ -53,6 +53,9 @@ void image_release(image *image);
 /* Returns the colour of the pixel (x, y), which must be inside the image. Samples of 16 bits are rounded to 8. */
 image_color image_color_at(const image *image, int x, int y);
 
+/* Set colors[x] to the colour of the pixel (x, y), for all x: faster than image_color_at() for each pixel. */
+void image_read_row(const image *image, int y, image_color *colors);
+
 /* Returns whether every index of an indexed image is inside its palette. */
 bool image_has_valid_indices(const image *image);
 

@@ -400,13 +400,16 @@ void image_draw_difference_row(const image *a, const image *b, const image_toler
     const int range = common_sample_range(a, b), longest = maximum(a->width, b->width);
     const int common = y >= a->height || y >= b->height ? 0 : minimum(a->width, b->width);
     const rows r = {a, b, 0};
+    pixel_samples p[SPAN], q[SPAN];
     if (a->width != b->width || a->height != b->height)
         tolerance = &exact;
-    for (int x = 0; x < common; x++) {
-        pixel_samples p, q;
-        read_samples(a, (size_t)y * (size_t)a->width + (size_t)x, 1, range, &p);
-        read_samples(b, (size_t)y * (size_t)b->width + (size_t)x, 1, range, &q);
-        row[x] = are_samples_equal(&p, &q) ? grey_index(&p, range) : difference_index(&r, tolerance, x, y, &p, &q);
+    for (int x = 0; x < common; x += SPAN) {
+        const int count = minimum(SPAN, common - x);
+        read_samples(a, (size_t)y * (size_t)a->width + (size_t)x, count, range, p);
+        read_samples(b, (size_t)y * (size_t)b->width + (size_t)x, count, range, q);
+        for (int i = 0; i < count; i++)
+            row[x + i] = are_samples_equal(&p[i], &q[i]) ? grey_index(&p[i], range)
+                                                         : difference_index(&r, tolerance, x + i, y, &p[i], &q[i]);
     }
     memset(row + common, OUTSIDE, (size_t)(longest - common));
 }

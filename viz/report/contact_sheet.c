@@ -3,13 +3,14 @@
  *
  * Each cell shows a picture as large as it fits. A pixel of the cell covers a rectangle of the picture. For expected
  * and actual pictures, the pixel has the mean color of the rectangle. For the difference, it has the color of the
- * brightest pixel: with the mean, one differing pixel of a large picture would fade to black. Each picture is read,
- * drawn and released before the next one, so at most one picture is in memory.
+ * brightest pixel: with the mean, one differing pixel of a large picture would fade to black. Decoding the PNG files
+ * takes most of the time, so the pictures of a row are read and drawn on different cores. At most these are in memory.
  */
 #include "contact_sheet.h"
 #include "file.h"
 #include "glyphs.h"
 #include "lettering.h"
+#include "parallel.h"
 #include "png_read.h"
 #include "png_write.h"
 
@@ -57,30 +58,46 @@ static void draw_text(image *sheet, int x, int y, size_t most, const char *text,
 
 /* ---- Small pictures ------------------------------------------------------------------------------------------ */
 
-/* The rectangle of a picture's pixels that are reduced to one pixel of a cell. */
-typedef struct patch {
-    int x0, y0, x1, y1;
-} patch;
+/* What one pixel of a cell shows: a rectangle of the picture's pixels. */
+typedef struct reduced_pixel {
+    uint64_t sum[3], count; /* the sum of the rectangle's colors, and the number of its pixels, for the mean */
+    image_color brightest;  /* for the difference */
+} reduced_pixel;
 
 /* Return the color of one pixel of a cell. With `brightest`, it is the color of the brightest pixel in the rectangle
- * of the picture; else it is the mean color of the rectangle. */
-static image_color color_of_cell_pixel(const image *picture, const patch *p, bool brightest)
+ * of the picture; else it is the mean color of the rectangle, rounded to nearest. */
+static image_color color_of_cell_pixel(const reduced_pixel *p, bool brightest)
 {
-    const uint64_t count = (uint64_t)(p->x1 - p->x0) * (uint64_t)(p->y1 - p->y0);
-    /* The sums start at half the divisor, so that the divisions below round to nearest. */
-    uint64_t sum[3] = {count / 2, count / 2, count / 2};
-    image_color best = image_color_at(picture, p->x0, p->y0);
-    for (int y = p->y0; y < p->y1; y++)
-        for (int x = p->x0; x < p->x1; x++) {
-            const image_color color = image_color_at(picture, x, y);
-            if (color.r + color.g + color.b > best.r + best.g + best.b)
-                best = color;
-            sum[0] += color.r;
-            sum[1] += color.g;
-            sum[2] += color.b;
+    const uint64_t half = p->count / 2;
+    return brightest ? p->brightest
+                     : (image_color){(uint8_t)((p->sum[0] + half) / p->count), (uint8_t)((p->sum[1] + half) / p->count),
+                                     (uint8_t)((p->sum[2] + half) / p->count)};
+}
+
+static void add_to_mean(reduced_pixel *p, const image_color *colors, int count)
+{
+    uint32_t r = 0, g = 0, b = 0;
+    for (int i = 0; i < count; i++) {
+        r += colors[i].r;
+        g += colors[i].g;
+        b += colors[i].b;
+    }
+    p->sum[0] += r;
+    p->sum[1] += g;
+    p->sum[2] += b;
+    p->count += (uint64_t)count;
+}
+
+static void find_brightest(reduced_pixel *p, const image_color *colors, int count)
+{
+    int most = p->brightest.r + p->brightest.g + p->brightest.b;
+    for (int i = 0; i < count; i++) {
+        const int sum = colors[i].r + colors[i].g + colors[i].b;
+        if (sum > most) {
+            most = sum;
+            p->brightest = colors[i];
         }
-    return brightest ? best
-                     : (image_color){(uint8_t)(sum[0] / count), (uint8_t)(sum[1] / count), (uint8_t)(sum[2] / count)};
+    }
 }
 
 /* A cell shows a reduced picture. Along one axis, `length` pixels of the picture are reduced to `across` pixels of
@@ -92,8 +109,23 @@ static void find_source_span(int at, int across, int length, int *first, int *en
     *end += *end == *first;
 }
 
-/* Draw a picture, centered in its cell and as large as it fits. */
-static void draw_picture(image *sheet, int left, int top, const image *picture, evidence_picture kind)
+/* Reduce the rows `first` to `end` - 1 of a picture to `width` pixels of a cell: to their means, or their brightest
+ * pixels. `colors` has room for a row. */
+static void reduce_rows(const image *picture, int first, int end, bool brightest, image_color *colors,
+                        reduced_pixel *reduced, int width)
+{
+    memset(reduced, 0, (size_t)width * sizeof *reduced);
+    for (int y = first; y < end; y++) {
+        image_read_row(picture, y, colors);
+        for (int x = 0, from, to; x < width; x++) {
+            find_source_span(x, width, picture->width, &from, &to);
+            (brightest ? find_brightest : add_to_mean)(&reduced[x], colors + from, to - from);
+        }
+    }
+}
+
+/* Draw a picture, centered in its cell and as large as it fits. Return false if memory runs out. */
+static bool draw_picture(image *sheet, int left, int top, const image *picture, evidence_picture kind)
 {
     int width = CELL_WIDTH, height = (int)((int64_t)CELL_WIDTH * picture->height / picture->width);
     if (height > CELL_HEIGHT) {
@@ -104,38 +136,53 @@ static void draw_picture(image *sheet, int left, int top, const image *picture, 
     height += height == 0;
     left += (CELL_WIDTH - width) / 2;
     top += (CELL_HEIGHT - height) / 2;
-    for (int y = 0; y < height; y++)
-        for (int x = 0; x < width; x++) {
-            patch p;
-            find_source_span(x, width, picture->width, &p.x0, &p.x1);
-            find_source_span(y, height, picture->height, &p.y0, &p.y1);
+    image_color *colors = malloc((size_t)picture->width * sizeof *colors);
+    if (!colors)
+        return false;
+    for (int y = 0, first, end; y < height; y++) {
+        reduced_pixel reduced[CELL_WIDTH];
+        find_source_span(y, height, picture->height, &first, &end);
+        reduce_rows(picture, first, end, kind == EVIDENCE_DIFFERENCE, colors, reduced, width);
+        for (int x = 0; x < width; x++)
             fill_rectangle(sheet, left + x, top + y, 1, 1,
-                           color_of_cell_pixel(picture, &p, kind == EVIDENCE_DIFFERENCE));
-        }
+                           color_of_cell_pixel(&reduced[x], kind == EVIDENCE_DIFFERENCE));
+    }
+    free(colors);
+    return true;
 }
 
 /* ---- Rows ---------------------------------------------------------------------------------------------------- */
 
-/* Draw one picture of a row. If the picture cannot be read, its cell stays empty; the other reports print the error. */
-static void draw_cell(image *sheet, const diff_report *report, size_t pair, evidence_picture kind, int left, int top)
+/* A row of the sheet: the pictures of the first frame of a group. */
+typedef struct sheet_row {
+    image *sheet;
+    const diff_report *report;
+    const frame_group *group;
+    int top;
+} sheet_row;
+
+/* Draw one picture of a row. If the picture cannot be read, its cell stays empty; the other reports print the error.
+ * The cells of a row are drawn in parallel. */
+static void draw_cell(size_t kind, void *context)
 {
+    const sheet_row *row = context;
+    const diff_report *report = row->report;
+    const int left = GAP + (int)kind * (CELL_WIDTH + GAP), top = row->top + 2 * LINE;
     octreel_error ignored;
-    image picture;
-    char *path = evidence_path(report->evidence, report->result, pair, kind);
-    fill_rectangle(sheet, left, top, CELL_WIDTH, CELL_HEIGHT, cell_ground);
-    if (path && image_read_png(path, &picture, &ignored)) {
-        draw_picture(sheet, left, top, &picture, kind);
-        image_release(&picture);
-    } else {
-        draw_text(sheet, left + GAP, top + GAP, CELL_WIDTH / 8, "no picture", faint_color);
-    }
+    image picture = {.width = 0};
+    char *path = evidence_path(report->evidence, report->result, row->group->first, (evidence_picture)kind);
+    fill_rectangle(row->sheet, left, top, CELL_WIDTH, CELL_HEIGHT, cell_ground);
+    if (!path || !image_read_png(path, &picture, &ignored) ||
+        !draw_picture(row->sheet, left, top, &picture, (evidence_picture)kind))
+        draw_text(row->sheet, left + GAP, top + GAP, CELL_WIDTH / 8, "no picture", faint_color);
+    image_release(&picture);
     free(path);
 }
 
 static void draw_row(image *sheet, const diff_report *report, const frame_group *group, int top)
 {
-    for (int i = 0; i < COLUMNS; i++)
-        draw_cell(sheet, report, group->first, (evidence_picture)i, GAP + i * (CELL_WIDTH + GAP), top + 2 * LINE);
+    sheet_row row = {sheet, report, group, top};
+    parallel_for(COLUMNS, draw_cell, &row);
     draw_text(sheet, GAP, top, LETTERS, group->frames, warm_color);
     draw_text(sheet, GAP, top + LINE, LETTERS, group->cause ? group->cause : group->difference, text_color);
 }

@@ -6,6 +6,7 @@
 #include "flip.h"
 #include "folder.h"
 #include "octree/digest.h"
+#include "parallel.h"
 #include "png_read.h"
 #include "png_write.h"
 
@@ -228,11 +229,31 @@ static const uint8_t *difference_row(int y, void *context)
     return c->row;
 }
 
+/* The reading of both pictures of a pair, in parallel. */
+typedef struct reading {
+    canvas *c;
+    const diff_frame *frames[2];
+    image_color background;
+    bool ok[2];
+    octreel_error errors[2];
+} reading;
+
+static void read_picture(size_t i, void *context)
+{
+    reading *r = context;
+    r->ok[i] = image_read_png_over(r->frames[i]->path, r->background, &r->c->images[i], &r->errors[i]);
+}
+
 static bool read_pictures(canvas *c, const diff_pair *pair, const diff_options *options, octreel_error *error)
 {
-    return (pair_tolerance(pair, options, &c->tolerance) || error_no_memory(error)) &&
-           image_read_png_over(pair->a->path, options->background, &c->images[0], error) &&
-           image_read_png_over(pair->b->path, options->background, &c->images[1], error);
+    reading r = {.c = c, .frames = {pair->a, pair->b}, .background = options->background};
+    if (!pair_tolerance(pair, options, &c->tolerance))
+        return error_no_memory(error);
+    parallel_for(2, read_picture, &r);
+    for (int i = 0; i < 2; i++)
+        if (!r.ok[i])
+            return error_set(error, "%s", r.errors[i].text);
+    return true;
 }
 
 static bool write_difference(canvas *c, const char *path, octreel_error *error)

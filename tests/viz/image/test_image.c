@@ -196,6 +196,34 @@ static void comparison_ignores_how_palettes_are_ordered(void **state)
     release_twins(&b);
 }
 
+static void row_holds_the_colour_of_each_pixel_in_each_format(void **state)
+{
+    (void)state;
+    static const struct {
+        int channels;
+        bool wide;
+    } formats[] = {{1, false}, {3, false}, {3, true}};
+    for (size_t i = 0; i < sizeof formats / sizeof *formats; i++) {
+        image of;
+        image_color row[7];
+        assert_true(image_create(&of, formats[i].wide ? 14 : 7, 3, formats[i].channels)); /* 16 bits fill 14 columns */
+        for (int n = 0; n < of.width * of.height * of.channels; n++)
+            of.pixels[n] = (uint8_t)(n * 37 % 251);
+        for (int n = 0; n < 256; n++)
+            of.palette.colors[n] = (image_color){(uint8_t)n, (uint8_t)(n ^ 85), (uint8_t)(255 - n)};
+        of.wide = formats[i].wide;
+        of.width = 7;
+        for (int y = 0; y < 3; y++) {
+            image_read_row(&of, y, row);
+            for (int x = 0; x < 7; x++) {
+                const image_color color = image_color_at(&of, x, y);
+                assert_memory_equal(&row[x], &color, sizeof color);
+            }
+        }
+        image_release(&of);
+    }
+}
+
 /* The names are in files: none may change or go. */
 static void each_kind_of_digest_is_found_by_its_name(void **state)
 {
@@ -222,6 +250,7 @@ int main(void)
         cmocka_unit_test(digest_of_each_kind_is_pinned_and_its_text_names_the_kind),
         cmocka_unit_test(text_that_is_not_a_digest_is_refused),
         cmocka_unit_test(comparison_ignores_how_palettes_are_ordered),
+        cmocka_unit_test(row_holds_the_colour_of_each_pixel_in_each_format),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
