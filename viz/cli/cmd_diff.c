@@ -282,7 +282,7 @@ static int run(int argc, char **argv)
     a.lines = a.has_causes && a.causes > LIST_LINES ? (size_t)a.causes : LIST_LINES;
     output_file *page = &a.outputs[PAGE];
     if (page->folder && !a.has_causes)
-        a.causes = DIFF_REPORT_PAGE_FRAMES; /* a page shows this many frames, and explains each of them */
+        a.causes = DIFF_REPORT_PAGE_CAUSES;
     char *path = page->folder ? path_join(page->folder, EVIDENCE_PAGE) : NULL;
     page->path = path;
     if (status == COMMAND_GO_ON && page->folder && !path)

@@ -45,7 +45,8 @@ void diff_report_markdown(FILE *out, const diff_report *report);
 /* Write report.html into the folder of evidence. It is a self-contained page on which a person views the differences
  * and selects frames for acceptance. The page holds the first DIFF_REPORT_PAGE_FRAMES groups, and at most
  * DIFF_REPORT_PAGE_BYTES bytes of pictures. The page states how many groups and pictures are left out. */
-#define DIFF_REPORT_PAGE_FRAMES 50
+#define DIFF_REPORT_PAGE_FRAMES 1000
+#define DIFF_REPORT_PAGE_CAUSES 50 /* so many findings are explained by default; each may replay a session */
 #define DIFF_REPORT_PAGE_BYTES (UINT64_C(96) << 20) /* bytes of embedded PNG files; more bytes slow browsers down */
 bool diff_report_page(const diff_report *report, octreel_error *error);
 

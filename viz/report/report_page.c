@@ -101,16 +101,21 @@ static void write_pixel_counts(json_writer *w, const diff_result *result)
     json_write_end_array(w);
 }
 
+static int compare_group(const void *key, const void *element)
+{
+    const size_t group = *(const size_t *)key, other = ((const page_group *)element)->group;
+    return (group > other) - (group < other);
+}
+
 /* Write, for each pair, the position of its group on the page, or null if the page does not show its group. */
 static void write_group_positions(json_writer *w, const page *p)
 {
     json_begin_array_member(w, "entries");
     for (size_t i = 0; i < p->report->result->count; i++) {
-        size_t n = 0;
-        while (n < p->count && p->groups[n].group != p->report->groups->of[i])
-            n++;
-        if (n < p->count)
-            json_write_integer(w, n);
+        const page_group *found =
+            bsearch(&p->report->groups->of[i], p->groups, p->count, sizeof *p->groups, compare_group);
+        if (found)
+            json_write_integer(w, (uint64_t)(found - p->groups));
         else
             json_write_null(w);
     }

@@ -64,7 +64,7 @@ function sayFrame(name)
 
 async function sayKeys()
 {
-    for (const key of ["n", "ArrowRight", "p", "ArrowLeft", "p", "End", "n", "Home"]) {
+    for (const key of ["n", "ArrowRight", "p", "ArrowLeft", "p", "End", "n", "Home", "j", "k"]) {
         press(key);
         await settled();
         say(`key ${key}`, shownFrame());
@@ -85,7 +85,7 @@ async function sayFrames()
 
 function sayModes()
 {
-    for (const key of ["d", "t", "e", "a", "s"]) {
+    for (const key of ["d", "t", "e", "c", "s"]) {
         press(key);
         say(`mode ${key}`, `${at("stage").dataset.mode}: ${names(panesSeen())}: ${
                                document.querySelector('#modes [aria-pressed="true"]').dataset.mode}`);
@@ -214,7 +214,7 @@ async function saySelection()
     HTMLAnchorElement.prototype.click = function() { say("saved as", this.download); };
     at("save").click();
     say("saved", (await saved).trim().replaceAll("\n", " "));
-    press("x");
+    press("a");
     say("selected no more", textOf("selected"));
     at("select-all").click();
     say("selected all", textOf("selected"));

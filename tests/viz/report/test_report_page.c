@@ -13,7 +13,7 @@
 #include "png_write.h"
 #include "text.h"
 
-enum { FRAMES = 57 }; /* of which the fifth is the same: six more differ than are in the page */
+enum { FRAMES = 57 }; /* of which the fifth is the same */
 
 #define CAUSE                                                                                                          \
     "node 0/3/7 split, point 12 moved </script><script>document.title = 'mine'</script> & \"so on\"; 7 pixels: 5 of "  \
@@ -164,18 +164,17 @@ static void keys_step_from_difference_to_difference(void **state)
 {
     static const char expected[] =
         "\nkey n\tframe_000001.png\nkey ArrowRight\tframe_000002.png\nkey p\tframe_000001.png\n"
-        "key ArrowLeft\tframe_000000.png\nkey p\tframe_000000.png\nkey End\tframe_000050.png\n"
-        "key n\tframe_000050.png\nkey Home\tframe_000000.png\n";
+        "key ArrowLeft\tframe_000000.png\nkey p\tframe_000000.png\nkey End\tframe_000056.png\n"
+        "key n\tframe_000056.png\nkey Home\tframe_000000.png\nkey j\tframe_000001.png\nkey k\tframe_000000.png\n";
     skip_without_browser();
     assert_non_null(strstr(((driven *)*state)->said, expected));
 }
 
-static void page_counts_the_frames_it_leaves_out(void **state)
+static void page_lists_the_findings(void **state)
 {
-    assert_said(state, "listed", "50");
-    assert_said(state, "place", "1 of 50");
-    assert_said(state, "left out",
-                "6 more findings: this page shows the first 50. The pictures of all findings are files beside it.");
+    assert_said(state, "listed", "56");
+    assert_said(state, "place", "1 of 56");
+    assert_said(state, "left out", "none");
 }
 
 static void keys_choose_the_display_mode(void **state)
@@ -183,7 +182,7 @@ static void keys_choose_the_display_mode(void **state)
     assert_said(state, "mode d", "difference: difference: difference");
     assert_said(state, "mode t", "side: expected actual difference: side");
     assert_said(state, "mode e", "expected: expected: expected");
-    assert_said(state, "mode a", "actual: actual: actual");
+    assert_said(state, "mode c", "actual: actual: actual");
     assert_said(state, "mode s", "swipe: expected actual: swipe");
     assert_said(state, "mode by button", "difference");
 }
@@ -236,12 +235,11 @@ static void address_contains_the_frame_and_restores_it(void **state)
     assert_said(state, "from nonsense", "frame_000000.png");
 }
 
-/* The page has the first that differ. */
 static void bars_show_the_size_of_the_difference_per_frame(void **state)
 {
     assert_said(state, "bars",
                 "56 tick 0; pixels that differ in each frame; click to go to the nearest difference; tick 56");
-    assert_said(state, "end of the bars", "frame_000050.png");
+    assert_said(state, "end of the bars", "frame_000056.png");
 }
 
 static void question_mark_lists_the_keys(void **state)
@@ -249,7 +247,8 @@ static void question_mark_lists_the_keys(void **state)
     assert_said(state, "help before", "false");
     assert_said(state, "help", "true");
     assert_said(state, "behind the help", "frame_000000.png");
-    assert_said(state, "keys listed", "n \xe2\x86\x92 p \xe2\x86\x90 Home End s b d f t e a space [ ] z + - 0 x m ?");
+    assert_said(state, "keys listed",
+                "j n \xe2\x86\x92 k p \xe2\x86\x90 Home End s b d f t e c space [ ] z + - 0 a x m ?");
 }
 
 /* What cannot be read cannot be accepted. */
@@ -266,7 +265,7 @@ static void selected_findings_are_saved_for_accept(void **state)
     assert_said(state, "saved as", "accept.txt");
     assert_said(state, "saved", "frame_000000.png frame_000002.png");
     assert_said(state, "selected no more", "1 selected, 1 frame");
-    assert_said(state, "selected all", "49 selected, 49 frames");
+    assert_said(state, "selected all", "55 selected, 55 frames");
     assert_said(state, "selected none", "0 selected, 0 frames");
 }
 
@@ -386,6 +385,54 @@ static void frames_with_one_cause_are_one_entry(void **state)
     assert_opens_with(state, folder, "\"frames\": [\"1.png\", \"2.png\", \"3.png\"]");
 }
 
+/* A page of more findings than it holds. Only visible entries are laid out, and only shown pictures are decoded. */
+static void page_of_a_thousand_findings_renders_only_visible_ones(void **state)
+{
+    static const char look[] =
+        "const list = document.getElementById('list').children, last = list[list.length - 1].lastChild;\n"
+        "const isDrawn = entry => entry.checkVisibility({contentVisibilityAuto: true});\n"
+        "const press = key => document.body.dispatchEvent(new KeyboardEvent('keydown', {key, bubbles: true}));\n"
+        "const shown = () => document.querySelector('.pane img') && document.body.dataset.frame;\n"
+        "const text = id => document.getElementById(id).textContent;\n"
+        "async function until(isSo) { while (!isSo()) await new Promise(done => setTimeout(done, 1)); }\n"
+        "async function look() {\n"
+        "    await until(() => shown() === 'frame_000000.png' && isDrawn(list[0].lastChild));\n"
+        "    const said = [`listed\\t${list.length}`, `left out\\t${text('left-out')}`, `last "
+        "before\\t${isDrawn(last)}`];\n"
+        "    for (let i = 0; i < 500; i++) press('j');\n"
+        "    press('a');\n"
+        "    await until(() => shown() === 'frame_000500.png');\n"
+        "    said.push(`selected\\t${text('selected')}`);\n"
+        "    press('End');\n"
+        "    await until(() => shown() === 'frame_000999.png' && isDrawn(last));\n"
+        "    said.push(`first after\\t${isDrawn(list[0].lastChild)}`, `decoded\\t${document.images.length}`, '');\n"
+        "    const made = document.body.appendChild(document.createElement('pre'));\n"
+        "    made.textContent = said.join('\\n');\n"
+        "    made.id = 'said';\n"
+        "}\n"
+        "look();\n";
+    driven *d = *state;
+    const place a = gallery_make(d->folder, "many", ""), b = gallery_make(d->folder, "more", ""),
+                folder = place_in(d->folder, "thousand"), script = place_in(d->folder, "look.js");
+    skip_without_browser();
+    for (int i = 0; i < DIFF_REPORT_PAGE_FRAMES + 7; i++) {
+        gallery_write(frame_in(a, i).path, 1, 0);
+        gallery_write(frame_in(b, i).path, 1, 7);
+    }
+    file_write_text(script.path, look);
+    write_page(a.path, b.path, folder.path, NULL, NULL);
+    char *said = browser_drive(d->folder, place_below(folder.path, "report.html").path, script.path);
+    assert_reported_value(said, "listed", "1000");
+    assert_reported_value(said, "left out",
+                          "7 more findings: this page shows the first 1,000. The pictures of all findings are files "
+                          "beside it.");
+    assert_reported_value(said, "last before", "false");
+    assert_reported_value(said, "selected", "1 selected, 1 frame");
+    assert_reported_value(said, "first after", "false");
+    assert_reported_value(said, "decoded", "3");
+    free(said);
+}
+
 /* Nobody reads so much: it is all holes. */
 static void enlarge(const char *folder)
 {
@@ -415,7 +462,7 @@ int main(void)
         cmocka_unit_test(cause_is_the_headline_of_the_picture),
         cmocka_unit_test(frames_show_the_pictures_that_exist),
         cmocka_unit_test(keys_step_from_difference_to_difference),
-        cmocka_unit_test(page_counts_the_frames_it_leaves_out),
+        cmocka_unit_test(page_lists_the_findings),
         cmocka_unit_test(keys_choose_the_display_mode),
         cmocka_unit_test(difference_of_one_level_glows),
         cmocka_unit_test(pointer_and_keys_move_the_dividing_line),
@@ -432,6 +479,7 @@ int main(void)
         cmocka_unit_test(page_shows_flip_where_it_was_measured),
         cmocka_unit_test(file_names_are_neither_changed_nor_cut),
         cmocka_unit_test(page_of_few_differences_shows_all),
+        cmocka_unit_test(page_of_a_thousand_findings_renders_only_visible_ones),
         cmocka_unit_test(large_pictures_stay_in_files_beside_the_page),
     };
     return cmocka_run_group_tests(tests, drive_page, forget_page);

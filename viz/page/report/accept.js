@@ -29,7 +29,7 @@ class Selection {
     makeBox(finding, i)
     {
         const box = element("input", "", {type: "checkbox", "aria-label": `Accept ${titleOf(finding)}`,
-                                          title: "accept (x)"});
+                                          title: "accept (a)"});
         box.disabled = !this.isAcceptable(i);
         box.addEventListener("change", () => this.set(i, box.checked));
         return box;

@@ -21,13 +21,15 @@ class Findings {
         const lines = text.trim().split("\n").map(line => JSON.parse(line));
         this.whole = lines[0];
         this.frames = lines.slice(1);
-        this.pictures = document.getElementById("pictures").content;
+        this.pictures = new Map();
+        for (const image of document.getElementById("pictures").content.querySelectorAll("img"))
+            this.pictures.set(`${image.dataset.frame} ${image.dataset.picture}`, image);
     }
 
     /* The data URL of a picture of a frame, or null if the page does not hold the picture. */
     picture(frame, which)
     {
-        return this.pictures.querySelector(`[data-frame="${frame}"][data-picture="${which}"]`)?.src ?? null;
+        return this.pictures.get(`${frame} ${which}`)?.src ?? null;
     }
 
     indexOf(name)

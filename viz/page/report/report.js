@@ -16,7 +16,7 @@ const MODES = [
     ["flip", "f", "FLIP", "how visible the differences are, from black to pale yellow"],
     ["side", "t", "side by side", "expected, actual and difference"],
     ["expected", "e", "expected", "only the reference"],
-    ["actual", "a", "actual", "only the frame"],
+    ["actual", "c", "actual", "only the compared frame"],
 ];
 
 const byId = id => document.getElementById(id);
@@ -35,6 +35,7 @@ class Report {
     {
         this.findings = findings;
         this.last = findings.frames.length - 1;
+        this.hasFlip = findings.frames.some(finding => finding.files.flip);
         this.frame = -1;
         this.stage = new Stage(byId("stage"));
         this.stage.onchange = () => this.showStage();
@@ -70,11 +71,10 @@ class Report {
     show()
     {
         const finding = this.findings.frames[this.frame];
-        for (const entry of byId("list").children)
-            entry.lastChild.removeAttribute("aria-current");
-        const entry = byId("list").children[this.frame].lastChild;
-        entry.setAttribute("aria-current", "true");
-        entry.scrollIntoView({block: "nearest", inline: "nearest"});
+        this.entry?.removeAttribute("aria-current");
+        this.entry = byId("list").children[this.frame].lastChild;
+        this.entry.setAttribute("aria-current", "true");
+        this.entry.scrollIntoView({block: "nearest", inline: "nearest"});
         byId("place").textContent = `${this.frame + 1} of ${this.last + 1}`;
         document.querySelector('[data-key="p"]').disabled = this.frame === 0;
         document.querySelector('[data-key="n"]').disabled = this.frame === this.last;
@@ -160,7 +160,7 @@ class Report {
             const mode = button.dataset.mode;
             button.setAttribute("aria-pressed", mode === seen);
             button.disabled = !this.stage.can(mode);
-            button.hidden = mode === "flip" && !this.findings.frames.some(finding => finding.files.flip);
+            button.hidden = mode === "flip" && !this.hasFlip;
         }
         for (const button of byId("zooms").querySelectorAll("button"))
             button.disabled = !seen || (button.dataset.key === "z" && !this.stage.place);
@@ -194,8 +194,8 @@ class Report {
 /* The keys of the page. Each row has the key's names in KeyboardEvent, its name in the help, its help text, and its
  * action. */
 const KEYS = [
-    [["n", "ArrowRight", "ArrowDown"], "n →", "next difference", report => report.step(1)],
-    [["p", "ArrowLeft", "ArrowUp"], "p ←", "previous difference", report => report.step(-1)],
+    [["j", "n", "ArrowRight", "ArrowDown"], "j n →", "next difference", report => report.step(1)],
+    [["k", "p", "ArrowLeft", "ArrowUp"], "k p ←", "previous difference", report => report.step(-1)],
     [["Home"], "Home", "first difference", report => report.step(-Infinity)],
     [["End"], "End", "last difference", report => report.step(Infinity)],
     ...MODES.map(([mode, key, name, words]) => [[key], key, `${name}: ${words}`, report => report.look(mode)]),
@@ -207,7 +207,7 @@ const KEYS = [
     [["+", "="], "+", "zoom in", report => report.stage.seen && report.stage.zoomBy(ZOOM_STEP)],
     [["-"], "-", "zoom out", report => report.stage.seen && report.stage.zoomBy(1 / ZOOM_STEP)],
     [["0"], "0", "the whole picture", report => report.stage.seen && report.stage.zoomTo(0)],
-    [["x"], "x", "select or deselect the frame for acceptance", report => report.selection.toggle(report.frame)],
+    [["a", "x"], "a x", "select or deselect the finding for acceptance", report => report.selection.toggle(report.frame)],
     [["m"], "m", "show or hide the marks of the worst pixel and of all differences",
      report => report.stage.toggleMarks()],
     [["?"], "?", "show these keys", () => byId("help").showModal()],
@@ -287,7 +287,7 @@ function fillList(findings, boxes, goTo)
     const {left_out: leftOut} = findings.whole, kept = findings.frames.length;
     byId("left-out").hidden = leftOut === 0;
     byId("left-out").textContent = `${grouped(leftOut)} more ${leftOut === 1 ? "finding" : "findings"}: ` +
-        `this page shows the first ${kept}. The pictures of all findings are files beside it.`;
+        `this page shows the first ${grouped(kept)}. The pictures of all findings are files beside it.`;
 }
 
 function fillControls(look)
