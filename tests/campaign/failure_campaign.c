@@ -70,7 +70,7 @@ static const char PREPARE[] =
     "cp -r nodes changed && cp nodes/frame_000000.png changed/frame_000002.png && "
     "sed -i '2s/\"points\": *[0-9]*/\"points\":7/' changed/ticks.jsonl && rm changed/frame_000000.png && "
     "mkdir frames frames_other && cp film/*.png frames && cp other/*.png frames_other && "
-    "printf 'frame_000001.png\\n' >list && "
+    "printf 'frame_000001.png\\n' >list && printf 'a\\n' >all && "
     "printf '{\"octreel\": \"session\", \"version\": 2, \"ticks\": 3, \"points\": [%s[0, 0, 0]], "
     "\"queries\": [%s{\"radius\": 9, \"at\": [0, 0, 0]}]}\\n' "
     "\"$(printf '[%d, 0, 0, 9007199254740%d], ' $(seq 100 899))\" "
@@ -128,6 +128,7 @@ static const struct {
     {"help", "help session"},
     {"manual", "help --man record"},
     {"diff-flip", "diff film other --flip 0.001 --ignore 0,0,9,9 -o evidence"},
+    {"accept-interactive", "accept film.baseline other --interactive --reason why --date 2026-11-23 <all"},
 };
 
 enum { COMMANDS = sizeof commands / sizeof commands[0] };

@@ -2,6 +2,7 @@
 /* cmd_accept.c - octreel accept: makes new frames the reference. */
 #include "command.h"
 #include "accept.h"
+#include "choose.h"
 #include "outputs.h"
 #include "rule.h"
 
@@ -11,7 +12,7 @@
 
 typedef struct arguments {
     const char *from, *date, *reason, *store;
-    bool variant, flat, json, force;
+    bool variant, flat, json, force, interactive;
 } arguments;
 
 static bool read_date(const command_option *option, const char *text, void *into)
@@ -32,6 +33,11 @@ static const command_option options[] = {
      "accept only the frames that FILE lists, one name on each line; - is standard input. The page of octreel diff -o "
      "saves the findings that you tick as such a list, accept.txt",
      .read = read_name, OPTION_VALUE(arguments, from)},
+    {"interactive", NULL,
+     "ask about one finding after the other: print its sentence and the paths of its pictures, and read y (accept), n "
+     "(skip), a (accept all that follow) or q (quit) from standard input. The end of the input is q. The accepted "
+     "frames are written together at the end",
+     .read = read_flag, OPTION_VALUE(arguments, interactive)},
     FLAT_OPTION(arguments, flat),
     {"store", "DIR",
      "also save the pictures in DIR, each named by the digest of its pixels. octreel diff --store DIR then shows the "
@@ -57,12 +63,15 @@ static int accept_given_frames(const arguments *a, char **paths, int count)
     char today[11] = "";
     octreel_error error;
     frame_list names = {0};
+    choosing person = {stdin, stdout};
     if (a->reason && !a->date && !rule_today(today, &error))
         return print_error("%s", error.text);
     const accept_options all = {.reference = paths[0],
                                 .frames = paths[1],
                                 .flat = a->flat,
                                 .names = &names,
+                                .choose = a->interactive ? choose_findings : NULL,
+                                .choose_context = &person,
                                 .note = {a->date ? a->date : today, a->reason},
                                 .store = a->store,
                                 .variant = a->variant,
@@ -77,6 +86,17 @@ static int accept_given_frames(const arguments *a, char **paths, int count)
 
 #define SIDE (FILE_KIND(PNG) | FILE_KIND(FOLDER) | FILE_KIND(RECORDING))
 
+/* Checks that no argument makes the questions of --interactive impossible or useless. */
+static bool check_interactive(const arguments *a, char **paths, int count)
+{
+    if (a->from || count > 2)
+        return print_refusal("--interactive asks about every finding: give it neither --from nor names of frames");
+    if (a->json)
+        return print_refusal("--interactive prints its questions where --json prints: leave out one of them");
+    return (!file_is_standard_stream(paths[0]) && !file_is_standard_stream(paths[1])) ||
+           print_refusal("--interactive reads the answers from standard input: name a file in place of \"-\"");
+}
+
 static int run(int argc, char **argv)
 {
     arguments a = {0};
@@ -89,6 +109,8 @@ static int run(int argc, char **argv)
         return print_error("--date needs --reason TEXT");
     if (a.from && file_is_standard_stream(a.from) && file_is_standard_stream(argv[optind + 1]))
         return print_error("\"-\" is given twice, but standard input can be read only once");
+    if (a.interactive && !check_interactive(&a, argv + optind, argc - optind))
+        return EXIT_TROUBLE;
     if (!check_outputs(&(output_file){"--store", NULL, a.store}, 1, NULL, 0, false, a.force))
         return EXIT_TROUBLE;
     return accept_given_frames(&a, argv + optind, argc - optind);
@@ -117,6 +139,8 @@ const command command_accept = {
         "octreel accept golden frames\n"
         "# accept two frames\n"
         "octreel accept golden frames frame_000041.png frame_000042.png\n"
+        "# ask about each finding\n"
+        "octreel accept golden frames --interactive\n"
         "# create or update a baseline, and save the pictures outside of git\n"
         "octreel accept baseline.txt frames --reason \"the letters are larger\" --store pictures\n"
         "# accept the findings that you ticked in the page, and keep the old digests\n"

@@ -94,7 +94,7 @@ static bool is_name_listed(const accept_options *options, const char *name)
     for (size_t i = 0; i < options->names->count; i++)
         if (strcmp(options->names->frames[i].name, name) == 0)
             return true;
-    return options->names->count == 0;
+    return options->names->count == 0 && !options->choose;
 }
 
 /* Frames in different folders may have the same file name. Return the name of the first frame, in any folder, that
@@ -199,13 +199,17 @@ static bool check_some_references_stay(const accepting *a, octreel_error *error)
 
 static bool compare_sides(accepting *a, octreel_error *error)
 {
+    const accept_options *o = a->options;
     diff_options exact = diff_options_default();
     if (a->reference.kind == DIFF_BASELINE)
         exact.background = a->reference.background;
     else
         a->reference.background = exact.background;
-    return diff_run(&a->reference, &a->frames, &exact, &a->result, error) && check_listed_names(a, error) &&
-           decide_actions(a, error) && check_some_references_stay(a, error);
+    if (o->choose && !a->is_new)
+        exact.store = o->store; /* its pictures are shown */
+    return diff_run(&a->reference, &a->frames, &exact, &a->result, error) &&
+           (!o->choose || o->choose(o->choose_context, &a->reference, &a->frames, &a->result, o->names, error)) &&
+           check_listed_names(a, error) && decide_actions(a, error) && check_some_references_stay(a, error);
 }
 
 /* ---- Reporting ----------------------------------------------------------------------------------------------- */
@@ -275,13 +279,20 @@ static void write_changes_json(const accepting *a)
     json_write_end_line(w);
 }
 
+static bool replace_references(accepting *a, octreel_error *error)
+{
+    if (a->options->choose && a->options->names->count == 0)
+        return true; /* for the functions below, an empty list means all frames */
+    return (a->reference.kind == DIFF_BASELINE ? accept_digests : accept_pictures)(a, error);
+}
+
 bool accept_frames(const accept_options *options, FILE *out, octreel_error *error)
 {
     accepting a = {.options = options, .out = out};
     const int lock = file_lock_parent_folder(options->reference);
     const bool ok = open_sides(&a, error) && check_options(&a, error) && accept_check_whole(&a.frames, error) &&
                     (a.is_new || accept_check_ended(&a.reference, error)) && compare_sides(&a, error) &&
-                    (a.reference.kind == DIFF_BASELINE ? accept_digests : accept_pictures)(&a, error);
+                    replace_references(&a, error);
     if (ok && out)
         (options->json ? write_changes_json : print_changes)(&a);
     free(a.actions);

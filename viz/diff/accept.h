@@ -4,9 +4,15 @@
 #define DIFF_ACCEPT_H
 
 #include "baseline.h"
+#include "diff.h"
 #include "frame_list.h"
 
 #include <stdio.h>
+
+/* A callback that chooses the frames to accept, after the comparison: it appends their names to `chosen`. It returns
+ * false with an error if nothing is to be accepted because of a failure. */
+typedef bool accept_chooser(void *context, diff_side *reference, const diff_side *frames, diff_result *result,
+                            frame_list *chosen, octreel_error *error);
 
 typedef struct accept_options {
     const char *reference; /* the reference: a PNG, a folder, a recording or a baseline; created if it does not exist */
@@ -14,7 +20,11 @@ typedef struct accept_options {
     bool flat;             /* true: the subfolders of a folder are not searched for frames */
     /* The names of the frames to accept. If the list is empty, all frames are accepted, and each reference without a
      * new frame is removed. */
-    const frame_list *names;
+    frame_list *names;
+    /* The callback that fills the list; null: the list is complete. If the callback leaves it empty, nothing is
+     * accepted. The names that it appends are valid until accept_frames() returns. */
+    accept_chooser *choose;
+    void *choose_context;
 
     /* The members `note`, `store` and `variant` are used only for baselines. If a reason is given, a reference that
      * does not exist becomes a baseline. */

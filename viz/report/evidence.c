@@ -304,6 +304,13 @@ static bool draw_picture(canvas *c, picture_writer *write, const char *folder, c
     return ok;
 }
 
+static void release_pictures(canvas *c)
+{
+    image_release(&c->images[0]);
+    image_release(&c->images[1]);
+    pair_tolerance_release(&c->tolerance);
+}
+
 static bool draw_differences(const diff_pair *pair, const diff_options *options, const char *folder, unsigned *written,
                              octreel_error *error)
 {
@@ -312,9 +319,21 @@ static bool draw_differences(const diff_pair *pair, const diff_options *options,
               draw_picture(&c, write_difference, folder, pair, EVIDENCE_DIFFERENCE, written, error);
     if (ok && pair->difference.has_flip)
         ok = draw_picture(&c, write_flip, folder, pair, EVIDENCE_FLIP, written, error);
-    image_release(&c.images[0]);
-    image_release(&c.images[1]);
-    pair_tolerance_release(&c.tolerance);
+    release_pictures(&c);
+    return ok;
+}
+
+bool evidence_has_difference(const diff_pair *pair)
+{
+    return (pair->finding == FOUND_PIXELS || pair->finding == FOUND_SIZE) && pair->a->path && pair->b->path;
+}
+
+bool evidence_write_difference(const diff_pair *pair, const diff_options *options, const char *path,
+                               octreel_error *error)
+{
+    canvas c = {0};
+    const bool ok = read_pictures(&c, pair, options, error) && write_difference(&c, path, error);
+    release_pictures(&c);
     return ok;
 }
 
@@ -325,8 +344,7 @@ bool evidence_write_pair(const diff_pair *pair, const diff_options *options, con
     if (!copy_frame(pair->a, pair, EVIDENCE_EXPECTED, folder, written, error) ||
         !copy_frame(pair->b, pair, EVIDENCE_ACTUAL, folder, written, error))
         return false;
-    const bool both = (pair->finding == FOUND_PIXELS || pair->finding == FOUND_SIZE) && pair->a->path && pair->b->path;
-    return !both || draw_differences(pair, options, folder, written, error);
+    return !evidence_has_difference(pair) || draw_differences(pair, options, folder, written, error);
 }
 
 /* ---- All pairs ----------------------------------------------------------------------------------------------- */

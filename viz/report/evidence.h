@@ -39,6 +39,13 @@ bool evidence_is_file_name(const char *name);
 bool evidence_write_pair(const diff_pair *pair, const diff_options *options, const char *folder, unsigned *written,
                          octreel_error *error);
 
+/* Return whether a difference can be drawn: both pictures of the pair exist, and they differ. */
+bool evidence_has_difference(const diff_pair *pair);
+
+/* Draw the difference of a pair into a PNG file. */
+bool evidence_write_difference(const diff_pair *pair, const diff_options *options, const char *path,
+                               octreel_error *error);
+
 typedef struct evidence {
     const char *folder; /* not owned */
     unsigned *pictures; /* for each pair, the bits (1 << evidence_picture) of the pictures that were written; owned */

@@ -12,8 +12,7 @@ static void print_line(FILE *out, const char *beginning, const char *text)
     fputc('\n', out);
 }
 
-/* Print a group: its first frame, the cause, and the names of the other frames. */
-static void print_group(FILE *out, const frame_group *group)
+void diff_report_print_group(FILE *out, const frame_group *group)
 {
     fprintf(out, "  %s\n", group->line);
     if (group->cause)
@@ -26,7 +25,7 @@ static void print_group(FILE *out, const frame_group *group)
 static void print_groups(FILE *out, const diff_report *report)
 {
     for (size_t i = 0; i < report->groups->count && i < report->lines; i++)
-        print_group(out, &report->groups->groups[i]);
+        diff_report_print_group(out, &report->groups->groups[i]);
     print_remaining_count(out, report->groups->count, report->lines, "--causes all lists all, and so does --json");
 }
 

@@ -23,6 +23,9 @@ typedef struct diff_report {
  * group has a line for its first frame, a line for its cause and a line for its other frames. */
 void diff_report_text(FILE *out, const diff_report *report);
 
+/* Print the lines of one group: its first frame, the cause, and the names of the other frames. */
+void diff_report_print_group(FILE *out, const frame_group *group);
+
 /* Write the report as one JSON object on one line. The object holds all differing frames and their groups;
  * diff.schema.json describes it. */
 #define DIFF_REPORT_JSON_VERSION 1

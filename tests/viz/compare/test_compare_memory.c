@@ -31,7 +31,7 @@ static void make_pictures(const temp_folder *folder, pictures *p)
         image_release(&rgb);
     }
     octreel_error error;
-    const frame_list all = {NULL, 0, 0, NULL};
+    frame_list all = {NULL, 0, 0, NULL};
     p->baseline = place_in(folder, "baseline.txt");
     p->store = place_in(folder, "store");
     assert_true(accept_frames(&(accept_options){.reference = p->baseline.path,

@@ -166,7 +166,7 @@ static void minus_is_a_file_name(void **state)
 /* Accept the picture of a file into a baseline, beside the digests that were accepted before. */
 static void accept_into(const char *baseline, const char *frames)
 {
-    const frame_list all = {NULL, 0, 0, NULL};
+    frame_list all = {NULL, 0, 0, NULL};
     octreel_error error = {""};
     const accept_options options = {.reference = baseline,
                                     .frames = frames,
