@@ -145,6 +145,8 @@ const command command_accept = {
         "octreel accept baseline.txt frames --reason \"the letters are larger\" --store pictures\n"
         "# accept the findings that you ticked in the page, and keep the old digests\n"
         "octreel accept baseline.txt frames --from accept.txt --variant --reason \"Mesa 26 rounds otherwise\"\n",
+    .files =
+        "  BASELINE.history  the digests that acceptances replaced, by which octreel diff recognizes flaky frames\n",
     .environment = "  CI  if set, nothing is accepted\n"
                    "  SOURCE_DATE_EPOCH  the default of --date, in seconds since 1970-01-01\n",
     .min_arguments = 2,

@@ -5,6 +5,7 @@
 #include "contact_sheet.h"
 #include "explain.h"
 #include "hint.h"
+#include "history.h"
 #include "ignored_layers.h"
 #include "outputs.h"
 #include "picture_store.h"
@@ -256,6 +257,7 @@ static int compare_sides(const arguments *a, const char *paths[2])
     bool ok = open_sides(a, paths, sides, &error) && check_before_writing(a, sides, &error) &&
               diff_run(&sides[0], &sides[1], &a->options, &result, &error);
     ok = ok && picture_store_fetch(&sides[0], &sides[1], &result, &error) &&
+         history_find_flaky(&sides[0], &result, &error) &&
          explain(&sides[0], &sides[1], &result, a->causes, &why, &error) &&
          frame_groups_make(&groups, &result, &why, a->each, &error);
     diff_report all = {

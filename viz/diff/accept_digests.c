@@ -2,6 +2,7 @@
 /* accept_digests.c - accepts frames into a baseline: writes their digests and, with --store, stores their pictures. */
 #include "accepting.h"
 #include "file.h"
+#include "history.h"
 #include "picture_store.h"
 
 #include <stdlib.h>
@@ -41,6 +42,20 @@ static bool write_baseline_file(const diff_side *now, octreel_error *error)
     return baseline_write(file.stream, now, error) ? file_writer_close(&file, error) : file_writer_discard(&file);
 }
 
+/* Move the digests that are not accepted any more to the history. */
+static bool update_history(const accepting *a, const diff_side *now, octreel_error *error)
+{
+    history h;
+    bool ok = history_read(&h, now->path, error);
+    const size_t before = h.count;
+    for (size_t i = 0; ok && i < a->result.count; i++)
+        if (a->actions[i] == CHANGED && a->result.pairs[i].a)
+            ok = history_add_frame(&h, now, a->result.pairs[i].a, error);
+    ok = ok && (h.count == before || history_write(&h, now, error));
+    history_release(&h);
+    return ok;
+}
+
 bool accept_digests(accepting *a, octreel_error *error)
 {
     diff_side now = a->reference;
@@ -58,7 +73,7 @@ bool accept_digests(accepting *a, octreel_error *error)
         else if (a->actions[i] == KEPT && pair->a)
             ok = baseline_add_frame(&now, pair->a->name, pair->a->variants, pair->a->variant_count, error);
     }
-    ok = ok && write_baseline_file(&now, error);
+    ok = ok && update_history(a, &now, error) && write_baseline_file(&now, error);
     diff_side_release(&now);
     return ok;
 }

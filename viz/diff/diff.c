@@ -30,6 +30,7 @@ void diff_release(diff_result *result)
     for (size_t i = 0; i < result->count; i++) {
         mask_release(&result->pairs[i].mask);
         free(result->pairs[i].trouble);
+        free(result->pairs[i].flaky);
         free(result->pairs[i].no_picture);
     }
     free(result->pairs);

@@ -76,6 +76,8 @@ typedef struct diff_pair {
     const baseline_rule *rule;   /* in a comparison with a baseline, the rule for the frame; null: none */
     rule_effect effect;
     char *trouble; /* the error, if a frame could not be read; else null; owned */
+    /* the sentence that the digest of the frame was accepted earlier, by history.h; else null; owned */
+    char *flaky;
     /* why the store has no picture of the reference, so that the tolerance cannot be applied; else null; owned */
     char *no_picture;
     /* true: the system lacked memory or file handles, so the frame itself may be readable */

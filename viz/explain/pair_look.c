@@ -205,6 +205,9 @@ static void print_cause(FILE *out, const explanation *e, const diff_pair *pair, 
     const bool prints_tick = e->recordings && both && !drawn &&
                              (!faulty || (can_show_right_picture(l) && has_visible_difference(e, details, tick)));
     const bool prints_missing = e->recordings && !both;
+    if (pair->flaky)
+        fputs(pair->flaky, out);
+    fputs(pair->flaky && faulty ? "; " : "", out);
     print_faults(out, pair, l);
     fputs(faulty && (prints_tick || prints_missing) ? "; " : "", out);
     if (drawn)
@@ -264,6 +267,8 @@ static bool print_key(FILE *out, const explanation *e, const diff_pair *pair, co
     if (pair->finding == FOUND_SIZE)
         fprintf(out, "%dx%d %dx%d, ", pair->about[0].width, pair->about[0].height, pair->about[1].width,
                 pair->about[1].height);
+    if (pair->flaky)
+        fprintf(out, "%s, ", pair->flaky);
     if (has_frame_fault(l))
         fprintf(out, "faults %d %d, ", (int)l->faults[0], (int)l->faults[1]);
     if (is_only_rendering_different(e, l))
@@ -277,7 +282,7 @@ static bool print_key(FILE *out, const explanation *e, const diff_pair *pair, co
     else if (pair->finding == FOUND_PIXELS || pair->finding == FOUND_WITHIN)
         print_tally_key(out, pair);
     else
-        return pair->finding == FOUND_SIZE;
+        return pair->finding == FOUND_SIZE || pair->flaky;
     return true;
 }
 

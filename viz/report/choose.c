@@ -4,6 +4,7 @@
  * questions. */
 #include "choose.h"
 #include "file.h"
+#include "history.h"
 #include "picture_store.h"
 #include "report.h"
 #include "text.h"
@@ -154,7 +155,8 @@ bool choose_findings(void *context, diff_side *reference, const diff_side *frame
     if (result->by_ticks)
         return error_set(error, "%s: --interactive asks about frames, and this recording has none", frames->path);
     picture_store_fetch(reference, result);
-    bool ok = explain(reference, frames, result, DIFF_REPORT_PAGE_CAUSES, &why, error) &&
+    bool ok = history_find_flaky(reference, result, error) &&
+              explain(reference, frames, result, DIFF_REPORT_PAGE_CAUSES, &why, error) &&
               frame_groups_make(&groups, result, &why, false, error);
     make_folder(&q);
     ok = ok && ask_about_all(&q, error);

@@ -149,6 +149,8 @@ void diff_json_finding(json_writer *w, const diff_report *report, size_t i)
         json_write_text_member(w, "reference_digest", digest_print(pair->about[0].pixels, digest));
         json_write_text_member(w, "frame_digest", digest_print(pair->about[1].pixels, digest));
     }
+    if (pair->flaky)
+        json_write_text_member(w, "flaky", pair->flaky);
     if (pair->trouble)
         json_write_text_member(w, "trouble", pair->trouble);
     if (pair->no_picture)
