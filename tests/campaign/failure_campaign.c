@@ -129,6 +129,7 @@ static const struct {
     {"manual", "help --man record"},
     {"diff-flip", "diff film other --flip 0.001 --ignore 0,0,9,9 -o evidence"},
     {"accept-interactive", "accept film.baseline other --interactive --reason why --date 2026-11-23 <all"},
+    {"diff-comment", "diff film other -o evidence --comment comment"},
 };
 
 enum { COMMANDS = sizeof commands / sizeof commands[0] };

@@ -17,8 +17,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The outputs of the command. PAGE is report.html in the folder of --output. */
-enum { PAGE, JUNIT, MARKDOWN, OUTPUTS };
+/* The outputs of the command. PAGE is report.html in the folder of --output, COMMENT comment.md in that of --comment.
+ */
+enum { PAGE, JUNIT, MARKDOWN, COMMENT, OUTPUTS };
 
 typedef struct arguments {
     diff_options options;
@@ -149,6 +150,11 @@ static const command_option options[] = {
      "write a summary for the page of a CI job: the verdict and a table of differences. FILE may be -, standard "
      "output. Only one of --markdown, --junit and --json may write to standard output",
      .read = read_file, OPTION_VALUE(arguments, outputs[MARKDOWN].path)},
+    {"comment", "DIR",
+     "write a comment for a pull request into the new or empty folder DIR: comment.md has the sentence, the pictures "
+     "and "
+     "the line of octreel accept for the first 10 findings. Its pictures are beside it. Needs --output",
+     .read = read_folder, OPTION_VALUE(arguments, outputs[COMMENT].folder)},
     {"annotate", NULL,
      "print GitHub annotations, which show differences beside a pull request, to standard error (default when the "
      "environment variable GITHUB_ACTIONS is set)",
@@ -212,6 +218,8 @@ static int write_reports(const arguments *a, diff_report *all)
     }
     ok = ok && write_report(a->outputs[JUNIT].path, diff_report_junit, all, &error) &&
          write_report(a->outputs[MARKDOWN].path, diff_report_markdown, all, &error);
+    if (ok && a->outputs[COMMENT].folder)
+        ok = diff_report_comment(all, a->outputs[COMMENT].folder, &error);
     if (ok)
         print_report(a, all);
     if (ok && a->annotate)
@@ -228,12 +236,19 @@ static bool check_resolution(const image_tolerance *tolerance)
            print_refusal("--pixels-per-degree has no effect without --flip: add --flip X");
 }
 
+static bool check_comment(const arguments *a)
+{
+    return !a->outputs[COMMENT].folder || a->outputs[PAGE].folder ||
+           print_refusal("--comment shows pictures of the evidence: add --output DIR");
+}
+
 /* Checks everything that can be checked before the folder of evidence is changed. */
 static bool check_before_writing(const arguments *a, const diff_side sides[2], octreel_error *error)
 {
     const char *folder = a->outputs[PAGE].folder;
     return diff_check(&sides[0], &sides[1], &a->options, error) &&
-           (!folder || evidence_prepare(folder, &sides[0], &sides[1], error));
+           (!folder || evidence_prepare(folder, &sides[0], &sides[1], error)) &&
+           (!a->outputs[COMMENT].folder || diff_comment_prepare(a->outputs[COMMENT].folder, error));
 }
 
 static bool open_sides(const arguments *a, const char *paths[2], diff_side sides[2], octreel_error *error)
@@ -275,9 +290,10 @@ static int compare_sides(const arguments *a, const char *paths[2])
 
 static int run(int argc, char **argv)
 {
-    arguments a = {.options = diff_options_default(),
-                   .outputs = {{.option = "-o"}, {.option = "--junit"}, {.option = "--markdown"}},
-                   .causes = EXPLAIN_DEFAULT};
+    arguments a = {
+        .options = diff_options_default(),
+        .outputs = {{.option = "-o"}, {.option = "--junit"}, {.option = "--markdown"}, {.option = "--comment"}},
+        .causes = EXPLAIN_DEFAULT};
     a.options.mask = ignore_layers;
     int status = command_read_arguments(&command_diff, &a, argc, argv);
     a.annotate = a.annotate || getenv("GITHUB_ACTIONS");
@@ -290,7 +306,7 @@ static int run(int argc, char **argv)
     if (status == COMMAND_GO_ON && page->folder && !path)
         status = print_error("out of memory");
     else if (status == COMMAND_GO_ON)
-        status = check_resolution(&a.options.tolerance) &&
+        status = check_resolution(&a.options.tolerance) && check_comment(&a) &&
                          check_outputs(a.outputs, OUTPUTS, argv + optind, 2, a.json, a.force)
                      ? compare_sides(&a, (const char *[]){argv[optind], argv[optind + 1]})
                      : EXIT_TROUBLE;
@@ -337,7 +353,8 @@ const command command_diff = {
     .files = "  DIR/report.html  the page, which needs no other file\n"
              "  DIR/contact.png  small copies of the pictures of all findings\n"
              "  DIR/NAME.expected.png, DIR/NAME.actual.png, DIR/NAME.difference.png  the first frame of a finding\n"
-             "  DIR/NAME.flip.png  its FLIP map, with --flip\n",
+             "  DIR/NAME.flip.png  its FLIP map, with --flip\n"
+             "  DIR/comment.md, DIR/N.expected.png, DIR/N.actual.png, DIR/N.difference.png  with --comment DIR\n",
     .min_arguments = 2,
     .max_arguments = 2,
     .takes = "two sides, each a PNG, a folder of PNGs, a recording or a baseline",

@@ -45,6 +45,14 @@ void diff_report_github(FILE *out, const diff_report *report);
 #define DIFF_REPORT_ROWS 20
 void diff_report_markdown(FILE *out, const diff_report *report);
 
+/* Write the report as the comment of a pull request: comment.md in a folder, and beside it the pictures that it shows,
+ * copied from the evidence. For up to DIFF_COMMENT_FINDINGS groups it has the sentence, the pictures and the line of
+ * octreel accept. diff_comment_prepare() creates the folder before; it returns false with an error if the folder is not
+ * empty. */
+#define DIFF_COMMENT_FINDINGS 10
+bool diff_comment_prepare(const char *folder, octreel_error *error);
+bool diff_report_comment(const diff_report *report, const char *folder, octreel_error *error);
+
 /* Write report.html into the folder of evidence. It is a self-contained page on which a person views the differences
  * and selects frames for acceptance. The page holds the first DIFF_REPORT_PAGE_FRAMES groups, and at most
  * DIFF_REPORT_PAGE_BYTES bytes of pictures. The page states how many groups and pictures are left out. */
