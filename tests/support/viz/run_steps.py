@@ -45,8 +45,10 @@ class Runner:
         self.steps = 0
 
     def value(self, expression):
-        """A step that has not run has empty outputs."""
-        if expression not in self.values and not expression.startswith("steps."):
+        """A step that has not run has empty outputs, and an event has no members but those that a test sets."""
+        if expression == "runner.temp":
+            return os.path.join(self.folder, "temp")
+        if expression not in self.values and not expression.startswith(("steps.", "github.")):
             sys.exit(f"the expression {expression} has no value")
         return self.values.get(expression, "")
 
@@ -71,7 +73,8 @@ class Runner:
         os.makedirs(files["temp"], exist_ok=True)
         with open(files["step"], "w") as file:
             file.write(self.replace_expressions(step["run"]))
-        environment = dict(os.environ, PATH=files["bin"] + ":" + os.environ["PATH"], RUNNER_TEMP=files["temp"],
+        environment = dict(os.environ, GITHUB_SERVER_URL="https://github.test", GITHUB_REPOSITORY="o/r", GITHUB_RUN_ID="7",
+                           PATH=files["bin"] + ":" + os.environ["PATH"], RUNNER_TEMP=files["temp"],
                            GITHUB_OUTPUT=files["output"], GITHUB_STEP_SUMMARY=files["summary"],
                            GITHUB_ACTION_PATH=action_path, **self.replace_in_members(step.get("env", {})))
         done = subprocess.run(["sh", "-e", "step"], cwd=self.folder, env=environment, capture_output=True)
@@ -92,6 +95,8 @@ class Runner:
         if own:
             return self.run_action(own[1], inputs, step.get("id", ""))
         self.used.append({"uses": step["uses"], "with": inputs})
+        if step["uses"].startswith("actions/upload-artifact@"):
+            self.values[f"steps.{step.get('id', '')}.outputs.artifact-url"] = "https://github.test/artifact"
         return 0
 
     def run_steps(self, steps, action_path=""):
@@ -103,18 +108,19 @@ class Runner:
         return status
 
     def run_action(self, name, inputs, step_id):
-        """An action knows its own inputs and no other value. Its outputs are values of the step that uses it."""
+        """An action knows its own inputs and the values of the run. Its outputs are values of the step that uses it."""
         path = os.path.join(self.actions, name)
         with open(os.path.join(path, "action.yml")) as file:
             action = yaml.load(file, Loader)
         declared, outer = action.get("inputs", {}), self.values
         for unknown in inputs.keys() - declared.keys():
             sys.exit(f"the action has no input {unknown}")
-        self.values = {}
+        self.values = {name: value for name, value in outer.items() if name.startswith("github.")}
         for key, declaration in declared.items():
             if key not in inputs and declaration.get("required") == "true":
                 sys.exit(f"the action's input {key} is missing")
-            self.values["inputs." + key] = inputs.get(key, declaration.get("default", ""))
+            self.values["inputs." + key] = inputs.get(key) if key in inputs else self.replace_expressions(
+                declaration.get("default", ""))
         status = self.run_steps(action["runs"]["steps"], path)
         for key, output in action.get("outputs", {}).items():
             outer[f"steps.{step_id}.outputs.{key}"] = self.replace_expressions(output["value"])
