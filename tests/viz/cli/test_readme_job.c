@@ -242,6 +242,18 @@ static void action_does_not_execute_file_names_as_commands(void **state)
     assert_true(name == NULL || (name > off && name < strstr(j->run.out, on)));
 }
 
+/* The key of the last step that looks into the cache. */
+static char *cache_key(const job *j)
+{
+    const json_t *step = NULL;
+    for (size_t i = 0; i < json_array_size(j->run.used); i++)
+        if (strstr(json_string_value(json_object_get(json_array_get(j->run.used, i), "uses")), "actions/cache@"))
+            step = json_object_get(json_array_get(j->run.used, i), "with");
+    assert_non_null(step);
+    assert_contains(json_string_value(json_object_get(step, "path")), "/temp/octreel");
+    return strdup(json_string_value(json_object_get(step, "key")));
+}
+
 /* If octreel is not installed, the action builds it with viz/setup, which is replaced by a script here. */
 static void action_builds_octreel_if_it_is_not_installed(void **state)
 {
@@ -249,7 +261,8 @@ static void action_builds_octreel_if_it_is_not_installed(void **state)
     static const char setup[] = "#!/bin/sh\nmkdir -p \"$2/bin\" && mv octreel \"$2/bin\"\n";
     if (is_program_installed("octreel"))
         skip();
-    in_folder(j, "cp -R golden frames && mkdir -p source/.github/actions source/viz && mv bin/octreel . && "
+    in_folder(j, "cp -R golden frames && mkdir -p source/.github/actions source/viz source/lib && touch "
+                 "source/CMakeLists.txt && mv bin/octreel . && "
                  "printf '#!/bin/sh\\nshift\\nexec \"$@\"\\n' >bin/sudo && chmod +x bin/sudo");
     file_write_text(place_in(j->folder, "source/viz/setup").path, setup);
     command_result result =
@@ -262,6 +275,15 @@ static void action_builds_octreel_if_it_is_not_installed(void **state)
     j->run.actions = actions;
     assert_int_equal(run_action(j, action_inputs("golden", "frames", "why", "")), 0);
     assert_true(file_exists(place_in(j->folder, "temp/octreel/bin/octreel").path));
+    char *first = cache_key(j);
+    in_folder(j, "rm source/viz/setup && echo >source/lib/new.c"); /* nothing can be built */
+    assert_int_equal(run_action(j, action_inputs("golden", "frames", "why", "")), 0);
+    char *second = cache_key(j);
+    assert_contains(first, "octreel-");
+    assert_string_not_equal(first, second);
+    assert_string_equal(j->run.err, "");
+    free(first);
+    free(second);
 }
 
 #define JOB(test) cmocka_unit_test_setup_teardown(test, prepare_job, forget_job)
