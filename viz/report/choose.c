@@ -154,8 +154,7 @@ bool choose_findings(void *context, diff_side *reference, const diff_side *frame
     questions q = {.with = context, .result = result, .groups = &groups, .chosen = chosen};
     if (result->by_ticks)
         return error_set(error, "%s: --interactive asks about frames, and this recording has none", frames->path);
-    picture_store_fetch(reference, result);
-    bool ok = history_find_flaky(reference, result, error) &&
+    bool ok = picture_store_fetch(reference, frames, result, error) && history_find_flaky(reference, result, error) &&
               explain(reference, frames, result, DIFF_REPORT_PAGE_CAUSES, &why, error) &&
               frame_groups_make(&groups, result, &why, false, error);
     make_folder(&q);

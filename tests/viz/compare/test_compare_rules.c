@@ -19,7 +19,7 @@ typedef struct setting {
 
 static setting make_setting(void **state, const char *rules)
 {
-    const frame_list all = {NULL, 0, 0, NULL};
+    frame_list all = {NULL, 0, 0, NULL};
     octreel_error error = {""};
     setting s = {gallery_make(*state, "old", "a.png b.png"), gallery_make(*state, "new", "a.png b.png"),
                  place_in(*state, "baseline.txt"), place_in(*state, "store"), octreel_compare_def_default()};
