@@ -255,32 +255,53 @@ const layer_type layer_NEAREST = {
 /* The parts of a ray: the searched part, the part beyond the last of k hits, and a line from each hit to its point. */
 enum { RAY_SEARCHED, RAY_BEYOND, RAY_HITS };
 
-static void find_ray_position(const octree_answer *ray, double t, double position[3])
+/* The parameter of a ray may be beyond the range of doubles. So the picture measures a ray by the coordinate on the
+ * axis on which the ray is fastest: `way` is the parameter times this speed. */
+static double find_ray_speed(const octree_answer *ray)
 {
-    for (int i = 0; i < 3; i++)
-        position[i] = ray->target[i] + t * ray->direction[i];
+    return fmax(fmax(fabs(ray->direction[0]), fabs(ray->direction[1])), fabs(ray->direction[2]));
 }
 
-/* Return the parameter t at which a ray leaves the world, or at which it ends before. A ray that starts outside the
- * world and moves away from it is drawn as long as the world. */
+static void find_ray_position(const octree_answer *ray, double way, double position[3])
+{
+    const double speed = find_ray_speed(ray);
+    for (int i = 0; i < 3; i++)
+        position[i] = ray->target[i] + way * (ray->direction[i] / speed);
+}
+
+/* Return the way of a ray to a hit: to the hit point itself if the parameter is beyond the range of doubles. */
+static double find_way_to_hit(const octree_answer *ray, size_t rank)
+{
+    const octree_neighbor *hit = &ray->neighbors[rank];
+    const double speed = find_ray_speed(ray);
+    if (isfinite(hit->distance * speed))
+        return hit->distance * speed;
+    for (int i = 0; i < 3; i++)
+        if (fabs(ray->direction[i]) == speed)
+            return fabs(hit->point.position[i] - ray->target[i]);
+    return 0;
+}
+
+/* Return the way at which a ray leaves the world, or at which it ends before. A ray that starts outside the world and
+ * moves away from it is drawn as long as the world. */
 static double find_ray_end(const octree_answer *ray, const octree_box *world)
 {
-    double end = HUGE_VAL, longest = 0, fastest = 0;
+    const double speed = find_ray_speed(ray);
+    double end = HUGE_VAL, longest = 0;
     for (int i = 0; i < 3; i++) {
-        const double d = ray->direction[i], way = (d > 0 ? world->max : world->min)[i] - ray->target[i];
+        const double d = ray->direction[i] / speed, way = (d > 0 ? world->max : world->min)[i] - ray->target[i];
         end = d != 0 && way / d < end ? way / d : end;
         longest = fmax(longest, world->max[i] - world->min[i]);
-        fastest = fmax(fastest, fabs(d));
     }
-    end = end > 0 ? end : longest / fastest;
-    return ray->length > 0 && ray->length < end ? ray->length : end;
+    end = end > 0 ? end : longest;
+    return ray->length > 0 && ray->length * speed < end ? ray->length * speed : end;
 }
 
 /* Add the line of a ray: solid to the last of k hits, where the search ended, and dashed beyond. With fewer than k hits
  * the search went on to the end. */
 static void add_ray_line(scene *s, const octree_answer *ray, const octree_box *world, size_t place, view_layer layer)
 {
-    const double end = find_ray_end(ray, world), last = ray->count ? ray->neighbors[ray->count - 1].distance : 0;
+    const double end = find_ray_end(ray, world), last = ray->count ? find_way_to_hit(ray, ray->count - 1) : 0;
     const double searched = ray->count > 0 && ray->count == ray->k ? last : fmax(end, last);
     double middle[3], to[3];
     find_ray_position(ray, searched, middle);
@@ -299,7 +320,7 @@ static void add_ray(scene *s, const layer_source *in, size_t place, view_layer l
     add_ray_line(s, ray, &in->world, place, layer);
     for (size_t i = 0; i < ray->count; i++) {
         const octree_point *point = &ray->neighbors[i].point;
-        find_ray_position(ray, ray->neighbors[i].distance, at);
+        find_ray_position(ray, find_way_to_hit(ray, i), at);
         scene_add_line(s, make_part_id(place, RAY_HITS + i), at, point->position,
                        make_layer_style(layer, STROKE_SOLID, 1));
         scene_add_mark(s, point->id, at, SHAPE_DIAMOND, make_layer_style(layer, STROKE_SOLID, half));
