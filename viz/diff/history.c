@@ -123,19 +123,6 @@ bool history_read(history *h, const char *baseline, octreel_error *error)
 
 /* ---- Writing ------------------------------------------------------------------------------------------------- */
 
-static const diff_frame *find_frame(const diff_side *side, const char *name)
-{
-    size_t low = 0, high = side->count;
-    while (low < high) {
-        const size_t middle = low + (high - low) / 2;
-        const int order = strcmp(name, side->frames[middle].name);
-        if (order == 0)
-            return &side->frames[middle];
-        *(order < 0 ? &high : &low) = order < 0 ? middle : middle + 1;
-    }
-    return NULL;
-}
-
 static bool is_accepted(const diff_frame *frame, const frame_digest *digest)
 {
     for (size_t i = 0; i < frame->variant_count; i++)
@@ -153,7 +140,7 @@ static history_line line_of_variant(const diff_side *side, const diff_frame *fra
 
 bool history_add_frame(history *h, const diff_side *now, const diff_frame *before, octreel_error *error)
 {
-    const diff_frame *frame = find_frame(now, before->name);
+    const diff_frame *frame = diff_side_find_frame(now, before->name);
     bool ok = true;
     for (size_t i = 0; ok && frame && i < before->variant_count; i++) {
         const history_line line = line_of_variant(now, before, &before->variants[i]);
@@ -177,7 +164,7 @@ static void write_lines(FILE *out, const history *h, const diff_side *now)
     fputs(BEGINNING "\n", out);
     for (size_t i = 0, end; i < h->count; i = end) {
         end = end_of_frame(h, i);
-        if (!find_frame(now, h->lines[i].name))
+        if (!diff_side_find_frame(now, h->lines[i].name))
             continue;
         for (size_t at = end - i > HISTORY_DIGESTS ? end - HISTORY_DIGESTS : i; at < end; at++)
             fprintf(out, "%s %s %016" PRIx64 " %s\n", h->lines[at].date, image_digest_kind_name(h->lines[at].kind),

@@ -82,6 +82,9 @@ void diff_side_release(diff_side *side);
 /* Sort the frames by name, in byte order. */
 void diff_side_sort_frames(diff_side *side);
 
+/* Return the frame with this name, or null. The frames must be sorted. Cost: O(log frames). */
+const diff_frame *diff_side_find_frame(const diff_side *side, const char *name);
+
 /* The name of the file that marks a folder as evidence, and the beginning of the file's text. diff --output writes
  * the file. */
 #define EVIDENCE_MARKER "evidence.txt"

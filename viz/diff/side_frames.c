@@ -50,6 +50,12 @@ void diff_side_sort_frames(diff_side *side)
         qsort(side->frames, side->count, sizeof *side->frames, compare_by_name);
 }
 
+const diff_frame *diff_side_find_frame(const diff_side *side, const char *name)
+{
+    const diff_frame key = {.name = (char *)name}; /* only compared */
+    return side->count > 0 ? bsearch(&key, side->frames, side->count, sizeof key, compare_by_name) : NULL;
+}
+
 void diff_side_release(diff_side *side)
 {
     for (size_t i = 0; i < side->count; i++) {

@@ -138,25 +138,39 @@ static octree_box intersect_boxes(const octree_box *a, const octree_box *b)
     return box;
 }
 
+/* The bodies of a pair, and what their boxes have in common. */
+typedef struct overlap {
+    octree_body a, b;
+    octree_box box;
+} overlap;
+
+/* Find the overlap of a pair of the game's last tick. */
+static bool find_overlap(const octree_game *game, const octree_pair *pair, overlap *found)
+{
+    if (!octree_game_find_body(game, pair->a, &found->a) || !octree_game_find_body(game, pair->b, &found->b))
+        return false;
+    const octree_box first = box_of_body(&found->a), second = box_of_body(&found->b);
+    found->box = intersect_boxes(&first, &second);
+    return true;
+}
+
 /* The id of an overlap is the index of its pair. A pair is shown if both of its points are. */
 static void add_pairs(scene *s, const layer_source *in, view_layer layer)
 {
     const view_filter *filter = &s->view.filter;
     const size_t most = s->view.budget ? s->view.budget : SIZE_MAX;
     for (size_t i = 0; i < in->tick->pair_count && i < most; i++) {
-        octree_body a, b;
-        if (!octree_game_find_body(in->game, in->tick->pairs[i].a, &a) ||
-            !octree_game_find_body(in->game, in->tick->pairs[i].b, &b) ||
-            !is_position_shown(filter, in->tree, &in->world, a.position) ||
-            !is_position_shown(filter, in->tree, &in->world, b.position))
-            continue;
-        const octree_box first = box_of_body(&a), second = box_of_body(&b), box = intersect_boxes(&first, &second);
+        overlap o;
         double middle[3];
-        scene_box_middle(&box, middle);
-        if (camera_is_box_smaller_than(&s->camera, &box, SMALLEST))
+        if (!find_overlap(in->game, &in->tick->pairs[i], &o) ||
+            !is_position_shown(filter, in->tree, &in->world, o.a.position) ||
+            !is_position_shown(filter, in->tree, &in->world, o.b.position))
+            continue;
+        scene_box_middle(&o.box, middle);
+        if (camera_is_box_smaller_than(&s->camera, &o.box, SMALLEST))
             scene_add_mark(s, i, middle, SHAPE_CROSS, make_layer_style(layer, STROKE_SOLID, 6));
         else
-            scene_add_outline(s, i, &box, make_layer_style(layer, STROKE_SOLID, 3));
+            scene_add_outline(s, i, &o.box, make_layer_style(layer, STROKE_SOLID, 3));
     }
 }
 
@@ -169,12 +183,11 @@ static void add_pair_legend(legend *l, const layer_source *in)
 static void describe_pair(description *d, const described_element *element)
 {
     const octree_pair *pair = &d->tick->pairs[element->id];
-    octree_body a, b;
-    if (!octree_game_find_body(d->game, pair->a, &a) || !octree_game_find_body(d->game, pair->b, &b))
+    overlap o;
+    if (!find_overlap(d->game, pair, &o))
         return;
     append_text(d, "the overlap of body %" PRIu64 " and body %" PRIu64, pair->a, pair->b);
-    const octree_box first = box_of_body(&a), second = box_of_body(&b), box = intersect_boxes(&first, &second);
-    append_box(d, ", box ", &box);
+    append_box(d, ", box ", &o.box);
 }
 
 const layer_type layer_PAIRS = {.applies = has_pairs,

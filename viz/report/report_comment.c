@@ -6,8 +6,7 @@
 #include "file.h"
 #include "folder.h"
 #include "hint.h"
-#include "report.h"
-#include "text.h"
+#include "markdown_text.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -30,14 +29,9 @@ bool diff_comment_prepare(const char *folder, octreel_error *error)
 
 /* ---- Texts --------------------------------------------------------------------------------------------------- */
 
-static void write_text(FILE *out, const char *text)
-{
-    write_escaped(out, text, escape_markdown_character);
-}
-
 static void write_paragraph(FILE *out, const char *text)
 {
-    write_text(out, text);
+    write_markdown_text(out, text);
     fputs("\n\n", out);
 }
 
@@ -138,13 +132,8 @@ static bool write_pictures(FILE *out, const diff_report *report, size_t pair, si
 static bool write_finding(FILE *out, const diff_report *report, const frame_group *group, size_t number,
                           const char *folder, octreel_error *error)
 {
-    fprintf(out, "#### %zu. <code>", number);
-    write_text(out, diff_pair_name(&report->result->pairs[group->first]));
-    fputs("</code>", out);
-    if (group->count > 1) {
-        fprintf(out, " and %zu more: ", group->count - 1);
-        write_text(out, group->others);
-    }
+    fprintf(out, "#### %zu. ", number);
+    write_markdown_frames(out, report, group);
     fputs("\n\n", out);
     if (group->cause)
         write_paragraph(out, group->cause);
@@ -162,12 +151,11 @@ static void write_head(FILE *out, const diff_report *report)
     write_paragraph(out, report->groups->verdict);
     if (report->why->headline)
         write_paragraph(out, report->why->headline);
-    fputs("<code>", out);
-    write_text(out, report->b->path);
-    fputs("</code> against <code>", out);
-    write_text(out, report->a->path);
-    fputs("</code>, ", out);
-    write_text(out, report->groups->tolerance);
+    write_markdown_name(out, report->b->path);
+    fputs(" against ", out);
+    write_markdown_name(out, report->a->path);
+    fputs(", ", out);
+    write_markdown_text(out, report->groups->tolerance);
     fputs(".\n\n", out);
 }
 

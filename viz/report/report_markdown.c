@@ -2,22 +2,9 @@
 /* report_markdown.c - writes a comparison as GitHub Markdown for the summary of a CI job: see report.h. */
 #include "contact_sheet.h"
 #include "diff_words.h"
-#include "text.h"
+#include "markdown_text.h"
 
 #include <inttypes.h>
-
-static void write_text(FILE *out, const char *text)
-{
-    write_escaped(out, text, escape_markdown_character);
-}
-
-/* Write a name as an HTML code element, because between Markdown's backticks no character can be escaped. */
-static void write_name(FILE *out, const char *name)
-{
-    fputs("<code>", out);
-    write_text(out, name);
-    fputs("</code>", out);
-}
 
 static bool has_causes(const explanation *why)
 {
@@ -44,21 +31,17 @@ static void write_row(FILE *out, const diff_report *report, const frame_group *g
 {
     const diff_pair *pair = &report->result->pairs[group->first];
     fputs("| ", out);
-    write_name(out, diff_pair_name(pair));
-    if (group->count > 1) {
-        fprintf(out, " and %zu more: ", group->count - 1);
-        write_text(out, group->others);
-    }
+    write_markdown_frames(out, report, group);
     fputs(" | ", out);
     if (pair->finding == FOUND_PIXELS) {
         write_pixels(out, pair);
     } else {
-        write_text(out, group->difference);
+        write_markdown_text(out, group->difference);
         fputs(" |", out);
     }
     fputs(causes ? " | " : " |", out);
     if (causes) {
-        write_text(out, group->cause ? group->cause : "");
+        write_markdown_text(out, group->cause ? group->cause : "");
         fputs(" |", out);
     }
     putc('\n', out);
@@ -84,30 +67,30 @@ void diff_report_markdown(FILE *out, const diff_report *report)
     const explanation *why = report->why;
     const bool fails = frame_groups_count_failing(report->groups, report->result) > 0;
     fputs("### octreel diff: ", out);
-    write_text(out, report->groups->verdict);
+    write_markdown_text(out, report->groups->verdict);
     fputs("\n\n", out);
     if (why->headline) {
         fputs("**", out);
-        write_text(out, why->headline);
+        write_markdown_text(out, why->headline);
         fputs("**\n\n", out);
     }
     if (why->trouble) {
         fputs("The cause could not be found: ", out);
-        write_text(out, why->trouble);
+        write_markdown_text(out, why->trouble);
         fputs("\n\n", out);
     }
-    write_name(out, report->b->path);
+    write_markdown_name(out, report->b->path);
     fputs(" against ", out);
-    write_name(out, report->a->path);
+    write_markdown_name(out, report->a->path);
     fputs(", ", out);
-    write_text(out, report->groups->tolerance);
+    write_markdown_text(out, report->groups->tolerance);
     fputs(".\n", out);
     if (fails)
         write_table(out, report);
     if (!report->evidence)
         return;
     fputs("\nEvidence: <code>", out);
-    write_text(out, report->evidence->folder);
+    write_markdown_text(out, report->evidence->folder);
     fputs(fails ? "/" EVIDENCE_PAGE "</code>, at a glance <code>" CONTACT_SHEET "</code>\n"
                 : "/" EVIDENCE_PAGE "</code>\n",
           out);

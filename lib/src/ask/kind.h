@@ -26,6 +26,13 @@ typedef struct query_run {
 /* An octree_point_visitor with a query_run as its context: append the point to the result unless the query skips it. */
 bool collect_unless_skipped(const octree_point *point, void *context);
 
+/* Returns a region that meets all bodies. */
+static inline octree_region region_of_all_space(void)
+{
+    return (octree_region){.kind = OCTREE_REGION_BOX,
+                           .box = {{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}}};
+}
+
 /* Append the bodies that match a region to the result, unless the query skips them. */
 octree_status collect_bodies_in_region(query_run *run, const octree_region *region);
 

@@ -43,12 +43,7 @@ octree_region find_region_of_knearest(const octree_answer *asked, double reach, 
 {
     octree_region region = {.kind = OCTREE_REGION_BALL, .radius = exact_add_up(reach, slack)};
     memcpy(region.center, asked->target, sizeof region.center);
-    for (int i = 0; region.radius > DBL_MAX && i < 3; i++) {
-        region.kind = OCTREE_REGION_BOX;
-        region.box.min[i] = -INFINITY;
-        region.box.max[i] = INFINITY;
-    }
-    return region;
+    return region.radius <= DBL_MAX ? region : region_of_all_space();
 }
 
 int compare_nearest_order(const octree_answer *asked, const octree_body *a, const octree_body *b)

@@ -60,6 +60,5 @@ octree_region find_region_of_ray(const octree_answer *asked, double reach, doubl
     const double thickness = exact_add_up(asked->thickness, slack);
     if (thickness <= DBL_MAX)
         return make_ray(asked, reach < DBL_MAX && longer < end ? longer : end, thickness);
-    return (octree_region){.kind = OCTREE_REGION_BOX,
-                           .box = {{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}}};
+    return region_of_all_space();
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* test_baseline.c - baselines: read in any order, written in one order, compared with pictures, and refused with the
  * number of the line that is wrong. */
-#include "baseline.h"
+#include "baseline_text.h"
 #include "fixture.h"
 #include "galleries.h"
 #include "ignored_layers.h"
@@ -9,46 +9,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define HEAD "octreel-digests 2\nbackground ffffff\n"
+#define HEAD BASELINE_HEAD
 #define FIRST "accepted 7f 2026-11-22 24x16 runs the first\n"
 #define SECOND "accepted k3 2026-11-23 24x16 runs the second, of \"Mesa\" \xc3\xa9\n"
 #define A7 "7f 0123456789abcdef a\n"
 #define AK "k3 0000000000000001 a\n"
 #define BK "k3 fedcba9876543210 b b\n"
 
-static bool parse(const char *text, diff_side *side, octreel_error *error)
-{
-    char *copy = strdup(text);
-    assert_non_null(copy);
-    *side = (diff_side){.path = "file"};
-    const bool ok = baseline_parse(side, copy, strlen(text), error);
-    free(copy);
-    return ok;
-}
-
-static diff_side assert_parsed(const char *text)
-{
-    diff_side side;
-    octreel_error error = {""};
-    if (!parse(text, &side, &error))
-        fail_msg("%s", error.text);
-    return side;
-}
-
-static char *written(const diff_side *side)
-{
-    char *text;
-    size_t size;
-    octreel_error error;
-    FILE *out = open_memstream(&text, &size);
-    assert_true(out && baseline_write(out, side, &error) && fclose(out) == 0);
-    return text;
-}
-
 static void assert_written(const char *text, const char *expected)
 {
-    diff_side side = assert_parsed(text);
-    char *again = written(&side);
+    diff_side side = assert_baseline_parsed(text);
+    char *again = write_baseline_text(&side);
     assert_string_equal(again, expected);
     free(again);
     diff_side_release(&side);
@@ -68,7 +39,7 @@ static void lines_are_read_in_any_order_and_written_in_one(void **state)
 static void frame_has_all_variants_and_is_represented_by_the_newest(void **state)
 {
     (void)state;
-    diff_side side = assert_parsed(HEAD SECOND FIRST AK A7 BK);
+    diff_side side = assert_baseline_parsed(HEAD SECOND FIRST AK A7 BK);
     assert_int_equal(side.count, 2);
     assert_string_equal(side.frames[0].name, "a.png");
     assert_string_equal(side.frames[1].name, "b b.png");
@@ -95,11 +66,11 @@ static void every_frame_name_survives_the_round_trip(void **state)
         char line[64];
         assert_true(baseline_add_acceptance(&side, &(acceptance_note){"2026-11-22", "why"}, &digest, &error));
         assert_true(baseline_add_frame(&side, names[i], &digest, 1, &error));
-        char *text = written(&side);
+        char *text = write_baseline_text(&side);
         snprintf(line, sizeof line, "\n%s 0000000000000007 %s\n", side.acceptances[0].id, lines[i]);
         assert_non_null(strstr(text, line));
-        diff_side again = assert_parsed(text);
-        char *twice = written(&again);
+        diff_side again = assert_baseline_parsed(text);
+        char *twice = write_baseline_text(&again);
         assert_string_equal(twice, text);
         if (strcmp(names[i], "p") != 0) /* one picture alone may have it, and is compared whatever its name is */
             assert_string_equal(again.frames[0].name, names[i]);
@@ -181,7 +152,7 @@ static void malformed_line_is_refused_with_its_number(void **state)
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         diff_side side;
         octreel_error error = {""};
-        if (parse(cases[i].text, &side, &error) || !strstr(error.text, cases[i].part))
+        if (parse_baseline(cases[i].text, &side, &error) || !strstr(error.text, cases[i].part))
             fail_msg("case %zu: \"%s\" does not contain \"%s\"", i, error.text, cases[i].part);
         diff_side_release(&side);
     }
@@ -286,9 +257,9 @@ static void large_baseline_takes_few_bytes(void **state)
         }
         assert_true(baseline_add_frame(&side, name, variants, 3, &error));
     }
-    char *text = written(&side);
+    char *text = write_baseline_text(&side);
     assert_true(strlen(text) < 100000);
-    diff_side again = assert_parsed(text);
+    diff_side again = assert_baseline_parsed(text);
     assert_int_equal(again.count, 1000);
     assert_int_equal(again.frames[999].variant_count, 3);
     diff_side_release(&again);
@@ -309,7 +280,7 @@ static void write_by_kinds(const char *folder, const char *path, int shift)
         assert_true(baseline_add_acceptance(&side, &(acceptance_note){"2026-11-22", "why"}, &digest, &error));
         assert_true(baseline_add_frame(&side, frames.frames[i].name, &digest, 1, &error));
     }
-    char *text = written(&side);
+    char *text = write_baseline_text(&side);
     file_write_text(path, text);
     free(text);
     diff_side_release(&side);

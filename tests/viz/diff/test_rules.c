@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* test_rules.c - rules in baselines: read, matched with frames, applied to stored pictures, refused with the number of
  * the line that is wrong. */
-#include "baseline.h"
+#include "baseline_text.h"
 #include "files.h"
 #include "fixture.h"
 #include "rule.h"
@@ -9,42 +9,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define HEAD "octreel-digests 2\nbackground ffffff\n"
+#define HEAD BASELINE_HEAD
 #define ACCEPTED "accepted 7f 2026-11-22 24x16 runs the first\n"
 #define A "7f 0123456789abcdef a\n"
-
-static bool parse(const char *text, diff_side *side, octreel_error *error)
-{
-    char *copy = strdup(text);
-    assert_non_null(copy);
-    *side = (diff_side){.path = "file"};
-    const bool ok = baseline_parse(side, copy, strlen(text), error);
-    free(copy);
-    return ok;
-}
-
-static diff_side assert_parsed(const char *text)
-{
-    diff_side side;
-    octreel_error error = {""};
-    if (!parse(text, &side, &error))
-        fail_msg("%s", error.text);
-    return side;
-}
 
 /* Write the baseline, and what the reader makes of it again: both are the expected text. */
 static void assert_written_as(const char *text, const char *expected)
 {
-    diff_side side = assert_parsed(text);
+    diff_side side = assert_baseline_parsed(text);
     for (int i = 0; i < 2; i++) {
-        char *written;
-        size_t size;
-        octreel_error error;
-        FILE *out = open_memstream(&written, &size);
-        assert_true(out && baseline_write(out, &side, &error) && fclose(out) == 0);
+        char *written = write_baseline_text(&side);
         assert_string_equal(written, expected);
         diff_side_release(&side);
-        side = assert_parsed(written);
+        side = assert_baseline_parsed(written);
         free(written);
     }
     diff_side_release(&side);
@@ -66,9 +43,9 @@ static void rule_has_what_its_line_says(void **state)
 {
     (void)state;
     diff_side side =
-        assert_parsed(HEAD "rule menu/\\*\\ 1 max-pixels=7 max-delta=.02 max-channel=3 antialias flip=0.01 "
-                           "pixels-per-degree=40 ignore=1,2,3,4 ignore=5,6,7,8 ignore-mask=a/the\\ mask.png "
-                           "ignore-layer=nodes,text date=2026-11-22 expires=2027-02-28 reason=a  b = c\n");
+        assert_baseline_parsed(HEAD "rule menu/\\*\\ 1 max-pixels=7 max-delta=.02 max-channel=3 antialias flip=0.01 "
+                                    "pixels-per-degree=40 ignore=1,2,3,4 ignore=5,6,7,8 ignore-mask=a/the\\ mask.png "
+                                    "ignore-layer=nodes,text date=2026-11-22 expires=2027-02-28 reason=a  b = c\n");
     const baseline_rule *rule = &side.rules[0];
     const image_tolerance *t = &rule->tolerance;
     assert_int_equal(side.rule_count, 1);
@@ -102,7 +79,7 @@ static void example_of_the_manual_is_valid(void **state)
         strncat(example, at + 4, length - 4);
         at += length;
     }
-    diff_side side = assert_parsed(example);
+    diff_side side = assert_baseline_parsed(example);
     assert_int_equal(side.rule_count, 5);
     assert_int_equal(side.count, 5);
     for (size_t i = 0; i < side.count; i++)
@@ -134,7 +111,7 @@ static void pattern_matches_whole_names_with_or_without_their_ending(void **stat
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         char text[200];
         snprintf(text, sizeof text, HEAD "rule %s antialias reason=x\n", cases[i].pattern);
-        diff_side side = assert_parsed(text);
+        diff_side side = assert_baseline_parsed(text);
         if ((rule_find(&side, cases[i].name) != NULL) != cases[i].matches)
             fail_msg("%s: %s", cases[i].pattern, cases[i].name);
         diff_side_release(&side);
@@ -163,7 +140,7 @@ static void most_specific_rule_counts_in_any_order_of_lines(void **state)
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         char text[400];
         snprintf(text, sizeof text, HEAD "%s", cases[i].rules);
-        diff_side side = assert_parsed(text);
+        diff_side side = assert_baseline_parsed(text);
         const baseline_rule *rule = rule_find(&side, cases[i].name);
         assert_non_null(rule);
         if (rule->line != cases[i].line)
@@ -182,7 +159,7 @@ static void hostile_pattern_is_matched_quickly(void **state)
     strcat(text, "b antialias reason=x\n");
     memset(name, 'a', sizeof name - 1);
     name[sizeof name - 1] = 0;
-    diff_side side = assert_parsed(text);
+    diff_side side = assert_baseline_parsed(text);
     assert_null(rule_find(&side, name));
     diff_side_release(&side);
 }
@@ -236,7 +213,7 @@ static void malformed_rule_is_refused_with_its_line(void **state)
         octreel_error error = {""};
         char text[400];
         snprintf(text, sizeof text, HEAD "rule %s\n" ACCEPTED A, cases[i].rule);
-        if (parse(text, &side, &error) || !strstr(error.text, cases[i].part))
+        if (parse_baseline(text, &side, &error) || !strstr(error.text, cases[i].part))
             fail_msg("case %zu: \"%s\" does not contain \"%s\"", i, error.text, cases[i].part);
         diff_side_release(&side);
     }
@@ -251,21 +228,21 @@ static void rules_are_limited(void **state)
     size_t length = (size_t)sprintf(text, HEAD);
     for (int i = 0; i < RULES_MOST; i++)
         length += (size_t)sprintf(text + length, "rule %d antialias reason=x\n", i);
-    side = assert_parsed(text);
+    side = assert_baseline_parsed(text);
     diff_side_release(&side);
     strcat(text, "rule a antialias reason=x\n");
-    assert_false(parse(text, &side, &error));
+    assert_false(parse_baseline(text, &side, &error));
     assert_contains(error.text, "file:1003: a baseline has at most 1000 rules");
     diff_side_release(&side);
     length = (size_t)sprintf(text, HEAD "rule a");
     for (int i = 0; i <= RULE_RECTANGLES_MOST; i++)
         length += (size_t)sprintf(text + length, " ignore=0,0,1,1");
     sprintf(text + length, " reason=x\n");
-    assert_false(parse(text, &side, &error));
+    assert_false(parse_baseline(text, &side, &error));
     assert_contains(error.text, "file:3: a rule has at most 64 rectangles; use ignore-mask");
     diff_side_release(&side);
     sprintf(text, HEAD "rule %0256d antialias reason=x\n", 0);
-    assert_false(parse(text, &side, &error));
+    assert_false(parse_baseline(text, &side, &error));
     assert_contains(error.text, "file:3: the pattern is longer than 255 characters");
     diff_side_release(&side);
 }
