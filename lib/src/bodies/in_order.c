@@ -12,17 +12,17 @@
 #include "shape.h"
 #include "visit.h"
 
-/* A key: the real value is within `error` of `value`. */
+/* A key: the real value is within `error` of `value`; equal to it if `error` is 0. */
 typedef struct key {
     double value, error;
 } key;
 
 typedef struct ordered_search {
     const octree_bodies *set;
-    /* Compute lower bounds of the keys of the bodies in the eight octants of a cell, and of the bodies of this level
-     * whose position is given. HUGE_VAL: no such body counts. */
+    /* Compute lower bounds of the keys of the bodies in the eight octants of a cell, and of the bodies of some points;
+     * bounds[] has room for one number more. HUGE_VAL: no such body counts. */
     void (*bound)(const struct ordered_search *s, const cell_halves *h, double bounds[8]);
-    double (*bound_at)(const struct ordered_search *s, const double position[3]);
+    void (*bound_bodies)(const struct ordered_search *s, const octree_point *points, unsigned count, double *bounds);
     /* Compute the key of a body. Returns false if the body does not count. */
     bool (*measure)(const struct ordered_search *s, const octree_body *body, key *k);
     /* Returns the sign of the key of `a` minus that of `b`, in real numbers. */
@@ -32,6 +32,7 @@ typedef struct ordered_search {
     double radius; /* HUGE_VAL: there is none, as in a cast */
     double scale;
     cast cast;
+    cast_bounds cast_bounds;
     body_call accept;
     octree_hit *hits; /* a heap; hits[0] has the greatest key. The key is octree_hit.at */
     size_t count, k;
@@ -49,25 +50,20 @@ static void bound_distances(const ordered_search *s, const cell_halves *h, doubl
     bound_squares_of_octants(s->target, s->scale, h, bounds);
 }
 
-static double bound_distance_at(const ordered_search *s, const double position[3])
+static void bound_distances_of_bodies(const ordered_search *s, const octree_point *points, unsigned count,
+                                      double *bounds)
 {
-    double gaps[3];
-    for (int i = 0; i < 3; i++)
-        gaps[i] = bound_gap(s->target[i], position[i], s->level->reach[i]) * s->scale;
-    return bound_square(gaps[0], gaps[1], gaps[2]);
+    bound_squares_of_bodies(s->target, s->scale, s->level->reach, points, count, bounds);
 }
 
 static void bound_times(const ordered_search *s, const cell_halves *h, double bounds[8])
 {
-    bound_times_of_octants(&s->cast, h, bounds);
+    bound_times_of_octants(&s->cast_bounds, h, bounds);
 }
 
-static double bound_time_at(const ordered_search *s, const double position[3])
+static void bound_times_of_points(const ordered_search *s, const octree_point *points, unsigned count, double *bounds)
 {
-    time_span span = {0, s->cast.length};
-    for (int i = 0; i < 3; i++)
-        narrow_span(&span, &s->cast, i, position[i], s->level->reach[i]);
-    return begin_of_span(&span);
+    bound_times_of_bodies(&s->cast_bounds, s->level->reach, points, count, bounds);
 }
 
 /* ---- Keys --------------------------------------------------------------------------------------------------- */
@@ -117,7 +113,7 @@ static int compare_hits(const ordered_search *s, const octree_body *a, const oct
     s->measure(s, b, &y);
     if (fabs(x.value - y.value) > x.error + y.error)
         return x.value < y.value ? -1 : 1;
-    const int order = s->compare(s, a, b);
+    const int order = x.error + y.error == 0 ? 0 : s->compare(s, a, b);
     return order ? order : octree_compare_bodies(a, b);
 }
 
@@ -195,20 +191,40 @@ static bool is_within_radius(const ordered_search *s, const octree_body *body)
     return s->radius > DBL_MAX || body_meets_ball(body, s->target, s->radius);
 }
 
+static void measure_and_offer(ordered_search *s, const octree_point *point)
+{
+    octree_body scratch;
+    key k;
+    const octree_body *body = load_body(s->set, point, &scratch);
+    if (s->measure(s, body, &k) && !(k.value - k.error > s->limit) && is_within_radius(s, body) &&
+        !is_skipped(s->meter.how, body, s->target))
+        offer_body(s, body);
+}
+
+/* Offer the bodies of at most SCAN_POINTS points. The body with the least bound comes first: its key is a limit for the
+ * others. */
+static void scan_points(ordered_search *s, const octree_point *points, unsigned count)
+{
+    double bounds[SCAN_POINTS + 1];
+    unsigned first = 0;
+    s->bound_bodies(s, points, count, bounds);
+    for (unsigned i = 1; i < count; i++)
+        first = bounds[i] < bounds[first] ? i : first;
+    if (is_too_far(s, bounds[first]))
+        return;
+    measure_and_offer(s, &points[first]);
+    for (unsigned i = 0; i < count; i++)
+        if (i != first && !is_too_far(s, bounds[i]))
+            measure_and_offer(s, &points[i]);
+}
+
 static void scan_leaf(ordered_search *s, const node *leaf)
 {
-    const octree_point *points = leaf_points(leaf);
     s->meter.count.leaves++;
     s->meter.count.points += leaf->count;
-    for (uint32_t i = 0; i < leaf->count; i++) {
-        octree_body scratch;
-        key k;
-        if (is_too_far(s, s->bound_at(s, points[i].position)))
-            continue;
-        const octree_body *body = load_body(s->set, &points[i], &scratch);
-        if (s->measure(s, body, &k) && !(k.value - k.error > s->limit) && is_within_radius(s, body) &&
-            !is_skipped(s->meter.how, body, s->target))
-            offer_body(s, body);
+    for (uint32_t start = 0; start < leaf->count; start += SCAN_POINTS) {
+        const uint32_t left = leaf->count - start;
+        scan_points(s, leaf_points(leaf) + start, left < SCAN_POINTS ? left : SCAN_POINTS);
     }
 }
 
@@ -316,7 +332,7 @@ octree_status octree_bodies_nearest(const octree_bodies *bodies, const double ta
         return status;
     ordered_search s = {.set = bodies,
                         .bound = bound_distances,
-                        .bound_at = bound_distance_at,
+                        .bound_bodies = bound_distances_of_bodies,
                         .measure = measure_distance,
                         .compare = compare_distances,
                         .finish = finish_distance,
@@ -354,7 +370,7 @@ octree_status octree_bodies_cast(const octree_bodies *bodies, const octree_regio
         return status;
     ordered_search s = {.set = bodies,
                         .bound = bound_times,
-                        .bound_at = bound_time_at,
+                        .bound_bodies = bound_times_of_points,
                         .measure = measure_time,
                         .compare = compare_first_times,
                         .finish = finish_time,
@@ -366,7 +382,9 @@ octree_status octree_bodies_cast(const octree_bodies *bodies, const octree_regio
                         .farthest = HUGE_VAL,
                         .shrink = 1,
                         .meter.how = &search};
-    s.cast = shape_make(ray).cast;
+    const shape casting = shape_make(ray);
+    s.cast = casting.cast;
+    s.cast_bounds = casting.cast_bounds;
     search_in_order(&s, count);
     return OCTREE_OK;
 }

@@ -182,7 +182,7 @@ static octant_masks relate_cast(const shape *s, const cell_halves *h, unsigned o
     double bounds[8];
     unsigned meets = 0;
     (void)contained;
-    bound_times_of_octants(&s->cast, h, bounds);
+    bound_times_of_octants(&s->cast_bounds, h, bounds);
     for (unsigned o = 0; o < 8; o++)
         meets |= mask_if(bounds[o] <= DBL_MAX, 1u << o);
     return (octant_masks){(uint8_t)(meets & octants), 0};
@@ -227,6 +227,7 @@ shape shape_make(const octree_region *region)
         s.cast = cast_make_ray(region->origin, region->direction, region->length, region->half);
     if (region->kind == OCTREE_REGION_SWEPT)
         s.cast = cast_make_sweep(region->from, region->to, region->half);
+    s.cast_bounds = make_cast_bounds(&s.cast);
     return s;
 }
 

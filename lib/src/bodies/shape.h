@@ -9,6 +9,7 @@
 typedef struct shape {
     const octree_region *region;
     cast cast; /* for RAY and SWEPT */
+    cast_bounds cast_bounds;
 } shape;
 
 /* Make the shape of a valid region, which must outlive the shape. */

@@ -132,8 +132,9 @@ body_square body_measure(const octree_body *e, const double target[3], double sc
 {
     body_square s = {0, 0};
     for (int i = 0; i < 3; i++) {
-        const double offset = fabs(target[i] - e->position[i]), gap = offset - e->half[i];
-        measure_axis(&s, gap > 0 ? gap * scale : 0, (offset + e->half[i]) * scale);
+        const double offset = fabs(target[i] - e->position[i]), gap = offset - e->half[i], size = offset + e->half[i];
+        if (!(gap < size * -0x1p-51)) /* otherwise the gap is certainly 0 */
+            measure_axis(&s, gap > 0 ? gap * scale : 0, size * scale);
     }
     return s;
 }

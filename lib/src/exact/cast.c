@@ -50,7 +50,8 @@ cast cast_make_sweep(const double from[3], const double to[3], const double half
 /* The times at which the box enters and leaves a body, on all axes that were examined so far. */
 typedef struct passage {
     double enter, leave;
-    double error; /* a bound for the errors of both */
+    double error;  /* a bound for the errors of both */
+    double latest; /* an upper bound of the times of entering */
 } passage;
 
 /* Intersect the passage with that on one more axis. Let u = 2^-53. The error of the numerators is at most 3u *
@@ -64,13 +65,14 @@ static bool narrow_passage(passage *known, double offset, double reach, double s
     known->enter = enter > known->enter ? enter : known->enter;
     known->leave = leave < known->leave ? leave : known->leave;
     known->error = error > known->error ? error : known->error;
+    known->latest = enter + error > known->latest ? enter + error : known->latest;
     return speed <= DBL_MAX && error <= DBL_MAX;
 }
 
 /* Returns 1 if the box touches the body, 0 if it does not, and -1 if doubles do not decide. */
 static int test_in_doubles(const cast *c, const octree_body *e, cast_time *first)
 {
-    passage known = {0, c->length, 0};
+    passage known = {0, c->length, 0, -HUGE_VAL};
     bool certain = true;
     for (int i = 0; i < 3; i++) {
         const double offset = e->position[i] - c->origin[i], reach = e->half[i] + c->half[i];
@@ -82,7 +84,7 @@ static int test_in_doubles(const cast *c, const octree_body *e, cast_time *first
             body_sign(c->origin[i], -e->position[i], -e->half[i], -c->half[i]) > 0)
             return 0;
     }
-    *first = (cast_time){known.enter, certain ? known.error : HUGE_VAL};
+    *first = (cast_time){known.enter, !certain ? HUGE_VAL : known.latest < 0 ? 0 : known.error};
     if (!certain)
         return -1;
     if (known.enter - known.leave > 2 * known.error)
@@ -197,7 +199,7 @@ static bool find_entry_in_doubles(const cast *c, const octree_body *e, int *axis
     for (int i = 0; i < 3; i++) {
         if (c->sign[i] == 0)
             continue;
-        passage one = {-HUGE_VAL, HUGE_VAL, 0};
+        passage one = {-HUGE_VAL, HUGE_VAL, 0, -HUGE_VAL};
         if (!narrow_passage(&one, c->sign[i] * (e->position[i] - c->origin[i]), e->half[i] + c->half[i], c->speed[i]))
             return false;
         second = one.enter > latest ? latest : one.enter > second ? one.enter : second;

@@ -21,8 +21,8 @@ typedef struct cast {
 cast cast_make_ray(const double origin[3], const double direction[3], double length, const double half[3]);
 cast cast_make_sweep(const double from[3], const double to[3], const double half[3]);
 
-/* The parameter at which a cast first touches a body, in doubles. The real parameter is at most `error` from
- * `value`. */
+/* The parameter at which a cast first touches a body, in doubles. The real parameter is at most `error` from `value`;
+ * the error is 0 if the cast certainly begins inside the body. */
 typedef struct cast_time {
     double value, error;
 } cast_time;

@@ -1,0 +1,156 @@
+/* SPDX-License-Identifier: MIT */
+/* lanes.h - arithmetic on two doubles at once, in SSE2 or in portable C with the same results. Private.
+ *
+ * Loops that compare a query with many cells or bodies are written once, in these operations. Comparisons follow SSE2:
+ * lanes_larger() and lanes_smaller() return the second operand if one of both is NaN.
+ */
+#ifndef OCTREE_LANES_H
+#define OCTREE_LANES_H
+
+#include "float_rules.h"
+
+#include <math.h>
+#include <stdbool.h>
+
+#ifdef OCTREE_SSE2
+typedef __m128d lanes;
+
+static inline lanes lanes_of(double a, double b)
+{
+    return _mm_set_pd(b, a);
+}
+
+static inline lanes lanes_add(lanes a, lanes b)
+{
+    return _mm_add_pd(a, b);
+}
+
+static inline lanes lanes_subtract(lanes a, lanes b)
+{
+    return _mm_sub_pd(a, b);
+}
+
+static inline lanes lanes_multiply(lanes a, lanes b)
+{
+    return _mm_mul_pd(a, b);
+}
+
+static inline lanes lanes_absolute(lanes a)
+{
+    return _mm_andnot_pd(_mm_set1_pd(-0.0), a);
+}
+
+static inline lanes lanes_larger(lanes a, lanes b)
+{
+    return _mm_max_pd(a, b);
+}
+
+static inline lanes lanes_smaller(lanes a, lanes b)
+{
+    return _mm_min_pd(a, b);
+}
+
+/* Returns `value` in the lanes in which a > 0, and 0 in the others. */
+static inline lanes lanes_if_positive(lanes a, double value)
+{
+    return _mm_and_pd(_mm_cmpgt_pd(a, _mm_setzero_pd()), _mm_set1_pd(value));
+}
+
+/* Returns a mask of two bits: whether a <= b. */
+static inline unsigned lanes_at_most(lanes a, lanes b)
+{
+    return (unsigned)_mm_movemask_pd(_mm_cmple_pd(a, b));
+}
+
+static inline void lanes_store(double to[2], lanes a)
+{
+    _mm_storeu_pd(to, a);
+}
+
+static inline lanes lanes_load(const double from[2])
+{
+    return _mm_loadu_pd(from);
+}
+
+/* Load three coordinates of two positions: to[axis] receives {a[axis], b[axis]}. */
+static inline void lanes_load_positions(lanes to[3], const double a[3], const double b[3])
+{
+    const lanes xy_a = _mm_loadu_pd(a), xy_b = _mm_loadu_pd(b);
+    to[0] = _mm_unpacklo_pd(xy_a, xy_b);
+    to[1] = _mm_unpackhi_pd(xy_a, xy_b);
+    to[2] = _mm_loadh_pd(_mm_load_sd(&a[2]), &b[2]);
+}
+#else
+typedef struct lanes {
+    double at[2];
+} lanes;
+
+static inline lanes lanes_of(double a, double b)
+{
+    return (lanes){{a, b}};
+}
+
+static inline lanes lanes_add(lanes a, lanes b)
+{
+    return (lanes){{a.at[0] + b.at[0], a.at[1] + b.at[1]}};
+}
+
+static inline lanes lanes_subtract(lanes a, lanes b)
+{
+    return (lanes){{a.at[0] - b.at[0], a.at[1] - b.at[1]}};
+}
+
+static inline lanes lanes_multiply(lanes a, lanes b)
+{
+    return (lanes){{a.at[0] * b.at[0], a.at[1] * b.at[1]}};
+}
+
+static inline lanes lanes_absolute(lanes a)
+{
+    return (lanes){{fabs(a.at[0]), fabs(a.at[1])}};
+}
+
+static inline lanes lanes_larger(lanes a, lanes b)
+{
+    return (lanes){{a.at[0] > b.at[0] ? a.at[0] : b.at[0], a.at[1] > b.at[1] ? a.at[1] : b.at[1]}};
+}
+
+static inline lanes lanes_smaller(lanes a, lanes b)
+{
+    return (lanes){{a.at[0] < b.at[0] ? a.at[0] : b.at[0], a.at[1] < b.at[1] ? a.at[1] : b.at[1]}};
+}
+
+static inline lanes lanes_if_positive(lanes a, double value)
+{
+    return (lanes){{a.at[0] > 0 ? value : 0, a.at[1] > 0 ? value : 0}};
+}
+
+static inline unsigned lanes_at_most(lanes a, lanes b)
+{
+    return (unsigned)(a.at[0] <= b.at[0]) | (unsigned)(a.at[1] <= b.at[1]) << 1;
+}
+
+static inline void lanes_store(double to[2], lanes a)
+{
+    to[0] = a.at[0];
+    to[1] = a.at[1];
+}
+
+static inline lanes lanes_load(const double from[2])
+{
+    return (lanes){{from[0], from[1]}};
+}
+
+static inline void lanes_load_positions(lanes to[3], const double a[3], const double b[3])
+{
+    for (int i = 0; i < 3; i++)
+        to[i] = (lanes){{a[i], b[i]}};
+}
+#endif
+
+static inline lanes lanes_all(double a)
+{
+    return lanes_of(a, a);
+}
+
+#endif
