@@ -35,15 +35,20 @@ void bound_squares_of_octants(const double target[3], double scale, const cell_h
         lanes_store(&bounds[o], bound_sums_of_squares(lanes_all(gaps[0][o >> 2]), lanes_all(gaps[1][o >> 1 & 1]), z));
 }
 
-void bound_squares_of_bodies(const double target[3], double scale, const double reach[3], const octree_point *points,
+lanes bound_squares_of_two(const double target[3], double scale, const two_bodies *two)
+{
+    lanes gaps[3];
+    for (int k = 0; k < 3; k++)
+        gaps[k] = bound_gaps(target[k], two->center[k], two->most[k], scale);
+    return bound_sums_of_squares(gaps[0], gaps[1], gaps[2]);
+}
+
+void bound_squares_of_bodies(const double target[3], double scale, const level *l, const octree_point *points,
                              unsigned count, double *bounds)
 {
     for (unsigned i = 0; i < count; i += 2) {
-        lanes gaps[3];
-        lanes_load_positions(gaps, points[i].position, points[i + 1 < count ? i + 1 : i].position);
-        for (int k = 0; k < 3; k++)
-            gaps[k] = bound_gaps(target[k], gaps[k], lanes_all(reach[k]), scale);
-        lanes_store(&bounds[i], bound_sums_of_squares(gaps[0], gaps[1], gaps[2]));
+        const two_bodies two = load_two_bodies(l, &points[i], &points[i + 1 < count ? i + 1 : i]);
+        lanes_store(&bounds[i], bound_squares_of_two(target, scale, &two));
     }
 }
 
@@ -117,15 +122,19 @@ void bound_times_of_octants(const cast_bounds *c, const cell_halves *h, double b
     }
 }
 
-void bound_times_of_bodies(const cast_bounds *c, const double reach[3], const octree_point *points, unsigned count,
+lanes bound_times_of_two(const cast_bounds *c, const two_bodies *two)
+{
+    time_spans known = {lanes_all(0), c->length};
+    for (int k = 0; k < 3; k++)
+        narrow_spans(&known, find_spans(&c->axes[k], two->center[k], two->most[k]));
+    return begin_of_spans(known);
+}
+
+void bound_times_of_bodies(const cast_bounds *c, const level *l, const octree_point *points, unsigned count,
                            double *bounds)
 {
     for (unsigned i = 0; i < count; i += 2) {
-        time_spans known = {lanes_all(0), c->length};
-        lanes center[3];
-        lanes_load_positions(center, points[i].position, points[i + 1 < count ? i + 1 : i].position);
-        for (int k = 0; k < 3; k++)
-            narrow_spans(&known, find_spans(&c->axes[k], center[k], lanes_all(reach[k])));
-        lanes_store(&bounds[i], begin_of_spans(known));
+        const two_bodies two = load_two_bodies(l, &points[i], &points[i + 1 < count ? i + 1 : i]);
+        lanes_store(&bounds[i], bound_times_of_two(c, &two));
     }
 }

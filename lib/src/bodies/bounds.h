@@ -9,8 +9,8 @@
 #define OCTREE_BOUNDS_H
 
 #include "../exact/cast.h"
-#include "../exact/lanes.h"
 #include "cell.h"
+#include "two_bodies.h"
 
 /* A cast, prepared for bounds of times. */
 typedef struct cast_axis {
@@ -31,11 +31,14 @@ cast_bounds make_cast_bounds(const cast *c);
 void bound_squares_of_octants(const double target[3], double scale, const cell_halves *h, double bounds[8]);
 void bound_times_of_octants(const cast_bounds *c, const cell_halves *h, double bounds[8]);
 
-/* Compute the same bounds for bodies whose positions are given, and whose half extents are at most `reach`. bounds[]
- * has room for count + 1 numbers. */
-void bound_squares_of_bodies(const double target[3], double scale, const double reach[3], const octree_point *points,
+/* Compute the same bounds for the bodies of some points of a level. bounds[] has room for count + 1 numbers. */
+void bound_squares_of_bodies(const double target[3], double scale, const level *l, const octree_point *points,
                              unsigned count, double *bounds);
-void bound_times_of_bodies(const cast_bounds *c, const double reach[3], const octree_point *points, unsigned count,
+void bound_times_of_bodies(const cast_bounds *c, const level *l, const octree_point *points, unsigned count,
                            double *bounds);
+
+/* Compute the same bounds for two bodies. */
+lanes bound_squares_of_two(const double target[3], double scale, const two_bodies *two);
+lanes bound_times_of_two(const cast_bounds *c, const two_bodies *two);
 
 #endif

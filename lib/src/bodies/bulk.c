@@ -12,7 +12,7 @@
 #include "../exact/float_mode.h"
 #include "../exact/point.h"
 #include "../query/search.h"
-#include "set.h"
+#include "two_bodies.h"
 
 enum { PREFETCH_AHEAD = 8 };
 
@@ -80,7 +80,7 @@ static size_t gather_level(bulk *b, unsigned level)
         const pending *p = &b->items[i];
         if (p->level != level)
             continue;
-        b->points[count].id = p->row;
+        b->points[count].id = make_point_id(&b->set->levels[level], p->row, p->body.half);
         memcpy(b->points[count].position, p->body.position, sizeof p->body.position);
         if (b->moved)
             memcpy(b->to[count], b->moved[p->index].position, sizeof b->to[count]);
@@ -316,8 +316,10 @@ static void move_row(bulk *b, size_t index)
         set_status(b, index, status);
         return;
     }
+    const double *half = b->from[index].half;
     const unsigned level = find_level(b->set, moved->half);
-    if (level == find_level(b->set, b->from[index].half)) {
+    const struct level *l = &b->set->levels[level];
+    if (level == find_level(b->set, half) && make_point_id(l, row, half) == make_point_id(l, row, moved->half)) {
         collect(b, index, row, row_at(&b->set->rows, row), level);
         rows_replace(&b->set->rows, row, moved);
         return;
@@ -400,7 +402,7 @@ static octree_walk_order gather_leaf(const octree_node *node, void *context)
 {
     gathering *g = context;
     for (size_t i = 0; node->leaf && i < node->count; i++)
-        g->bodies[g->count++] = *row_at(&g->set->rows, (size_t)node->points[i].id);
+        g->bodies[g->count++] = *row_at(&g->set->rows, row_of_point(&node->points[i]));
     return OCTREE_WALK_ON;
 }
 

@@ -53,7 +53,7 @@ static void bound_distances(const ordered_search *s, const cell_halves *h, doubl
 static void bound_distances_of_bodies(const ordered_search *s, const octree_point *points, unsigned count,
                                       double *bounds)
 {
-    bound_squares_of_bodies(s->target, s->scale, s->level->reach, points, count, bounds);
+    bound_squares_of_bodies(s->target, s->scale, s->level, points, count, bounds);
 }
 
 static void bound_times(const ordered_search *s, const cell_halves *h, double bounds[8])
@@ -63,7 +63,7 @@ static void bound_times(const ordered_search *s, const cell_halves *h, double bo
 
 static void bound_times_of_points(const ordered_search *s, const octree_point *points, unsigned count, double *bounds)
 {
-    bound_times_of_bodies(&s->cast_bounds, s->level->reach, points, count, bounds);
+    bound_times_of_bodies(&s->cast_bounds, s->level, points, count, bounds);
 }
 
 /* ---- Keys --------------------------------------------------------------------------------------------------- */

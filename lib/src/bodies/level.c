@@ -13,7 +13,7 @@
  *
  * Cost: a query descends once in each level in use. A change updates three counters.
  */
-#include "set.h"
+#include "two_bodies.h"
 #include "../query/search.h"
 
 /* A level spans four binary exponents, each divided into four buckets. */
@@ -66,14 +66,30 @@ static int find_bucket(int64_t top, double half)
     return bucket < 0 ? 0 : bucket >= REACH_BUCKETS ? REACH_BUCKETS - 1 : (int)bucket;
 }
 
+/* Returns the least value with this number: that of the buckets above 0. */
+static double value_of_number(int64_t number)
+{
+    const uint64_t bits = (uint64_t)(number > 0 ? number : 0) << BUCKET_SHIFT;
+    double value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
 /* Returns the upper end of a bucket. The highest bucket of level 0 has no upper end. */
 static double end_of_bucket(const octree_bodies *set, unsigned number, int bucket)
 {
-    const int64_t end = number_of_top_bucket(set, number) + bucket - (REACH_BUCKETS - 1) + 1;
-    const uint64_t bits = (uint64_t)(end > 0 ? end : 0) << BUCKET_SHIFT;
-    double value;
-    memcpy(&value, &bits, sizeof value);
+    const double value = value_of_number(number_of_top_bucket(set, number) + bucket - (REACH_BUCKETS - 1) + 1);
     return (number == 0 && bucket == REACH_BUCKETS - 1) || value > DBL_MAX ? DBL_MAX : value;
+}
+
+/* The unit is the upper end of the highest bucket divided by MAX_STEPS + 1: a power of two. Below 2^-1022 it would not
+ * be; there it is larger. */
+level make_empty_level(const octree_bodies *set, unsigned number, octree *tree)
+{
+    const int64_t unit = number_of_top_bucket(set, number) + 1 - STEP_BITS * BUCKETS_OF_EXPONENT;
+    level l = {.tree = tree};
+    l.unit = l.rest = value_of_number(unit < BUCKETS_OF_EXPONENT ? BUCKETS_OF_EXPONENT : unit);
+    return l;
 }
 
 static void update_reach(octree_bodies *set, unsigned number, int axis)
@@ -83,6 +99,7 @@ static void update_reach(octree_bodies *set, unsigned number, int axis)
     while (highest >= 0 && l->buckets[axis][highest] == 0)
         highest--;
     l->reach[axis] = highest < 0 ? 0 : end_of_bucket(set, number, highest);
+    l->rest = larger(larger(l->reach[0], l->reach[1]), l->reach[2]) < DBL_MAX ? l->unit : HUGE_VAL;
 }
 
 void change_reach(octree_bodies *set, unsigned number, const double half[3], int change)

@@ -3,8 +3,8 @@
  *
  * Each level is searched by the traversal of region.h. Three tests decide, from cheap to exact. By integer keys: cells
  * that do not meet the box around the region, extended by the level's reach, are pruned. By the region's own bounds:
- * octants whose bodies cannot meet the region are pruned, and nodes whose bodies certainly match are taken whole. For
- * the bodies of the remaining leaves, an exact test.
+ * octants whose bodies cannot meet the region are pruned, and nodes whose bodies certainly match are taken whole. The
+ * bodies of the remaining leaves are filtered (filter.c), and the rest is tested exactly.
  *
  * A node can be taken whole if the region contains its cell: each body contains its own position. If only contained
  * bodies match, the region must contain the box around all bodies of the cell instead.
@@ -55,9 +55,11 @@ static uint64_t scan_bodies(const void *shape, const octree_point *points, unsig
 {
     const body_search *s = shape;
     uint64_t found = 0;
-    const uint64_t near = box_shape_scan(&s->around, points, count);
+    uint64_t near = box_shape_scan(&s->around, points, count);
+    if (!s->contained)
+        near = shape_filter(&s->shape, s->level, points, near);
     for (uint64_t left = s->set->points ? 0 : near; left; left &= left - 1)
-        prefetch_memory(row_at(&s->set->rows, (size_t)points[bits_lowest(left)].id));
+        prefetch_memory(row_at(&s->set->rows, row_of_point(&points[bits_lowest(left)])));
     for (uint64_t left = near; left; left &= left - 1) {
         const unsigned i = bits_lowest(left);
         octree_body scratch;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* set.c - creates sets of bodies, and inserts, removes and moves single bodies. */
-#include "set.h"
+#include "two_bodies.h"
 #include "../exact/float_mode.h"
 #include "../query/search.h"
 #include "../tree/walk.h"
@@ -51,7 +51,8 @@ octree_status octree_bodies_create(const octree_def *def, octree_bodies **bodies
     if (def->leaf_capacity == OCTREE_AUTO)
         (*bodies)->def.leaf_capacity = OCTREE_AUTO;
     (*bodies)->largest = find_exponent_of_world(&def->world);
-    (*bodies)->levels[OCTREE_BODY_LEVELS - 1].tree = anchor;
+    for (unsigned i = 0; i < OCTREE_BODY_LEVELS; i++)
+        (*bodies)->levels[i] = make_empty_level(*bodies, i, i == OCTREE_BODY_LEVELS - 1 ? anchor : NULL);
     return OCTREE_OK;
 }
 
@@ -60,6 +61,7 @@ octree_bodies show_points_as_bodies(const octree *tree, const double half[3])
     octree_bodies shown = {.memory.allocator = tree->def.allocator, .def = tree->def, .points = tree};
     level *l = &shown.levels[OCTREE_BODY_LEVELS - 1];
     l->tree = (octree *)(uintptr_t)tree; /* never changed: changes of the set are refused */
+    l->rest = HUGE_VAL;
     for (int i = 0; i < 3; i++)
         shown.point_half[i] = l->reach[i] = half[i];
     return shown;
@@ -106,7 +108,7 @@ octree_status octree_bodies_clear(octree_bodies *bodies)
         level *l = &bodies->levels[i];
         if (l->tree)
             octree_clear(l->tree);
-        *l = (level){.tree = l->tree};
+        *l = make_empty_level(bodies, i, l->tree);
     }
     if (status == OCTREE_OK)
         rows_release(&bodies->rows);
@@ -168,7 +170,8 @@ octree_status octree_bodies_insert(octree_bodies *bodies, const octree_body *bod
         return OCTREE_DUPLICATE;
     const uint32_t row = rows_add(&bodies->rows, &added);
     const unsigned begun = begin_set_callbacks(bodies); /* under OCTREE_AUTO, the executor */
-    status = octree_insert(bodies->levels[number].tree, added.position, row);
+    const uint64_t id = make_point_id(&bodies->levels[number], row, added.half);
+    status = octree_insert(bodies->levels[number].tree, added.position, id);
     end_callbacks(begun);
     if (status == OCTREE_OK)
         change_reach(bodies, number, added.half, 1);
@@ -188,11 +191,21 @@ octree_status octree_bodies_remove(octree_bodies *bodies, const octree_body *bod
     const uint32_t row = rows_find(&bodies->rows, &removed);
     if (row == ROW_NONE)
         return OCTREE_NOT_FOUND;
-    status = octree_remove(bodies->levels[number].tree, removed.position, row);
+    const uint64_t id = make_point_id(&bodies->levels[number], row, removed.half);
+    status = octree_remove(bodies->levels[number].tree, removed.position, id);
     if (status == OCTREE_OK) {
         change_reach(bodies, number, removed.half, -1);
         rows_remove(&bodies->rows, row);
     }
+    return status;
+}
+
+static octree_status move_within_level(octree *tree, const octree_body *from, uint64_t old_id, const octree_body *to,
+                                       uint64_t id)
+{
+    const octree_status status = octree_move(tree, from->position, old_id, to->position);
+    if (status == OCTREE_OK && id != old_id)
+        replace_point_id(tree, to->position, old_id, id);
     return status;
 }
 
@@ -201,15 +214,16 @@ octree_status octree_bodies_remove(octree_bodies *bodies, const octree_body *bod
 static octree_status change_level(octree_bodies *set, const octree_body *from, const octree_body *to, uint32_t row)
 {
     level *old = &set->levels[find_level(set, from->half)], *new = &set->levels[find_level(set, to->half)];
+    const uint64_t old_id = make_point_id(old, row, from->half), id = make_point_id(new, row, to->half);
     prepared_removal leaving;
     if (old == new)
-        return octree_move(old->tree, from->position, row, to->position);
+        return move_within_level(old->tree, from, old_id, to, id);
     octree_status status = create_level(set, (unsigned)(new - set->levels));
     if (status == OCTREE_OK)
-        status = prepare_removal(old->tree, from->position, row, &leaving);
+        status = prepare_removal(old->tree, from->position, old_id, &leaving);
     if (status != OCTREE_OK)
         return status;
-    status = octree_insert(new->tree, to->position, row);
+    status = octree_insert(new->tree, to->position, id);
     if (status == OCTREE_OK)
         make_removal(old->tree, &leaving);
     else
@@ -343,14 +357,17 @@ typedef struct inspection {
 
 static const char *check_row(inspection *s, const octree_point *point)
 {
-    if (point->id >= s->set->rows.end)
+    const uint32_t row = row_of_point(point);
+    if (row >= s->set->rows.end)
         return "a point in the tree of a level has no body in the set";
-    const octree_body *body = row_at(&s->set->rows, (size_t)point->id);
+    const octree_body *body = row_at(&s->set->rows, row);
     if (!is_same_position(body->position, point->position))
         return "a row has another position than its point";
     if (find_level(s->set, body->half) != s->number)
         return "a body is in the wrong level";
-    if (rows_find(&s->set->rows, body) != point->id)
+    if (make_point_id(&s->set->levels[s->number], row, body->half) != point->id)
+        return "the id of a point has other half extents than its row";
+    if (rows_find(&s->set->rows, body) != row)
         return "the hash table does not find a body";
     change_reach(s->counted, s->number, body->half, 1);
     return NULL;

@@ -16,6 +16,9 @@ typedef struct level {
     /* on each axis, the number of half extents in each bucket; half extents of 0 are not counted */
     uint32_t buckets[3][REACH_BUCKETS];
     double reach[3]; /* an upper bound of the half extents on each axis, a function of `buckets` */
+    /* The ids of points have the half extents in multiples of `unit`, and the rest is at most `rest` (two_bodies.h).
+     * If a half extent is too large for that, and in sets that show points, `rest` is infinite. */
+    double unit, rest;
 } level;
 
 /* A function that stores the half extents of a point in half[]. They are at most the reach that was set with it. */
@@ -65,6 +68,9 @@ unsigned find_level(const octree_bodies *set, const double half[3]);
 /* Create the tree of a level if it has none. Returns OK or NO_MEMORY. */
 octree_status create_level(octree_bodies *set, unsigned number);
 
+/* Make a level without bodies, which keeps the tree. */
+level make_empty_level(const octree_bodies *set, unsigned number, octree *tree);
+
 /* Add the half extents of a body to the reach of its level (change = 1), or remove them (change = -1). */
 void change_reach(octree_bodies *set, unsigned number, const double half[3], int change);
 
@@ -87,11 +93,17 @@ octree_bodies show_points_as_bodies(const octree *tree, const double half[3]);
  * axis by axis; the search descends as if all bodies were as large. */
 void set_half_extents(octree_bodies *set, const double reach[3], half_lookup *half_of, const void *context);
 
+/* Returns the index of the row of a point's body. */
+static inline uint32_t row_of_point(const octree_point *point)
+{
+    return (uint32_t)point->id;
+}
+
 /* Returns the body of a point of a level: its row, or `scratch`, which is filled. */
 static inline const octree_body *load_body(const octree_bodies *set, const octree_point *point, octree_body *scratch)
 {
     if (!set->points)
-        return row_at(&set->rows, (size_t)point->id);
+        return row_at(&set->rows, row_of_point(point));
     memcpy(scratch->position, point->position, sizeof scratch->position);
     scratch->id = point->id;
     if (set->half_of)

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* shape.c - the tests of bodies and cells against a region: one row of functions for each kind of region.
  *
- * A kind has four functions. Two decide about a body, exactly. One returns a box around the region. One relates the
+ * A kind has five functions. Two decide about a body, exactly. One returns a box around the region. One relates the
  * eight octants of a cell to the region, in doubles: it must not exclude an octant, or call it inside, unless this is
- * certain.
+ * certain. One excludes bodies of a leaf (filter.c).
  */
 #include "shape.h"
 #include "../exact/float_mode.h"
@@ -111,53 +111,54 @@ static octree_box bounds_of_half_spaces(const shape *s)
     return (octree_box){{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, {HUGE_VAL, HUGE_VAL, HUGE_VAL}};
 }
 
-/* The products of a half-space with the halves of a cell. */
+/* The products of a half-space with the halves of a cell on one axis. */
 typedef struct half_products {
-    double middle[3][2]; /* normal * center */
-    double inner[3][2];  /* |normal| * the half extent whose points must be inside */
-    double outer[3][2];
-    double error; /* more than the error of any sum of these products and the offset */
+    double middle[2]; /* normal * center */
+    double inner[2];  /* |normal| * the half extent whose points must be inside */
+    double outer[2];
 } half_products;
 
-static half_products multiply_halves(const octree_half_space *space, const cell_halves *h, bool contained)
+/* Returns more than the error of any sum of these products and the offset. */
+static double multiply_halves(const octree_half_space *space, const cell_halves *h, bool contained,
+                              half_products products[3])
 {
-    half_products p;
     double size = fabs(space->offset);
     for (int i = 0; i < 3; i++) {
-        double largest = 0;
-        for (int half = 0; half < 2; half++) {
-            p.middle[i][half] = space->normal[i] * h->center[i][half];
-            p.outer[i][half] = fabs(space->normal[i]) * h->outer[i][half];
-            p.inner[i][half] = contained ? p.outer[i][half] : fabs(space->normal[i]) * h->inner[i][half];
-            largest = larger(largest, fabs(p.middle[i][half]) + p.outer[i][half]);
-        }
-        size += largest;
+        half_products *p = &products[i];
+        const lanes normal = lanes_all(space->normal[i]), steep = lanes_absolute(normal);
+        lanes_store(p->middle, lanes_multiply(normal, lanes_load(h->center[i])));
+        lanes_store(p->outer, lanes_multiply(steep, lanes_load(h->outer[i])));
+        lanes_store(p->inner, lanes_multiply(steep, lanes_load(contained ? h->outer[i] : h->inner[i])));
+        size += larger(fabs(p->middle[0]) + p->outer[0], fabs(p->middle[1]) + p->outer[1]);
     }
-    p.error = size * 0x1p-48 + 0x1p-1000;
-    return p;
+    return size * 0x1p-48 + 0x1p-1000;
 }
 
 /* Sums that are NaN or infinite exclude nothing: then the error is infinite or NaN, too. */
-static octant_masks relate_half_space(const octree_half_space *space, const cell_halves *h, unsigned octants,
-                                      bool contained)
+static octant_masks relate_half_space(const octree_half_space *space, const cell_halves *h, bool contained)
 {
-    const half_products p = multiply_halves(space, h, contained);
+    half_products p[3];
+    const double error = multiply_halves(space, h, contained, p);
+    const lanes middle_z = lanes_load(p[2].middle), outer_z = lanes_load(p[2].outer), inner_z = lanes_load(p[2].inner);
+    const lanes limit = lanes_all(error), inner_limit = lanes_all(-error);
     unsigned misses = 0, inside = 0;
-    for (unsigned left = octants; left; left &= left - 1) {
-        const unsigned o = bits_lowest(left), x = o >> 2, y = o >> 1 & 1, z = o & 1;
-        const double middle = ((p.middle[0][x] + p.middle[1][y]) + p.middle[2][z]) - space->offset;
-        misses |= mask_if(middle - ((p.outer[0][x] + p.outer[1][y]) + p.outer[2][z]) > p.error, 1u << o);
-        inside |= mask_if(middle + ((p.inner[0][x] + p.inner[1][y]) + p.inner[2][z]) < -p.error, 1u << o);
+    for (unsigned o = 0; o < 8; o += 2) {
+        const unsigned x = o >> 2, y = o >> 1 & 1;
+        const lanes middle = lanes_add(lanes_all(p[0].middle[x] + p[1].middle[y] - space->offset), middle_z);
+        const lanes outer = lanes_add(lanes_all(p[0].outer[x] + p[1].outer[y]), outer_z);
+        const lanes inner = lanes_add(lanes_all(p[0].inner[x] + p[1].inner[y]), inner_z);
+        misses |= lanes_less(limit, lanes_subtract(middle, outer)) << o;
+        inside |= lanes_less(lanes_add(middle, inner), inner_limit) << o;
     }
-    return (octant_masks){(uint8_t)(octants & ~misses), (uint8_t)inside};
+    return (octant_masks){(uint8_t)~misses, (uint8_t)inside};
 }
 
 static octant_masks relate_half_spaces(const shape *s, const cell_halves *h, unsigned octants, bool contained)
 {
     octant_masks all = {(uint8_t)octants, 0xff};
     for (size_t i = 0; i < s->region->half_space_count && all.meets; i++) {
-        const octant_masks masks = relate_half_space(&s->region->half_spaces[i], h, all.meets, contained);
-        all.meets = masks.meets;
+        const octant_masks masks = relate_half_space(&s->region->half_spaces[i], h, contained);
+        all.meets &= masks.meets;
         all.inside &= masks.inside;
     }
     return all;
@@ -210,14 +211,16 @@ typedef struct shape_kind {
     bool (*contains)(const shape *s, const octree_body *body);
     octree_box (*bounds)(const shape *s);
     octant_masks (*relate)(const shape *s, const cell_halves *h, unsigned octants, bool contained);
+    uint64_t (*filter)(const shape *s, const level *l, const octree_point *points, uint64_t near);
 } shape_kind;
 
 static const shape_kind kinds[OCTREE_REGION_KINDS] = {
-    [OCTREE_REGION_BOX] = {meets_box, is_in_box, bounds_of_box, relate_box},
-    [OCTREE_REGION_BALL] = {meets_ball, is_in_ball, bounds_of_ball, relate_ball},
-    [OCTREE_REGION_HALF_SPACES] = {meets_half_spaces, is_in_half_spaces, bounds_of_half_spaces, relate_half_spaces},
-    [OCTREE_REGION_SWEPT] = {meets_cast, is_in_cast, bounds_of_cast, relate_cast},
-    [OCTREE_REGION_RAY] = {meets_cast, is_in_cast, bounds_of_cast, relate_cast},
+    [OCTREE_REGION_BOX] = {meets_box, is_in_box, bounds_of_box, relate_box, filter_by_box},
+    [OCTREE_REGION_BALL] = {meets_ball, is_in_ball, bounds_of_ball, relate_ball, filter_by_ball},
+    [OCTREE_REGION_HALF_SPACES] = {meets_half_spaces, is_in_half_spaces, bounds_of_half_spaces, relate_half_spaces,
+                                   filter_by_half_spaces},
+    [OCTREE_REGION_SWEPT] = {meets_cast, is_in_cast, bounds_of_cast, relate_cast, filter_by_cast},
+    [OCTREE_REGION_RAY] = {meets_cast, is_in_cast, bounds_of_cast, relate_cast, filter_by_cast},
 };
 
 shape shape_make(const octree_region *region)
@@ -244,6 +247,11 @@ bool shape_contains(const shape *s, const octree_body *body)
 octant_masks shape_relate(const shape *s, const cell_halves *h, unsigned octants, bool contained)
 {
     return kinds[s->region->kind].relate(s, h, octants, contained);
+}
+
+uint64_t shape_filter(const shape *s, const level *l, const octree_point *points, uint64_t near)
+{
+    return kinds[s->region->kind].filter(s, l, points, near);
 }
 
 octree_box shape_bounds(const shape *s)

@@ -25,6 +25,16 @@ bool shape_contains(const shape *s, const octree_body *body);
  * is in the octant, or if `contained` is true only if their whole boxes are in the region. */
 octant_masks shape_relate(const shape *s, const cell_halves *h, unsigned octants, bool contained);
 
+/* Returns `near`, a bit mask of points of a level, without the points whose bodies certainly have no common point with
+ * the region. Bit i is for points[i]. */
+uint64_t shape_filter(const shape *s, const level *l, const octree_point *points, uint64_t near);
+
+/* shape_filter() for one kind of region. */
+uint64_t filter_by_box(const shape *s, const level *l, const octree_point *points, uint64_t near);
+uint64_t filter_by_ball(const shape *s, const level *l, const octree_point *points, uint64_t near);
+uint64_t filter_by_half_spaces(const shape *s, const level *l, const octree_point *points, uint64_t near);
+uint64_t filter_by_cast(const shape *s, const level *l, const octree_point *points, uint64_t near);
+
 /* Returns a box that contains the region. Its corners may be infinite. */
 octree_box shape_bounds(const shape *s);
 

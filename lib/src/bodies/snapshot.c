@@ -101,7 +101,7 @@ static void copy_leaf(snapshot *s, const octree_bodies *set, const node *leaf, g
 {
     octree_body *bodies = s->bodies + g->first;
     for (uint32_t i = 0; !set->points && i < leaf->count && i < POOL_MAX_UNITS; i++)
-        prefetch_memory(row_at(&set->rows, (size_t)leaf_points(leaf)[i].id));
+        prefetch_memory(row_at(&set->rows, row_of_point(&leaf_points(leaf)[i])));
     for (uint32_t i = 0; i < leaf->count; i++) {
         octree_body scratch;
         bodies[i] = *load_body(set, &leaf_points(leaf)[i], &scratch);

@@ -56,10 +56,10 @@ static inline lanes lanes_if_positive(lanes a, double value)
     return _mm_and_pd(_mm_cmpgt_pd(a, _mm_setzero_pd()), _mm_set1_pd(value));
 }
 
-/* Returns a mask of two bits: whether a <= b. */
-static inline unsigned lanes_at_most(lanes a, lanes b)
+/* Returns a mask of two bits: whether a < b. */
+static inline unsigned lanes_less(lanes a, lanes b)
 {
-    return (unsigned)_mm_movemask_pd(_mm_cmple_pd(a, b));
+    return (unsigned)_mm_movemask_pd(_mm_cmplt_pd(a, b));
 }
 
 static inline void lanes_store(double to[2], lanes a)
@@ -70,6 +70,14 @@ static inline void lanes_store(double to[2], lanes a)
 static inline lanes lanes_load(const double from[2])
 {
     return _mm_loadu_pd(from);
+}
+
+/* Returns a few bits of two numbers, as doubles: (a >> shift) & mask. The mask is below 2^31. */
+static inline lanes lanes_of_bits(uint64_t a, uint64_t b, unsigned shift, uint64_t mask)
+{
+    const __m128i both = _mm_unpacklo_epi64(_mm_cvtsi64_si128((int64_t)a), _mm_cvtsi64_si128((int64_t)b));
+    const __m128i bits = _mm_and_si128(_mm_srli_epi64(both, (int)shift), _mm_set1_epi64x((int64_t)mask));
+    return _mm_cvtepi32_pd(_mm_shuffle_epi32(bits, _MM_SHUFFLE(3, 3, 2, 0)));
 }
 
 /* Load three coordinates of two positions: to[axis] receives {a[axis], b[axis]}. */
@@ -125,9 +133,14 @@ static inline lanes lanes_if_positive(lanes a, double value)
     return (lanes){{a.at[0] > 0 ? value : 0, a.at[1] > 0 ? value : 0}};
 }
 
-static inline unsigned lanes_at_most(lanes a, lanes b)
+static inline unsigned lanes_less(lanes a, lanes b)
 {
-    return (unsigned)(a.at[0] <= b.at[0]) | (unsigned)(a.at[1] <= b.at[1]) << 1;
+    return (unsigned)(a.at[0] < b.at[0]) | (unsigned)(a.at[1] < b.at[1]) << 1;
+}
+
+static inline lanes lanes_of_bits(uint64_t a, uint64_t b, unsigned shift, uint64_t mask)
+{
+    return (lanes){{(double)(int64_t)(a >> shift & mask), (double)(int64_t)(b >> shift & mask)}};
 }
 
 static inline void lanes_store(double to[2], lanes a)

@@ -315,6 +315,17 @@ static void remove_found_point(octree *tree, const found_point *found, node *spa
     tree->version++;
 }
 
+void replace_point_id(octree *tree, const double position[3], uint64_t id, uint64_t new_id)
+{
+    found_point found;
+    if (!find_point(tree, position, id, &found))
+        return;
+    octree_point point = stored_point(&found);
+    point.id = new_id;
+    leaf_replace(path_end(&found.path), found.index, &point);
+    tree->version++;
+}
+
 octree_status prepare_removal(octree *tree, const double position[3], uint64_t id, prepared_removal *r)
 {
     if (!find_point(tree, position, id, &r->found))

@@ -127,6 +127,10 @@ static inline octree_point stored_point(const found_point *found)
 /* Find a pair (position, id). Returns false if the tree does not have the pair. */
 bool find_point(const octree *tree, const double position[3], uint64_t id, found_point *found);
 
+/* Give a stored point another id. The pair of the position and the new id is not stored. The change log does not list
+ * the change. */
+void replace_point_id(octree *tree, const double position[3], uint64_t id, uint64_t new_id);
+
 /* A removal whose memory is allocated before the point is removed. prepare_removal() returns OK, NOT_FOUND or
  * NO_MEMORY. If it returns OK, one of the other two functions must be called before the tree changes; they cannot
  * fail. */
