@@ -6,7 +6,7 @@
  * stored once. The position must lie in the world; the box may reach beyond it.
  *
  * How it works. A tree of points finds bodies if each query is extended by the largest half extents. One large body
- * would then slow down every query. So bodies are divided by size into at most six levels, and each level is an octree
+ * would then slow down every query. So bodies are divided by size into at most twelve levels, and each level is an octree
  * of positions (octree.h). A level extends queries only by its own largest half extents, its `reach`. This is a loose
  * octree (Ulrich 2000) whose cells adapt to the number of bodies. The nodes of a level are a function of its bodies.
  *
@@ -108,7 +108,7 @@ const char *octree_bodies_check(const octree_bodies *bodies);
 size_t octree_bodies_memory(const octree_bodies *bodies);
 
 /* The number of levels: level 0 has the largest bodies. */
-#define OCTREE_BODY_LEVELS 6
+#define OCTREE_BODY_LEVELS 12
 
 /* Returns the tree of a level, for reading its nodes (octree_walk, octree_statistics). The id of a point of this tree
  * is the argument of octree_bodies_at(). reach[] receives bounds of the half extents in this level; `reach` may be

@@ -3,9 +3,10 @@
  *
  * The rows are changed one by one, in the caller's order; so each body gets the status that a single call would give.
  * The resulting changes of the trees are collected, and each level makes its changes in one bulk call of octree.h. If
- * this call fails, it has changed nothing in its tree, and the rows of this level's bodies are restored.
+ * this call fails, it has changed nothing in its tree, and the rows of this level's bodies are restored afterwards.
  *
- * A move that changes the level of a body is made alone, after the collected changes.
+ * A move that changes the level of a body, or the half extents in the id of its point, is made alone, after the
+ * collected changes.
  *
  * Cost: that of the bulk calls, and one cache miss in the hash table for each body.
  */
@@ -30,7 +31,8 @@ typedef struct bulk {
     octree_bodies *set;
     pending *items;
     size_t count, room;
-    octree_point *points; /* the points of one level, for its bulk call */
+    size_t ends[OCTREE_BODY_LEVELS + 1]; /* ends[level + 1]: the number of changes that are collected for the level */
+    octree_point *points;                /* the points of the changes, level by level */
     double (*to)[3];
     const octree_body *from, *moved; /* the caller's arrays; `moved` is null unless bodies are moved */
     octree_status *statuses;         /* may be null */
@@ -70,48 +72,58 @@ static bool begin_bulk(bulk *b, size_t count)
 static void collect(bulk *b, size_t index, uint32_t row, const octree_body *body, unsigned level)
 {
     b->items[b->count++] = (pending){index, row, level, *body};
+    b->ends[level + 1]++;
 }
 
-/* Gather the collected changes of a level. Returns their number. */
-static size_t gather_level(bulk *b, unsigned level)
+/* Fill the lists of points. Afterwards, ends[level] is the end of the level's points. */
+static void gather_points(bulk *b)
 {
-    size_t count = 0;
+    for (unsigned level = 0; level < OCTREE_BODY_LEVELS; level++)
+        b->ends[level + 1] += b->ends[level];
     for (size_t i = 0; i < b->count; i++) {
         const pending *p = &b->items[i];
-        if (p->level != level)
-            continue;
-        b->points[count].id = make_point_id(&b->set->levels[level], p->row, p->body.half);
-        memcpy(b->points[count].position, p->body.position, sizeof p->body.position);
+        const size_t at = b->ends[p->level]++;
+        b->points[at].id = make_point_id(&b->set->levels[p->level], p->row, p->body.half);
+        memcpy(b->points[at].position, p->body.position, sizeof p->body.position);
         if (b->moved)
-            memcpy(b->to[count], b->moved[p->index].position, sizeof b->to[count]);
-        count++;
+            memcpy(b->to[at], b->moved[p->index].position, sizeof b->to[at]);
     }
-    return count;
 }
 
-/* Make the collected changes of all levels, a bulk call for each level. Then call `finish` for each change of the
- * level: in the caller's order if the call succeeded; in the reverse order, to restore the rows, if it failed. */
+/* Make the collected changes of a level in one bulk call. */
+static octree_status change_level_in_bulk(bulk *b, unsigned level, bulk_change *change)
+{
+    const size_t begin = level > 0 ? b->ends[level - 1] : 0, count = b->ends[level] - begin;
+    if (count == 0)
+        return OCTREE_OK;
+    const unsigned begun = begin_set_callbacks(b->set); /* the executor */
+    octree_status status = create_level(b->set, level);
+    if (status == OCTREE_OK)
+        status = change(b->set->levels[level].tree, b->points + begin, b->to ? (const double(*)[3])b->to + begin : NULL,
+                        count);
+    end_callbacks(begun);
+    b->failure = b->failure == OCTREE_OK ? status : b->failure;
+    return status;
+}
+
+/* Make the collected changes of all levels. Then call `finish` for each change: in the caller's order if the bulk call
+ * of the level succeeded; in the reverse order, to restore the rows, if it failed. */
 static void make_changes(bulk *b, bulk_change *change, void (*finish)(bulk *b, const pending *p, bool made))
 {
-    for (unsigned level = 0; level < OCTREE_BODY_LEVELS && b->count > 0; level++) {
-        const size_t count = gather_level(b, level);
-        if (count == 0)
-            continue;
-        const unsigned begun = begin_set_callbacks(b->set); /* the executor */
-        octree_status status = create_level(b->set, level);
-        if (status == OCTREE_OK)
-            status = change(b->set->levels[level].tree, b->points, (const double(*)[3])b->to, count);
-        end_callbacks(begun);
-        for (size_t i = 0; i < b->count; i++) {
-            const pending *p = &b->items[status == OCTREE_OK ? i : b->count - 1 - i];
-            if (p->level != level)
-                continue;
-            finish(b, p, status == OCTREE_OK);
-            set_status(b, p->index, status);
-        }
-        b->failure = b->failure == OCTREE_OK ? status : b->failure;
-    }
+    octree_status results[OCTREE_BODY_LEVELS];
+    gather_points(b);
+    for (unsigned level = 0; level < OCTREE_BODY_LEVELS; level++)
+        results[level] = change_level_in_bulk(b, level, change);
+    for (size_t i = 0; i < b->count; i++)
+        if (results[b->items[i].level] == OCTREE_OK)
+            finish(b, &b->items[i], true);
+    for (size_t i = b->count; i-- > 0;)
+        if (results[b->items[i].level] != OCTREE_OK)
+            finish(b, &b->items[i], false);
+    for (size_t i = 0; i < b->count; i++)
+        set_status(b, b->items[i].index, results[b->items[i].level]);
     b->count = 0;
+    memset(b->ends, 0, sizeof b->ends);
 }
 
 /* Check the arguments that all bulk calls share. */

@@ -5,19 +5,20 @@
  * all, it visits far too many bodies. Half extents kept in each node help only if large bodies are rare: in a scene
  * whose sizes span three decades, each leaf has one.
  *
- * Idea: bodies whose sizes differ by less than a factor of 16 form a level, a tree of its own (Ulrich 2000 calls one
- * tree with a level of cells for each size a loose octree). A level extends a search by its own `reach`, an upper bound
- * of its half extents, axis by axis, so that thin plates are extended little across. The bound must not depend on the
- * history of the set, so that costs and traces are reproducible: a level counts its half extents in buckets, and the
- * reach is the upper end of the highest bucket in use.
+ * Idea: bodies whose sizes differ by less than a factor of 4 form a level, a tree of its own (Ulrich 2000 calls one
+ * tree with a level of cells for each size a loose octree). Wider levels are fewer trees, but in a level of a factor of
+ * 16 one body made rays among 5e5 bodies of a sixth of its size cost four times as much. A level extends a search by
+ * its own `reach`, an upper bound of its half extents, axis by axis, so that thin plates are extended little across.
+ * The bound must not depend on the history of the set, so that costs and traces are reproducible: a level counts its
+ * half extents in buckets, and the reach is the upper end of the highest bucket in use.
  *
  * Cost: a query descends once in each level in use. A change updates three counters.
  */
 #include "two_bodies.h"
 #include "../query/search.h"
 
-/* A level spans four binary exponents, each divided into four buckets. */
-enum { LEVEL_EXPONENTS = 4, BUCKET_SHIFT = 50, BUCKETS_OF_EXPONENT = 4 };
+/* A level spans two binary exponents, each divided into four buckets. */
+enum { LEVEL_EXPONENTS = 2, BUCKET_SHIFT = 50, BUCKETS_OF_EXPONENT = 4 };
 
 static int get_exponent(double value) /* of a value >= 0; its sign bit may be set if it is 0 */
 {
@@ -46,6 +47,13 @@ unsigned find_level(const octree_bodies *set, const double half[3])
 octree_status create_level(octree_bodies *set, unsigned number)
 {
     level *l = &set->levels[number];
+    if (!l->counts)
+        l->counts = arena_allocate(&set->memory, sizeof *l->counts);
+    if (!l->counts)
+        return OCTREE_NO_MEMORY;
+    if (l->tree && octree_count(l->tree) > 0)
+        return OCTREE_OK;
+    *l->counts = (reach_counts){{{0}}};
     return l->tree ? OCTREE_OK : octree_create(&set->def, &l->tree);
 }
 
@@ -84,11 +92,12 @@ static double end_of_bucket(const octree_bodies *set, unsigned number, int bucke
 
 /* The unit is the upper end of the highest bucket divided by MAX_STEPS + 1: a power of two. Below 2^-1022 it would not
  * be; there it is larger. */
-level make_empty_level(const octree_bodies *set, unsigned number, octree *tree)
+level make_empty_level(const octree_bodies *set, unsigned number)
 {
     const int64_t unit = number_of_top_bucket(set, number) + 1 - STEP_BITS * BUCKETS_OF_EXPONENT;
-    level l = {.tree = tree};
+    level l = {.tree = NULL};
     l.unit = l.rest = value_of_number(unit < BUCKETS_OF_EXPONENT ? BUCKETS_OF_EXPONENT : unit);
+    l.units = 1 / l.unit;
     return l;
 }
 
@@ -96,7 +105,7 @@ static void update_reach(octree_bodies *set, unsigned number, int axis)
 {
     level *l = &set->levels[number];
     int highest = REACH_BUCKETS - 1;
-    while (highest >= 0 && l->buckets[axis][highest] == 0)
+    while (highest >= 0 && l->counts->buckets[axis][highest] == 0)
         highest--;
     l->reach[axis] = highest < 0 ? 0 : end_of_bucket(set, number, highest);
     l->rest = larger(larger(l->reach[0], l->reach[1]), l->reach[2]) < DBL_MAX ? l->unit : HUGE_VAL;
@@ -108,7 +117,7 @@ void change_reach(octree_bodies *set, unsigned number, const double half[3], int
     for (int i = 0; i < 3; i++) {
         if (half[i] == 0)
             continue;
-        uint32_t *count = &set->levels[number].buckets[i][find_bucket(top, half[i])];
+        uint32_t *count = &set->levels[number].counts->buckets[i][find_bucket(top, half[i])];
         *count += (uint32_t)change;
         if (*count <= 1) /* the bucket has become empty, or is used for the first time */
             update_reach(set, number, i);

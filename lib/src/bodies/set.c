@@ -52,7 +52,8 @@ octree_status octree_bodies_create(const octree_def *def, octree_bodies **bodies
         (*bodies)->def.leaf_capacity = OCTREE_AUTO;
     (*bodies)->largest = find_exponent_of_world(&def->world);
     for (unsigned i = 0; i < OCTREE_BODY_LEVELS; i++)
-        (*bodies)->levels[i] = make_empty_level(*bodies, i, i == OCTREE_BODY_LEVELS - 1 ? anchor : NULL);
+        (*bodies)->levels[i] = make_empty_level(*bodies, i);
+    (*bodies)->levels[OCTREE_BODY_LEVELS - 1].tree = anchor;
     return OCTREE_OK;
 }
 
@@ -108,7 +109,10 @@ octree_status octree_bodies_clear(octree_bodies *bodies)
         level *l = &bodies->levels[i];
         if (l->tree)
             octree_clear(l->tree);
-        *l = make_empty_level(bodies, i, l->tree);
+        const level kept = *l;
+        *l = make_empty_level(bodies, i);
+        l->tree = kept.tree;
+        l->counts = kept.counts;
     }
     if (status == OCTREE_OK)
         rows_release(&bodies->rows);
@@ -119,8 +123,10 @@ void octree_bodies_destroy(octree_bodies *bodies)
 {
     if (!bodies || is_running_callback(listed_as(bodies)))
         return;
-    for (unsigned i = 0; !bodies->points && i < OCTREE_BODY_LEVELS; i++)
+    for (unsigned i = 0; !bodies->points && i < OCTREE_BODY_LEVELS; i++) {
         octree_destroy(bodies->levels[i].tree);
+        arena_free(&bodies->memory, bodies->levels[i].counts, sizeof(reach_counts));
+    }
     rows_release(&bodies->rows);
     arena memory = bodies->memory;
     arena_free(&memory, bodies, sizeof *bodies);
@@ -381,18 +387,26 @@ static octree_walk_order check_rows_of_leaf(const octree_node *node, void *conte
     return s->violation ? OCTREE_WALK_STOP : OCTREE_WALK_ON;
 }
 
-/* Count the buckets of all levels again, in a set on the stack that has no bodies. */
+/* Returns whether the counts of a level are those of its bodies. */
+static bool are_counts_right(const level *l, const reach_counts *counted)
+{
+    return octree_count(l->tree) == 0 || memcmp(l->counts, counted, sizeof *counted) == 0;
+}
+
+/* Count the half extents of all levels again, in a set on the stack that has no bodies. */
 static const char *check_rows(const octree_bodies *set)
 {
     octree_bodies counted = {.largest = set->largest};
+    reach_counts counts[OCTREE_BODY_LEVELS] = {{{{0}}}};
     size_t count = 0;
     inspection s = {(octree_bodies *)(uintptr_t)set, &counted, 0, NULL};
     for (; s.number < OCTREE_BODY_LEVELS && !s.violation; s.number++) {
         const level *l = &set->levels[s.number];
+        counted.levels[s.number].counts = &counts[s.number];
         count += octree_count(l->tree);
         if (l->tree)
             octree_walk(l->tree, check_rows_of_leaf, &s);
-        if (!s.violation && memcmp(l->buckets, counted.levels[s.number].buckets, sizeof l->buckets) != 0)
+        if (!s.violation && !are_counts_right(l, &counts[s.number]))
             s.violation = "the counters of a level's reach are wrong";
     }
     return s.violation                ? s.violation

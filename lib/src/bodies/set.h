@@ -9,16 +9,21 @@
 /* A bucket counts the half extents between two values whose ratio is at most 1.25. */
 enum { REACH_BUCKETS = 32 };
 
-/* The bodies of similar size. The largest half extents of two bodies differ by a factor below 16; only the bodies of
+/* On each axis, the number of half extents in each bucket. Half extents of 0 are not counted. */
+typedef struct reach_counts {
+    uint32_t buckets[3][REACH_BUCKETS];
+} reach_counts;
+
+/* The bodies of similar size. The largest half extents of two bodies differ by a factor below 4; only the bodies of
  * the first level may be larger than that, and those of the last level smaller. */
 typedef struct level {
-    octree *tree; /* the positions of the bodies; the id of a point is the index of a row. Null: never used */
-    /* on each axis, the number of half extents in each bucket; half extents of 0 are not counted */
-    uint32_t buckets[3][REACH_BUCKETS];
-    double reach[3]; /* an upper bound of the half extents on each axis, a function of `buckets` */
+    octree *tree;         /* the positions of the bodies; the id of a point is the index of a row. Null: never used */
+    reach_counts *counts; /* null: never used */
+    double reach[3];      /* an upper bound of the half extents on each axis, a function of the counts */
     /* The ids of points have the half extents in multiples of `unit`, and the rest is at most `rest` (two_bodies.h).
      * If a half extent is too large for that, and in sets that show points, `rest` is infinite. */
     double unit, rest;
+    double units; /* 1 / unit, exactly */
 } level;
 
 /* A function that stores the half extents of a point in half[]. They are at most the reach that was set with it. */
@@ -65,11 +70,11 @@ int find_exponent_of_world(const octree_box *world);
 /* Returns the level of a body with these half extents. */
 unsigned find_level(const octree_bodies *set, const double half[3]);
 
-/* Create the tree of a level if it has none. Returns OK or NO_MEMORY. */
+/* Create the tree and the counts of a level if it has none. Returns OK or NO_MEMORY. */
 octree_status create_level(octree_bodies *set, unsigned number);
 
-/* Make a level without bodies, which keeps the tree. */
-level make_empty_level(const octree_bodies *set, unsigned number, octree *tree);
+/* Make a level without tree and counts. */
+level make_empty_level(const octree_bodies *set, unsigned number);
 
 /* Add the half extents of a body to the reach of its level (change = 1), or remove them (change = -1). */
 void change_reach(octree_bodies *set, unsigned number, const double half[3], int change);

@@ -157,7 +157,7 @@ static void bodies_of_similar_size_share_a_level(void **state)
 {
     (void)state;
     octree_bodies *set = make_set(cube(-8, 8), 2);
-    const double halves[] = {1e300, 8, 7, 0.25, 1e-9, 0};
+    const double halves[] = {1e300, 8, 4, 1.5, 1e-9, 0}; /* a level spans a factor of 4: the first from 4 on */
     for (size_t i = 0; i < 6; i++) {
         const octree_body body = body_at(0, 0, 0, halves[i], i);
         assert_int_equal(octree_bodies_insert(set, &body), OCTREE_OK);
