@@ -6,9 +6,10 @@
  * stored once. The position must lie in the world; the box may reach beyond it.
  *
  * How it works. A tree of points finds bodies if each query is extended by the largest half extents. One large body
- * would then slow down every query. So bodies are divided by size into at most twelve levels, and each level is an octree
- * of positions (octree.h). A level extends queries only by its own largest half extents, its `reach`. This is a loose
- * octree (Ulrich 2000) whose cells adapt to the number of bodies. The nodes of a level are a function of its bodies.
+ * would then slow down every query. So bodies are divided by size into at most twelve levels, and each level is an
+ * octree of positions (octree.h). A level extends queries only by its own largest half extents, its `reach`. This is a
+ * loose octree (Ulrich 2000) whose cells adapt to the number of bodies. The nodes of a level are a function of its
+ * bodies.
  *
  * All answers are decided by real numbers: no body is missed or added because of rounding. A node is skipped only if a
  * box that contains all of its bodies fails the test by which a body is accepted.

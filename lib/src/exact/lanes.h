@@ -75,8 +75,8 @@ static inline lanes lanes_load(const double from[2])
 /* Returns a few bits of two numbers, as doubles: (a >> shift) & mask. The mask is below 2^31. */
 static inline lanes lanes_of_bits(uint64_t a, uint64_t b, unsigned shift, uint64_t mask)
 {
-    const __m128i both = _mm_unpacklo_epi64(_mm_cvtsi64_si128((int64_t)a), _mm_cvtsi64_si128((int64_t)b));
-    const __m128i bits = _mm_and_si128(_mm_srli_epi64(both, (int)shift), _mm_set1_epi64x((int64_t)mask));
+    const __m128i both = _mm_unpacklo_epi64(_mm_loadl_epi64((const __m128i *)&a), _mm_loadl_epi64((const __m128i *)&b));
+    const __m128i bits = _mm_and_si128(_mm_srli_epi64(both, (int)shift), _mm_set_epi32(0, (int)mask, 0, (int)mask));
     return _mm_cvtepi32_pd(_mm_shuffle_epi32(bits, _MM_SHUFFLE(3, 3, 2, 0)));
 }
 
