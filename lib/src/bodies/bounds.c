@@ -78,13 +78,10 @@ cast_bounds make_cast_bounds(const cast *c)
 static inline time_spans find_spans(const cast_axis *c, lanes center, lanes half)
 {
     const lanes offset = lanes_subtract(center, c->origin), reach = lanes_add(half, c->half);
-    const lanes size = lanes_add(lanes_absolute(offset), reach);
-    if (!c->moves) {
-        const lanes gap = lanes_subtract(lanes_absolute(offset), reach);
-        const lanes excess = lanes_subtract(gap, lanes_multiply(size, lanes_all(0x1p-50)));
-        return (time_spans){lanes_if_positive(excess, HUGE_VAL), lanes_all(HUGE_VAL)};
-    }
-    const lanes way = lanes_multiply(offset, c->sign);
+    if (!c->moves) /* rounding is monotone, so the rounded terms are compared without an error */
+        return (time_spans){lanes_if_positive(lanes_subtract(lanes_absolute(offset), reach), HUGE_VAL),
+                            lanes_all(HUGE_VAL)};
+    const lanes way = lanes_multiply(offset, c->sign), size = lanes_add(lanes_absolute(offset), reach);
     const lanes error = lanes_add(lanes_multiply(size, c->slack), lanes_all(0x1p-1000));
     return (time_spans){lanes_subtract(lanes_multiply(lanes_subtract(way, reach), c->inverse), error),
                         lanes_add(lanes_multiply(lanes_add(way, reach), c->inverse), error)};

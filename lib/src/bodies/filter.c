@@ -24,15 +24,14 @@ static inline bit_pair take_two_bits(uint64_t *mask)
 
 /* ---- Boxes and balls ---------------------------------------------------------------------------------------- */
 
-/* The faces of the box are moved outwards. Near a face, |center| <= |face| + reach, so the sum of a position and a half
- * extent has an error of at most 2^-53 * (|face| + 2 reach). A face at infinity stays there. */
+/* No error is added, because rounding is monotone: a rounded end of a body lies beyond a face only if the real one
+ * does. */
 uint64_t filter_by_box(const shape *s, const level *l, const octree_point *points, uint64_t near)
 {
     lanes low[3], high[3];
     for (int i = 0; i < 3; i++) {
-        const double min = s->region->box.min[i], max = s->region->box.max[i], reach = l->reach[i];
-        low[i] = lanes_all(min - (fabs(min) + reach) * 0x1p-50);
-        high[i] = lanes_all(max + (fabs(max) + reach) * 0x1p-50);
+        low[i] = lanes_all(s->region->box.min[i]);
+        high[i] = lanes_all(s->region->box.max[i]);
     }
     uint64_t apart = 0;
     for (uint64_t left = near; left;) {
@@ -47,16 +46,16 @@ uint64_t filter_by_box(const shape *s, const level *l, const octree_point *point
     return near & ~apart;
 }
 
-/* The squares are not scaled: if the square of the radius underflows or overflows, few or no bodies are excluded. */
+/* The squares are not scaled: if the square of the radius underflows or overflows, few or no bodies are excluded. The
+ * bound of a square leaves room for the error of the radius's square. */
 uint64_t filter_by_ball(const shape *s, const level *l, const octree_point *points, uint64_t near)
 {
-    const double square = s->region->radius * s->region->radius;
-    const lanes above = lanes_all(square * (1 + 0x1p-50) + 0x1p-1000);
+    const lanes square = lanes_all(s->region->radius * s->region->radius);
     uint64_t apart = 0;
     for (uint64_t left = near; left;) {
         const bit_pair at = take_two_bits(&left);
         const two_bodies two = load_two_bodies(l, &points[at.a], &points[at.b]);
-        const unsigned pair = lanes_less(above, bound_squares_of_two(s->region->center, 1, &two));
+        const unsigned pair = lanes_less(square, bound_squares_of_two(s->region->center, 1, &two));
         apart |= (uint64_t)(pair & 1) << at.a | (uint64_t)(pair >> 1) << at.b;
     }
     return near & ~apart;

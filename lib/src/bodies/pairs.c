@@ -8,8 +8,8 @@
  * found once: pairs of two children of a node are visited for i < j only.
  *
  * Two neighbouring leaves have few bodies that can meet: those that meet the common box of both leaves. These are
- * gathered from one leaf, and compared with those of the other. Boxes are rounded outwards, so they are a quick test
- * before the exact test.
+ * gathered from one leaf, and compared with those of the other. Boxes with rounded faces are a quick test before
+ * the exact test.
  *
  * The descent runs over copies of the levels (snapshot.c), in which the order of groups and bodies is a function of the
  * bodies alone. So is the order of the pairs.

@@ -5,10 +5,10 @@
  * bodies of a leaf are sorted, so that the results of an algorithm are a function of the bodies, and all bodies lie in
  * the order of the leaves, so that the algorithm runs through memory in order. Copying costs O(n log M).
  *
- * Boxes are stored as columns: two boxes are compared at once, and all without branches.
+ * Boxes are stored as columns: two boxes are compared at once, and all without branches. Their faces are rounded, and
+ * rounding is monotone: bodies that have a common point have boxes that have one.
  */
 #include "snapshot.h"
-#include "../exact/exact.h"
 #include "../tree/leaf.h"
 
 #include <stdlib.h>
@@ -91,8 +91,8 @@ static void store_box(snapshot *s, size_t index, octree_box *around)
     const octree_body *body = &s->bodies[index];
     octree_box box;
     for (int k = 0; k < 3; k++) {
-        box.min[k] = s->boxes.min[k][index] = exact_add_down(body->position[k], -body->half[k]);
-        box.max[k] = s->boxes.max[k][index] = exact_add_up(body->position[k], body->half[k]);
+        box.min[k] = s->boxes.min[k][index] = body->position[k] - body->half[k];
+        box.max[k] = s->boxes.max[k][index] = body->position[k] + body->half[k];
     }
     include_box(around, &box);
 }

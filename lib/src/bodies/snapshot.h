@@ -14,7 +14,7 @@ typedef struct group {
     unsigned child_count; /* 0: a leaf */
 } group;
 
-/* Boxes of bodies, rounded outwards, as one array for each face. */
+/* Boxes of bodies, with rounded faces, as one array for each face. */
 typedef struct box_columns {
     double *min[3], *max[3];
 } box_columns;

@@ -21,31 +21,18 @@ static double finite_face(double face)
     return face > DBL_MAX ? DBL_MAX : face < -DBL_MAX ? -DBL_MAX : face;
 }
 
-/* Returns 1 if a body and a box certainly overlap, 0 if they certainly do not, and -1 if doubles do not decide. The
- * error of each sum is at most 3 * 2^-53 times the sum of its absolute values. */
-static int test_box_in_doubles(const octree_body *e, const octree_box *box)
-{
-    double least = HUGE_VAL, size = 0;
-    for (int i = 0; i < 3; i++) {
-        const double p = e->position[i], h = e->half[i];
-        const double below = (box->max[i] - p) + h, above = (p - box->min[i]) + h; /* negative: they are apart */
-        least = below < least ? below : least;
-        least = above < least ? above : least;
-        size += (fabs(box->min[i]) + fabs(box->max[i])) + (fabs(p) + h);
-    }
-    return fabs(least) > size * 0x1p-50 ? least > 0 : -1;
-}
-
+/* Rounding is monotone: a rounded end of the body lies beyond a face only if the real end does. If they are equal, an
+ * exact sum decides. */
 bool body_meets_box(const octree_body *e, const octree_box *box)
 {
-    const int answer = test_box_in_doubles(e, box);
-    if (answer >= 0)
-        return answer;
-    for (int i = 0; i < 3; i++)
-        if (box->min[i] > DBL_MAX || box->max[i] < -DBL_MAX ||
-            body_sign(finite_face(box->min[i]), -e->position[i], -e->half[i], 0) > 0 ||
-            body_sign(e->position[i], -finite_face(box->max[i]), -e->half[i], 0) > 0)
+    for (int i = 0; i < 3; i++) {
+        const double p = e->position[i], h = e->half[i], min = box->min[i], max = box->max[i];
+        if (p + h < min || max < p - h)
             return false;
+        if ((p + h == min && body_sign(finite_face(min), -p, -h, 0) > 0) ||
+            (p - h == max && body_sign(p, -finite_face(max), -h, 0) > 0))
+            return false;
+    }
     return true;
 }
 
@@ -133,8 +120,8 @@ body_square body_measure(const octree_body *e, const double target[3], double sc
     body_square s = {0, 0};
     for (int i = 0; i < 3; i++) {
         const double offset = fabs(target[i] - e->position[i]), gap = offset - e->half[i], size = offset + e->half[i];
-        if (!(gap < size * -0x1p-51)) /* otherwise the gap is certainly 0 */
-            measure_axis(&s, gap > 0 ? gap * scale : 0, size * scale);
+        if (!(gap < 0)) /* the rounded gap has the sign of the real one: rounding is monotone, and half is a double */
+            measure_axis(&s, gap * scale, size * scale);
     }
     return s;
 }

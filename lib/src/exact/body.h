@@ -22,19 +22,17 @@ static inline int body_sign(double a, double b, double c, double d)
     return exact_sign_of_sum((double[]){a, b, c, d}, 4);
 }
 
-/* Returns whether two bodies have a common point. On an axis, the error of the computed gap is at most 2^-53 times the
- * sum of its three absolute values. */
+/* Returns whether two bodies have a common point. Rounding is monotone: of two rounded sums, the greater one has the
+ * greater real value. Only if they are equal, an exact sum decides. */
 static inline bool bodies_meet(const octree_body *a, const octree_body *b)
 {
     for (int i = 0; i < 3; i++) {
-        const double way = fabs(a->position[i] - b->position[i]), reach = a->half[i] + b->half[i], gap = way - reach;
-        if (fabs(gap) > (way + reach) * 0x1p-50) { /* false if a value overflowed */
-            if (gap > 0)
-                return false;
-        } else if (body_sign(a->position[i], -b->position[i], -a->half[i], -b->half[i]) > 0 ||
-                   body_sign(b->position[i], -a->position[i], -a->half[i], -b->half[i]) > 0) {
+        const double way = fabs(a->position[i] - b->position[i]), reach = a->half[i] + b->half[i];
+        if (way > reach)
             return false;
-        }
+        if (way == reach && (body_sign(a->position[i], -b->position[i], -a->half[i], -b->half[i]) > 0 ||
+                             body_sign(b->position[i], -a->position[i], -a->half[i], -b->half[i]) > 0))
+            return false;
     }
     return true;
 }
