@@ -170,13 +170,12 @@ static void finish_insertion(bulk *b, const pending *p, bool made)
 static void add_row(bulk *b, size_t index)
 {
     const octree_body *body = &b->from[index];
-    octree_status status = check_body(b->set, body);
-    if (status == OCTREE_OK && rows_find(&b->set->rows, body) != ROW_NONE)
-        status = OCTREE_DUPLICATE;
-    if (status == OCTREE_OK)
-        collect(b, index, rows_add(&b->set->rows, body), body, find_level(b->set, body->half));
+    const octree_status status = check_body(b->set, body);
+    const uint32_t row = status == OCTREE_OK ? rows_add(&b->set->rows, body) : ROW_NONE;
+    if (row == ROW_NONE)
+        set_status(b, index, status == OCTREE_OK ? OCTREE_DUPLICATE : status);
     else
-        set_status(b, index, status);
+        collect(b, index, row, body, find_level(b->set, body->half));
 }
 
 /* The least number of bodies that are sorted before they are added. */
@@ -242,8 +241,11 @@ octree_status octree_bodies_insert_many(octree_bodies *bodies, const octree_body
         return OCTREE_NO_MEMORY;
     row_order order = make_order(bodies, added, count);
     for (size_t i = 0; i < count; i++) {
-        if (order.indices && i + PREFETCH_AHEAD < count)
-            prefetch_memory(&added[order.indices[i + PREFETCH_AHEAD]]);
+        const size_t soon = i + PREFETCH_AHEAD, later = soon + PREFETCH_AHEAD;
+        if (soon < count)
+            rows_prefetch(&bodies->rows, &added[order.indices ? order.indices[soon] : soon]);
+        if (order.indices && later < count)
+            prefetch_memory(&added[order.indices[later]]);
         add_row(&b, order.indices ? order.indices[i] : i);
     }
     free_order(bodies, &order);

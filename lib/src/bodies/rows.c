@@ -172,13 +172,16 @@ uint32_t rows_find(const rows *r, const octree_body *body)
 
 uint32_t rows_add(rows *r, const octree_body *body)
 {
+    const uint32_t hash = hash_body(body), slot = find_slot(r, body, hash);
+    if (r->slots[slot].row)
+        return ROW_NONE;
     uint32_t index = r->free;
     if (index == ROW_NONE)
         index = r->end++;
     else
         r->free = (uint32_t)row_at(r, index)->id;
     *row_at(r, index) = *body;
-    rows_show(r, index);
+    r->slots[slot] = (row_slot){hash, index + 1};
     r->count++;
     return index;
 }

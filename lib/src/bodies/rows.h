@@ -38,7 +38,7 @@ octree_status rows_reserve(rows *r, size_t count);
 /* Returns the index of the row of a body, or ROW_NONE. */
 uint32_t rows_find(const rows *r, const octree_body *body);
 
-/* Add a body that is not stored yet. There is room for it. Returns the index of its row. */
+/* Add a body, for which there is room. Returns the index of its row, or ROW_NONE if the body is stored already. */
 uint32_t rows_add(rows *r, const octree_body *body);
 
 /* Remove the body of a row: rows_hide() and rows_free() in one. rows_hide() removes a body from the hash table only,

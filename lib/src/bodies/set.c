@@ -172,9 +172,9 @@ octree_status octree_bodies_insert(octree_bodies *bodies, const octree_body *bod
         status = rows_reserve(&bodies->rows, 1);
     if (status != OCTREE_OK)
         return status;
-    if (rows_find(&bodies->rows, &added) != ROW_NONE)
-        return OCTREE_DUPLICATE;
     const uint32_t row = rows_add(&bodies->rows, &added);
+    if (row == ROW_NONE)
+        return OCTREE_DUPLICATE;
     const unsigned begun = begin_set_callbacks(bodies); /* under OCTREE_AUTO, the executor */
     const uint64_t id = make_point_id(&bodies->levels[number], row, added.half);
     status = octree_insert(bodies->levels[number].tree, added.position, id);
