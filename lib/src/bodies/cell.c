@@ -1,26 +1,31 @@
 /* SPDX-License-Identifier: MIT */
 /* cell.c - boxes around the bodies of the eight octants of a cell. */
 #include "cell.h"
+#include "../exact/lanes.h"
 #include "../query/search.h"
 
-/* Compute the centre and the half extents of one half. Let u = 2^-53. The centre has an error of at most u * |centre|
- * plus 2^-1074, and the sums below of 3u; the bounds cover more than that. */
-static void bound_half(cell_halves *h, int axis, unsigned half, double low, double high, double reach)
+/* Compute the centres and the half extents of both halves of a cell on one axis. Let u = 2^-53. A centre has an error
+ * of at most u * |centre| plus 2^-1074, and the sums below of 3u; the bounds cover more than that. */
+static inline void bound_halves(cell_halves *h, int axis, double reach)
 {
-    const double size = fabs(low) + fabs(high);
-    const double inner = ((high - low) * 0.5 + size * 0x1p-50) * (1 + 0x1p-50) + 0x1p-1070;
-    const bool too_large = !(size + reach < DBL_MAX / 16);
-    h->center[axis][half] = low * 0.5 + high * 0.5;
-    h->inner[axis][half] = too_large ? HUGE_VAL : inner;
-    h->outer[axis][half] = too_large ? HUGE_VAL : (inner + reach) * (1 + 0x1p-50);
+    const lanes low = lanes_of(h->low[axis], h->middle[axis]), high = lanes_of(h->middle[axis], h->high[axis]);
+    const lanes size = lanes_add(lanes_absolute(low), lanes_absolute(high)), one_half = lanes_all(0.5);
+    const lanes extent =
+        lanes_add(lanes_multiply(lanes_subtract(high, low), one_half), lanes_multiply(size, lanes_all(0x1p-50)));
+    const lanes inner = lanes_add(lanes_multiply(extent, lanes_all(1 + 0x1p-50)), lanes_all(0x1p-1070));
+    const lanes outer = lanes_multiply(lanes_add(inner, lanes_all(reach)), lanes_all(1 + 0x1p-50));
+    const lanes excess = lanes_subtract(lanes_add(size, lanes_all(reach)), lanes_all(DBL_MAX / 16));
+    const lanes beyond = lanes_if_positive(excess, HUGE_VAL); /* infinite in worlds near the range of doubles */
+    lanes_store(h->center[axis], lanes_add(lanes_multiply(low, one_half), lanes_multiply(high, one_half)));
+    lanes_store(h->inner[axis], lanes_larger(inner, beyond));
+    lanes_store(h->outer[axis], lanes_larger(outer, beyond));
 }
 
 static void divide_cell(const level *l, cell c, cell_halves *h)
 {
     for (int i = 0; i < 3; i++) {
         h->middle[i] = plane_at(&l->tree->axes[i], c.low[i] + cell_size(c.depth) / 2);
-        bound_half(h, i, 0, h->low[i], h->middle[i], l->reach[i]);
-        bound_half(h, i, 1, h->middle[i], h->high[i], l->reach[i]);
+        bound_halves(h, i, l->reach[i]);
     }
 }
 
