@@ -202,6 +202,26 @@ octree_cost recount_ray(recount *all, const octree_bodies *bodies, const octree_
     return cost;
 }
 
+static bool count_body(const octree_body *body, void *count)
+{
+    (void)body;
+    ++*(size_t *)count;
+    return true;
+}
+
+static octree_cost recount_frustum(recount *all, const octree_bodies *bodies, const octree_answer *frustum)
+{
+    octree_cost cost = {0};
+    size_t count = 0;
+    const octree_search traced = {.cost = &cost, .trace = add_visit, .trace_context = all};
+    const octree_region region = {.kind = OCTREE_REGION_HALF_SPACES,
+                                  .half_spaces = frustum->frustum.half_spaces,
+                                  .half_space_count = frustum->frustum.count};
+    assert_int_equal(octree_bodies_search(bodies, &region, &traced, count_body, &count), OCTREE_OK);
+    assert_int_equal(count, frustum->count);
+    return cost;
+}
+
 /* ---- A tick ------------------------------------------------------------------------------------------------- */
 
 static octree_walk_order collect_points(const octree_node *node, void *context)
@@ -292,6 +312,8 @@ static octree_cost recount_answer(recount *all, const octree_game *game, const o
     region r = {.all = all, .radius = answer->radius, .reach = find_reach(game, reach)};
     r.box = answer->kind == OCTREE_QUERY_RANGE ? &answer->box : NULL;
     r.center = answer->target;
+    if (answer->kind == OCTREE_QUERY_FRUSTUM)
+        return recount_frustum(all, octree_game_bodies(game), answer);
     if (!octree_query_about(answer->kind)->neighbors)
         return walk_region(r, tree);
     how.skip = same_position(answer->target, octree_game_tick(game)->player) ? OCTREE_SKIP_ID : OCTREE_SKIP_NONE;

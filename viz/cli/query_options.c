@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* query_options.c - the options that ask queries: --ray, --nearest, --radius and --range. A kind of query has
- * an option if its row in query_looks.h has a text for the option's value, such as X,Y,Z. The numbers in the value are
- * the members of the query, in the order of OCTREE_QUERY_MEMBER_MAP; optional members may be missing at the end. */
+/* query_options.c - the options that ask queries: --frustum, --ray, --nearest, --radius and --range. A kind of query
+ * has an option if its row in query_looks.h has a text for the option's value, such as X,Y,Z. The numbers in the value
+ * are the members of the query, in the order of OCTREE_QUERY_MEMBER_MAP; optional members may be missing at the end. */
 #include "query_options.h"
 #include "number.h"
 #include "octree/octree.h"
@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-#define MOST_NUMBERS 16
+#define MOST_NUMBERS (4 * OCTREE_FRUSTUM_HALF_SPACES)
 
 static const struct {
     octree_query_kind kind;
@@ -26,12 +26,14 @@ static const struct {
 #undef QUERY_OPTION
 };
 
+/* Returns the number of numbers of a member; of a frustum, that of one half-space. */
 static size_t count_numbers_of_type(octree_member_type type)
 {
     static const size_t numbers[] = {
         [OCTREE_MEMBER_BOX] = 6,       [OCTREE_MEMBER_POSITION] = 3,
         [OCTREE_MEMBER_DIRECTION] = 3, [OCTREE_MEMBER_COUNT] = 1,
-        [OCTREE_MEMBER_LENGTH] = 1,    [OCTREE_MEMBER_BOUNDS] = 0}; /* no number: bounds are always closed */
+        [OCTREE_MEMBER_LENGTH] = 1,    [OCTREE_MEMBER_BOUNDS] = 0, /* no number: bounds are always closed */
+        [OCTREE_MEMBER_FRUSTUM] = 4};
     return numbers[type];
 }
 
@@ -51,8 +53,10 @@ static size_t count_numbers_of_kind(octree_query_kind kind, bool with_optional)
 /* Parses the numbers of a kind of query. Returns how many there are, or 0 if the text is not valid. */
 static size_t parse_query_numbers(const char *text, octree_query_kind kind, double numbers[MOST_NUMBERS])
 {
-    const size_t most = count_numbers_of_kind(kind, true);
-    for (size_t count = count_numbers_of_kind(kind, false); count <= most; count++)
+    const bool repeats = octree_query_about(kind)->members & OCTREE_QUERY_HAS_FRUSTUM;
+    const size_t least = count_numbers_of_kind(kind, false), step = repeats ? least : 1;
+    const size_t most = repeats ? MOST_NUMBERS : count_numbers_of_kind(kind, true);
+    for (size_t count = least; count <= most; count += step)
         if (numbers_parse(text, numbers, count))
             return count;
     return 0;
@@ -67,6 +71,11 @@ static bool set_query_members(octree_query *query, const double *numbers, size_t
         char *value = (char *)query + member->in_query;
         if (!(octree_query_about(query->kind)->members & member->bit))
             continue;
+        if (member->type == OCTREE_MEMBER_FRUSTUM) {
+            memcpy(value, numbers, count * sizeof *numbers);
+            query->frustum.count = count / 4;
+            return true;
+        }
         if (member->type != OCTREE_MEMBER_COUNT)
             memcpy(value, numbers, count_numbers_of_type(member->type) * sizeof *numbers);
         else if (*numbers >= 1 && *numbers < 0x1p53 && *numbers == floor(*numbers))

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* session_items.c - reads and writes lists of edits, queries and shapes. An item of such a list is an object with a
  * member whose name is the kind of the item, such as "insert". */
+#include "frustum.h"
 #include "array.h"
 #include "session_members.h"
 
@@ -76,7 +77,7 @@ static void write_target(json_writer *w, const void *from)
         json_write_numbers(w, query->target, 3);
 }
 
-static bool read_box_at_player(json_reader *r, json_t *value, const json_place *at, void *into)
+static bool read_region_at_player(json_reader *r, json_t *value, const json_place *at, void *into)
 {
     return is_player_word(value) ? read_player_target(r, at, into) : json_fail_expected(r, value, at, "\"player\"");
 }
@@ -158,7 +159,8 @@ static json_member make_query_member(const octree_query_member_traits *member)
         [OCTREE_MEMBER_DIRECTION] = {.codec = &direction},
         [OCTREE_MEMBER_COUNT] = {.codec = &json_size, .max = UINT32_MAX},
         [OCTREE_MEMBER_LENGTH] = {.codec = &json_nonnegative, .nonzero_size = sizeof(double)},
-        [OCTREE_MEMBER_BOUNDS] = {.codec = &json_choice, .names = bounds_name, .nonzero_size = sizeof(octree_bounds)}};
+        [OCTREE_MEMBER_BOUNDS] = {.codec = &json_choice, .names = bounds_name, .nonzero_size = sizeof(octree_bounds)},
+        [OCTREE_MEMBER_FRUSTUM] = {.codec = &json_frustum}};
     static const json_codec target = {read_target, write_target};
     json_member row = rows[member->type];
     row.name = member->key;
@@ -173,8 +175,8 @@ static json_member make_query_member(const octree_query_member_traits *member)
     return row;
 }
 
-static const json_member box_at_player = {"at", JSON_CODEC(read_box_at_player, write_target),
-                                          JSON_IF(octree_query, at_player)};
+static const json_member region_at_player = {"at", JSON_CODEC(read_region_at_player, write_target),
+                                             JSON_IF(octree_query, at_player)};
 
 JSON_NAMES(precision_name, octree_precision_name, octree_precision)
 
@@ -195,8 +197,8 @@ static const json_member general_members[] = {
     {"mode", &json_choice, QUERY(precision), .names = precision_name, .is_set = has_mode, .check = check_mode},
 };
 
-/* Fill the table with the members of a kind of query, in the order of octree_query_member_at(). If the kind has a box
- * but no target, its box can be relative to the player. */
+/* Fill the table with the members of a kind of query, in the order of octree_query_member_at(). If the kind has no
+ * target, its region can be relative to the player. */
 static void list_query_members(int kind, json_member table[MOST_MEMBERS])
 {
     const octree_query_traits *about = octree_query_about((octree_query_kind)kind);
@@ -210,8 +212,8 @@ static void list_query_members(int kind, json_member table[MOST_MEMBERS])
             table[count++] = make_query_member(member);
         }
     }
-    if (about->members & OCTREE_QUERY_HAS_BOX && !(about->members & OCTREE_QUERY_HAS_TARGET))
-        table[count++] = box_at_player;
+    if (!(about->members & OCTREE_QUERY_HAS_TARGET))
+        table[count++] = region_at_player;
     memcpy(table + count, general_members, sizeof general_members);
 }
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* ticks_write.c - the tables of the members of a line of ticks.jsonl, and the functions that write their values. */
+#include "frustum.h"
 #include "ticks_write.h"
 #include "frame_file.h"
 #include "json_table.h"
@@ -193,7 +194,8 @@ void tick_write_query_parameters(json_writer *w, const octree_answer *answer)
         [OCTREE_MEMBER_DIRECTION] = {.codec = &json_vector},
         [OCTREE_MEMBER_COUNT] = {.codec = &json_size},
         [OCTREE_MEMBER_LENGTH] = {.codec = &json_number, .nonzero_size = sizeof(double)},
-        [OCTREE_MEMBER_BOUNDS] = {.codec = &json_choice, .names = bounds_name, .nonzero_size = sizeof(octree_bounds)}};
+        [OCTREE_MEMBER_BOUNDS] = {.codec = &json_choice, .names = bounds_name, .nonzero_size = sizeof(octree_bounds)},
+        [OCTREE_MEMBER_FRUSTUM] = {.codec = &json_frustum}};
     const octree_query_traits *about = octree_query_about(answer->kind);
     for (size_t i = 0; i < OCTREE_QUERY_MEMBERS; i++) {
         const octree_query_member_traits *member = octree_query_member_at(i);
@@ -202,6 +204,7 @@ void tick_write_query_parameters(json_writer *w, const octree_answer *answer)
             continue;
         table[0].name = member->bit == OCTREE_QUERY_HAS_TARGET      ? about->place
                         : member->bit == OCTREE_QUERY_HAS_DIRECTION ? "direction"
+                        : member->bit == OCTREE_QUERY_HAS_FRUSTUM   ? "half_spaces"
                                                                     : member->key;
         table[0].offset = table[0].nonzero = member->in_answer;
         if (!member->optional)

@@ -4,6 +4,7 @@
 #include "layer_type.h"
 #include "layout.h"
 #include "number.h"
+#include "polytope.h"
 #include "text.h"
 
 #include <inttypes.h>
@@ -172,6 +173,37 @@ const layer_type layer_RADIUS = {
     .write_answer = write_radius,
     .legend = {.order = 130, .sign = SIGN_LINE, .text = "radius query", .drop_order = DROP_LATE},
     .describe = describe_radius};
+
+/* ---- Frusta ------------------------------------------------------------------------------------------------- */
+
+static void add_frustum(scene *s, const layer_source *in, size_t place, view_layer layer)
+{
+    const octree_answer *answer = &in->answers[place];
+    polytope_edge edges[POLYTOPE_EDGES];
+    const size_t count = polytope_find_edges(&in->world, &answer->frustum, edges);
+    for (size_t i = 0; i < count; i++)
+        scene_add_line(s, make_part_id(place, edges[i].planes[0] * POLYTOPE_PLANES + edges[i].planes[1]),
+                       edges[i].ends[0], edges[i].ends[1], make_layer_style(layer, STROKE_SOLID, 2));
+    mark_answer_points(s, answer, layer, SHAPE_FRAME, 5);
+}
+
+static void write_frustum(pen *p, const octree_answer *answer)
+{
+    write_ids(p, "frustum", answer->points, answer->count);
+}
+
+static void describe_frustum(description *d, const described_element *element)
+{
+    const octree_answer *answer = append_query(d, "edge", element->id >> 32);
+    append_text(d, " of %zu half-space%s", answer->frustum.count, plural_ending(answer->frustum.count));
+    append_found_count(d, answer);
+}
+
+const layer_type layer_FRUSTUM = {
+    .add_answer = add_frustum,
+    .write_answer = write_frustum,
+    .legend = {.order = 125, .sign = SIGN_LINE, .text = "frustum query", .drop_order = DROP_LATE},
+    .describe = describe_frustum};
 
 /* ---- Queries for k nearest points --------------------------------------------------------------------------- */
 

@@ -190,6 +190,10 @@ static void print_member(const shown_answer *shown, const octree_query_member_tr
         if (*(const octree_bounds *)value != OCTREE_BOUNDS_CLOSED)
             fprintf(out, ", %s bounds", octree_bounds_name(*(const octree_bounds *)value));
         break;
+    case OCTREE_MEMBER_FRUSTUM:
+        fprintf(out, " of %zu half-space%s", ((const octree_frustum *)value)->count,
+                plural_ending(((const octree_frustum *)value)->count));
+        break;
     case OCTREE_MEMBER_COUNT: /* a count is printed at the start of the question */
         break;
     }

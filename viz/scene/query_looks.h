@@ -32,7 +32,11 @@
       "is hit if it is at most THICKNESS from the ray on each axis (0 or none: chosen from the sizes of the leaves). " \
       "The ray ends after LENGTH times the direction, or never",                                                       \
       "a position, a direction, and optionally the number of hits, the thickness and the length of the ray, as in "    \
-      "0,0,0,1,0,0 or 0,0,0,1,0,0,8,0.5,100")
+      "0,0,0,1,0,0 or 0,0,0,1,0,0,8,0.5,100")                                                                          \
+    Y(X, FRUSTUM, "frustum", "frustum queries", "edges of frusta, and the points found in them", ROLE_RANGE,           \
+      "NX,NY,NZ,D[,NX,NY,NZ,D...]", FRUSTUM,                                                                           \
+      "print and draw the points in up to 8 half-spaces: those with NX*x + NY*y + NZ*z <= D for each",                 \
+      "1 to 8 half-spaces of four numbers each, as in 1,0,0,10,0,1,0,10")
 
 #define QUERY_LAYER(X, kind, name, words, help, role, ...) X(kind, name, words, help, role, false, true)
 

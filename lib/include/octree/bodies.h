@@ -124,12 +124,6 @@ void octree_bodies_at(const octree_bodies *bodies, const octree_point *point, oc
 /* A function that is called with each body that matches a query. Returns true to continue, false to stop. */
 typedef bool (*octree_body_visitor)(const octree_body *body, void *context);
 
-/* The half-space normal . x <= offset. */
-typedef struct octree_half_space {
-    double normal[3]; /* finite, not zero; it need not have length 1 */
-    double offset;    /* finite */
-} octree_half_space;
-
 #define OCTREE_MAX_HALF_SPACES 32
 
 typedef enum octree_region_kind {

@@ -25,6 +25,7 @@ typedef enum octree_member_type {
     OCTREE_MEMBER_COUNT,     /* size_t: any number */
     OCTREE_MEMBER_LENGTH,    /* double: finite, >= 0 */
     OCTREE_MEMBER_BOUNDS,    /* octree_bounds */
+    OCTREE_MEMBER_FRUSTUM,   /* octree_frustum */
 } octree_member_type;
 
 /* Whether points exactly on the boundary of a region belong to the answer. Coordinates and distances are compared as
@@ -39,6 +40,15 @@ typedef enum octree_bounds {
     OCTREE_BOUNDS_EITHER,
     OCTREE_BOUNDS_KINDS
 } octree_bounds;
+
+/* The most half-spaces of a query: the six of a camera's frustum and two planes that clip it. */
+#define OCTREE_FRUSTUM_HALF_SPACES 8
+
+/* The intersection of 1 to OCTREE_FRUSTUM_HALF_SPACES half-spaces, such as what a camera sees. */
+typedef struct octree_frustum {
+    octree_half_space half_spaces[OCTREE_FRUSTUM_HALF_SPACES];
+    size_t count;
+} octree_frustum;
 
 /* The name of bounds in session files: "closed", "open" or "either". Null for bounds >= OCTREE_BOUNDS_KINDS. */
 const char *octree_bounds_name(octree_bounds bounds);
@@ -55,6 +65,7 @@ const char *octree_bounds_name(octree_bounds bounds);
     X(RADIUS, radius, LENGTH, "radius", REQUIRED)                                                                      \
     X(THICKNESS, thickness, LENGTH, "thickness", OPTIONAL)                                                             \
     X(LENGTH, length, LENGTH, "length", OPTIONAL)                                                                      \
+    X(FRUSTUM, frustum, FRUSTUM, "frustum", REQUIRED)                                                                  \
     X(BOUNDS, bounds, BOUNDS, "bounds", OPTIONAL)
 
 enum {
@@ -105,7 +116,9 @@ const octree_query_member_traits *octree_query_member_at(size_t index);
     X(RAY, ray,                                                                                                        \
       OCTREE_QUERY_HAS_TARGET | OCTREE_QUERY_HAS_DIRECTION | OCTREE_QUERY_HAS_K | OCTREE_QUERY_HAS_THICKNESS |         \
           OCTREE_QUERY_HAS_LENGTH,                                                                                     \
-      OCTREE_QUERY_HAS_DIRECTION, NEIGHBORS, "the first k points that a ray hits", "ray", "origin", "t")
+      OCTREE_QUERY_HAS_DIRECTION, NEIGHBORS, "the first k points that a ray hits", "ray", "origin", "t")               \
+    X(FRUSTUM, frustum, OCTREE_QUERY_HAS_FRUSTUM | OCTREE_QUERY_HAS_BOUNDS, OCTREE_QUERY_HAS_FRUSTUM, POINTS,          \
+      "the points that no half-space excludes", "frustum", "center", "distance")
 
 typedef enum octree_query_kind {
 #define OCTREE_QUERY_ENUM(kind, ...) OCTREE_QUERY_##kind,
@@ -143,17 +156,20 @@ const char *octree_query_name(octree_query_kind kind);
 typedef struct octree_query {
     uint64_t tick; /* the number of the tick at which the query is asked, or OCTREE_EVERY_TICK */
     octree_query_kind kind;
-    bool at_player; /* true: the player's position is the target, and `box` is relative to this position */
+    /* true: the player's position is the target, and `box` and `frustum` are relative to this position */
+    bool at_player;
     octree_box box; /* the box of a range query */
     /* the position whose neighbours are searched, the center of the ball, or the origin of the ray. Not read if
      * at_player is true */
     double target[3];
-    double direction[3];  /* the ray is target + t * direction for t >= 0; it need not have length 1 */
-    size_t k;             /* the number of neighbours or hits to find; if there are fewer, all are found */
-    double radius;        /* the radius of the ball, >= 0 */
-    double thickness;     /* the half extent of the ray on each axis, >= 0; without it, a ray rarely hits a point */
-    double length;        /* the largest parameter t of the ray; 0: the ray has no end */
-    octree_bounds bounds; /* read for boxes and balls: whether the boundary belongs to the answer */
+    double direction[3]; /* the ray is target + t * direction for t >= 0; it need not have length 1 */
+    size_t k;            /* the number of neighbours or hits to find; if there are fewer, all are found */
+    double radius;       /* the radius of the ball, >= 0 */
+    double thickness;    /* the half extent of the ray on each axis, >= 0; without it, a ray rarely hits a point */
+    double length;       /* the largest parameter t of the ray; 0: the ray has no end */
+    /* a point or body belongs to the answer unless a half-space has all of it outside (octree_region in bodies.h) */
+    octree_frustum frustum;
+    octree_bounds bounds; /* read for regions: whether the boundary belongs to the answer */
     /* the points that no answer may contain. NONE: no point is skipped, except the game's player in a query for
      * neighbours with at_player. COINCIDENT: points at the target are skipped; this is an error in a query without a
      * target */
@@ -176,8 +192,8 @@ typedef struct octree_query {
 
 /* Check whether a query can be asked. The member `tick` is not read. Errors: NULL_ARGUMENT (an array of ids may be null
  * only if its count is 0); BAD_OPTION (kind, bounds, precision or skip is invalid, or COINCIDENT without a target);
- * NOT_FINITE, BAD_RANGE, BAD_SIZE (epsilon, or a member that the kind reads); BAD_SIZE (the id of a foreign node is not
- * below OCTREE_NODE_ID_LIMIT). */
+ * NOT_FINITE, BAD_RANGE, BAD_SIZE (epsilon, or a member that the kind reads, such as the count of half-spaces);
+ * BAD_SIZE (the id of a foreign node is not below OCTREE_NODE_ID_LIMIT). */
 octree_status octree_query_check(const octree_query *query);
 
 /* ---- Answers ------------------------------------------------------------------------------------------------ */
@@ -254,6 +270,7 @@ typedef struct octree_answer {
     double radius;
     double thickness;
     double length;
+    octree_frustum frustum;
     octree_bounds bounds;
     octree_skip skip; /* skip, skip_id and epsilon of the query; skip is NONE if only the player is skipped */
     uint64_t skip_id;

@@ -64,6 +64,12 @@ typedef struct octree_body {
     uint64_t id;
 } octree_body;
 
+/* The half-space normal . x <= offset. */
+typedef struct octree_half_space {
+    double normal[3]; /* finite, not zero; it need not have length 1 */
+    double offset;    /* finite */
+} octree_half_space;
+
 /* The greatest depth of a node; the root has depth 0. An address has three bits for each of its 21 octants and a
  * leading 1 bit, so it fits into 64 bits. */
 #define OCTREE_MAX_DEPTH 21

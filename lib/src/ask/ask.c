@@ -67,6 +67,13 @@ const query_rules *query_rules_of(octree_query_kind kind)
 
 /* ---- Checks ------------------------------------------------------------------------------------------------- */
 
+static octree_status check_frustum(const octree_frustum *frustum)
+{
+    const octree_region region = {
+        .kind = OCTREE_REGION_HALF_SPACES, .half_spaces = frustum->half_spaces, .half_space_count = frustum->count};
+    return frustum->count <= OCTREE_FRUSTUM_HALF_SPACES ? octree_region_check(&region) : OCTREE_BAD_SIZE;
+}
+
 static octree_status check_member(const octree_query *query, const octree_query_member_traits *member)
 {
     const void *value = (const char *)query + member->in_query;
@@ -79,6 +86,8 @@ static octree_status check_member(const octree_query *query, const octree_query_
         return check_direction(value);
     case OCTREE_MEMBER_LENGTH:
         return check_length(*(const double *)value);
+    case OCTREE_MEMBER_FRUSTUM:
+        return check_frustum(value);
     case OCTREE_MEMBER_BOUNDS:
         return octree_bounds_name(*(const octree_bounds *)value) ? OCTREE_OK : OCTREE_BAD_OPTION;
     case OCTREE_MEMBER_COUNT:
@@ -194,9 +203,10 @@ octree_status collect_first_bodies(query_run *run, const octree_answer *answer, 
 static const struct {
     size_t size, doubles;
 } member_sizes[] = {
-    [OCTREE_MEMBER_BOX] = {sizeof(octree_box), 6},      [OCTREE_MEMBER_POSITION] = {sizeof(double[3]), 3},
-    [OCTREE_MEMBER_DIRECTION] = {sizeof(double[3]), 3}, [OCTREE_MEMBER_COUNT] = {sizeof(size_t), 0},
-    [OCTREE_MEMBER_LENGTH] = {sizeof(double), 1},       [OCTREE_MEMBER_BOUNDS] = {sizeof(octree_bounds), 0}};
+    [OCTREE_MEMBER_BOX] = {sizeof(octree_box), 6},        [OCTREE_MEMBER_POSITION] = {sizeof(double[3]), 3},
+    [OCTREE_MEMBER_DIRECTION] = {sizeof(double[3]), 3},   [OCTREE_MEMBER_COUNT] = {sizeof(size_t), 0},
+    [OCTREE_MEMBER_LENGTH] = {sizeof(double), 1},         [OCTREE_MEMBER_BOUNDS] = {sizeof(octree_bounds), 0},
+    [OCTREE_MEMBER_FRUSTUM] = {sizeof(octree_frustum), 0}};
 
 octree_answer make_answer_to_query(const octree_query *query, const double player[3])
 {
@@ -216,6 +226,8 @@ octree_answer make_answer_to_query(const octree_query *query, const double playe
     for (int i = 0; i < 3; i++) {
         answer.box.min[i] += player[i];
         answer.box.max[i] += player[i];
+        for (size_t k = 0; k < answer.frustum.count; k++)
+            answer.frustum.half_spaces[k].offset += answer.frustum.half_spaces[k].normal[i] * player[i];
     }
     return answer;
 }
@@ -232,13 +244,17 @@ static void round_to_floats(double *numbers, size_t count, bool keep)
         memcpy(numbers, rounded, count * sizeof *numbers);
 }
 
-/* A direction of 0 would be invalid, and an optional length of 0 would mean that there is none. */
+/* A direction or normal of 0 would be invalid, and an optional length of 0 would mean that there is none. */
 void round_answer_to_floats(octree_answer *answer)
 {
     for (size_t i = 0; i < OCTREE_QUERY_MEMBERS; i++) {
         const octree_query_member_traits *member = octree_query_member_at(i);
         round_to_floats((double *)((char *)answer + member->in_answer), member_sizes[member->type].doubles,
                         member->optional || member->type == OCTREE_MEMBER_DIRECTION);
+    }
+    for (size_t i = 0; i < answer->frustum.count; i++) {
+        round_to_floats(answer->frustum.half_spaces[i].normal, 3, true);
+        round_to_floats(&answer->frustum.half_spaces[i].offset, 1, false);
     }
 }
 

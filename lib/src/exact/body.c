@@ -204,9 +204,14 @@ static int sign_at_corner(const octree_body *e, const double normal[3], double o
     return exact_sign(&exact);
 }
 
+int body_compare_half_space(const octree_body *e, const double normal[3], double offset)
+{
+    return sign_at_corner(e, normal, offset, -1);
+}
+
 bool body_meets_half_space(const octree_body *e, const double normal[3], double offset)
 {
-    return sign_at_corner(e, normal, offset, -1) <= 0;
+    return body_compare_half_space(e, normal, offset) <= 0;
 }
 
 bool body_is_in_half_space(const octree_body *e, const double normal[3], double offset)

@@ -49,6 +49,10 @@ bool body_is_in_ball(const octree_body *e, const double center[3], double radius
 /* Returns the sign of the distance of a body from a target minus the radius, which is >= 0: -1, 0 or 1. */
 int body_compare_radius(const octree_body *e, const double target[3], double radius);
 
+/* Compare the nearest corner of a body with the half-space normal . x <= offset: -1 if it is inside, 0 if it is on the
+ * boundary, 1 if the whole body is outside. */
+int body_compare_half_space(const octree_body *e, const double normal[3], double offset);
+
 /* Returns whether the half-space normal . x <= offset has a point of the body, and whether it has all of them. */
 bool body_meets_half_space(const octree_body *e, const double normal[3], double offset);
 bool body_is_in_half_space(const octree_body *e, const double normal[3], double offset);

@@ -12,7 +12,7 @@
 #include "body_scenes.h"
 #include "game_fixture.h"
 
-enum { BODIES = 60, TICKS = 8, EDITS = 6, PLAYER = 1000 };
+enum { BODIES = 60, TICKS = 8, EDITS = 6, QUERIES = 5, PLAYER = 1000 };
 
 /* A game and the bodies that it should have. */
 typedef struct scene {
@@ -20,7 +20,7 @@ typedef struct scene {
     uint64_t seed;
     octree_body bodies[BODIES];
     size_t count;
-    octree_query queries[4];
+    octree_query queries[QUERIES];
     octree_half_space unused[OCTREE_MAX_HALF_SPACES];
     octree_session session;
     octree_game_body initial[BODIES];
@@ -48,8 +48,14 @@ static bool is_in_answer(const octree_answer *answer, uint64_t id)
 
 static octree_region region_of(const octree_answer *answer)
 {
-    octree_region region = {.box = answer->box, .radius = answer->radius};
-    region.kind = answer->kind == OCTREE_QUERY_RANGE ? OCTREE_REGION_BOX : OCTREE_REGION_BALL;
+    static const octree_region_kind kinds[OCTREE_QUERY_KINDS] = {[OCTREE_QUERY_RANGE] = OCTREE_REGION_BOX,
+                                                                 [OCTREE_QUERY_RADIUS] = OCTREE_REGION_BALL,
+                                                                 [OCTREE_QUERY_FRUSTUM] = OCTREE_REGION_HALF_SPACES};
+    octree_region region = {.kind = kinds[answer->kind],
+                            .box = answer->box,
+                            .radius = answer->radius,
+                            .half_spaces = answer->frustum.half_spaces,
+                            .half_space_count = answer->frustum.count};
     memcpy(region.center, answer->target, sizeof region.center);
     return region;
 }
@@ -142,7 +148,7 @@ static void assert_tick(const scene *s, const octree_tick *tick)
 {
     assert_hits(s, tick);
     assert_pairs(s, tick);
-    assert_int_equal(tick->answer_count, 4);
+    assert_int_equal(tick->answer_count, QUERIES);
     for (size_t i = 0; i < tick->answer_count; i++)
         if (octree_query_about(tick->answers[i].kind)->neighbors)
             assert_neighbor_answer(s, tick, &tick->answers[i]);
@@ -167,6 +173,13 @@ static void draw_queries(scene *s)
     s->queries[3] = (octree_query){.kind = OCTREE_QUERY_NEAREST};
     for (int i = 1; i < 4; i++)
         random_target(s->numbers, &s->seed, s->queries[i].target);
+    const octree_region frustum = random_region(s->numbers, OCTREE_REGION_HALF_SPACES, &s->seed, s->unused);
+    octree_query *query = &s->queries[4];
+    *query = (octree_query){.kind = OCTREE_QUERY_FRUSTUM};
+    while (query->frustum.count < frustum.half_space_count && query->frustum.count < OCTREE_FRUSTUM_HALF_SPACES) {
+        query->frustum.half_spaces[query->frustum.count] = frustum.half_spaces[query->frustum.count];
+        query->frustum.count++;
+    }
 }
 
 /* Change the expected bodies and store the same changes as edits: moves, and replacements by a body of the same id. */
@@ -216,7 +229,7 @@ static void play_random_game(scene_numbers numbers, uint64_t seed)
         octree_edit edits[2 * EDITS];
         octree_input input = {.edits = edits, .edit_count = draw_edits(&s, edits), .queries = s.queries};
         draw_queries(&s);
-        input.query_count = 4;
+        input.query_count = QUERIES;
         assert_int_equal(octree_game_play(s.game, &input), OCTREE_OK);
         assert_int_equal(octree_game_tick(s.game)->refusal_count, 0);
         assert_tick(&s, octree_game_tick(s.game));

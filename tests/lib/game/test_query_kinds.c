@@ -18,6 +18,17 @@ static double coordinate(uint64_t *random)
     return 20 * octree_random_unit(random) - 10;
 }
 
+static void fill_frustum(octree_frustum *frustum, uint64_t *random)
+{
+    frustum->count = 1 + (size_t)(octree_random(random) % OCTREE_FRUSTUM_HALF_SPACES);
+    for (size_t i = 0; i < frustum->count; i++) {
+        octree_half_space *space = &frustum->half_spaces[i];
+        for (int k = 0; k < 3; k++)
+            space->normal[k] = coordinate(random);
+        space->offset = 8 * coordinate(random) + 50;
+    }
+}
+
 /* Fill every member of a query with a random value that its type allows. */
 static octree_query random_query(octree_query_kind kind, uint64_t *random)
 {
@@ -45,6 +56,9 @@ static octree_query random_query(octree_query_kind kind, uint64_t *random)
             break;
         case OCTREE_MEMBER_LENGTH:
             memcpy(value, &length, sizeof length);
+            break;
+        case OCTREE_MEMBER_FRUSTUM:
+            fill_frustum((octree_frustum *)value, random);
             break;
         case OCTREE_MEMBER_BOUNDS:
             *(octree_bounds *)value = (octree_bounds)(octree_random(random) % OCTREE_BOUNDS_KINDS);

@@ -35,6 +35,7 @@ const golden_frame golden_frames[] = {
     {"knearest", "follow", SHAPES, 0, "knearest", 0, 0},
     {"radius", "follow", SHAPES, 0, "radius", 0, 0},
     {"ray", "iso", "default", 0, "light", 640, 360},
+    {"frustum", "iso", "default", 0, "eye", 640, 360},
     {"swept", "front", SHAPES, 1, "swept", 0, 0},
     {"closeup", "iso", "default", 219, NULL, 960, 540},
     {"slice", "iso", TREE, 0, "clustered", 0, 0},
@@ -227,6 +228,26 @@ static octree_session session_of_ray(void)
     return session;
 }
 
+/* The frustum of a camera at the player, which looks along x: it sees some of the boxes, and cuts others. */
+static const octree_query eye[] = {{.tick = OCTREE_EVERY_TICK,
+                                    .kind = OCTREE_QUERY_FRUSTUM,
+                                    .at_player = true,
+                                    .frustum = {{{{-1, 0, 0}, -150},
+                                                 {{1, 0, 0}, 1500},
+                                                 {{-0.5, 1, 0}, 0},
+                                                 {{-0.5, -1, 0}, 0},
+                                                 {{-0.4, 0, 1}, 0},
+                                                 {{-0.4, 0, -1}, 0}},
+                                                6}}};
+
+static octree_session session_of_frustum(void)
+{
+    octree_session session = session_of_ray();
+    session.player = (octree_player){.position = {-900, -300, -200}, .box_size = 40};
+    session.queries = eye;
+    return session;
+}
+
 /* A step over one point and past another, which comes along the same way from above. */
 static octree_session swept_session(void)
 {
@@ -276,6 +297,8 @@ static octree_session session_of(const golden_frame *frame, octree_game_body bod
         return sampled_session(OCTREE_SAMPLE_UNIFORM, neighbors, bodies, 60);
     case 'l':
         return session_of_ray();
+    case 'e':
+        return session_of_frustum();
     case 'm':
         return moving_session(bodies);
     case 'p':

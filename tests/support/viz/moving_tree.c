@@ -77,6 +77,7 @@ static void ask(moving_tree *m)
                                 .radius = 4,
                                 .direction = {1, -1, 0.5},
                                 .thickness = 2,
+                                .frustum = {{{{1, 2, -1}, 5}}, 1},
                                 .skip = kind % 2 ? OCTREE_SKIP_ID : OCTREE_SKIP_NONE,
                                 .skip_id = 3,
                                 .epsilon = 0.25 * kind};

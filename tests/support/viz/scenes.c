@@ -45,7 +45,7 @@ static octree_session make_session_with_all_layers(octree_game_body bodies[32])
     bodies[session.body_count++] = (octree_game_body){.id = 701, .position = {-850, 650, -580}, .half = {80, 40, 20}};
     session.pairs = true;
     session.bodies = bodies;
-    assert_true(count + 4 <= sizeof queries / sizeof queries[0]);
+    assert_true(count + 5 <= sizeof queries / sizeof queries[0]);
     memcpy(queries, session.queries, count * sizeof *queries);
     queries[count++] =
         (octree_query){.tick = OCTREE_EVERY_TICK, .kind = OCTREE_QUERY_KNEAREST, .at_player = true, .k = 4};
@@ -57,6 +57,10 @@ static octree_session make_session_with_all_layers(octree_game_body bodies[32])
                                       .direction = {3, 3, 3},
                                       .k = 2,
                                       .thickness = 100};
+    queries[count++] =
+        (octree_query){.tick = OCTREE_EVERY_TICK,
+                       .kind = OCTREE_QUERY_FRUSTUM,
+                       .frustum = {{{{-1, 0, 0}, 100}, {{2, 1, 0}, 900}, {{-1, 2, 1}, 1100}, {{0, -1, 3}, 1500}}, 4}};
     queries[count++] = (octree_query){.tick = OCTREE_EVERY_TICK,
                                       .kind = OCTREE_QUERY_NEAREST,
                                       .target = {-400, 800, 200},

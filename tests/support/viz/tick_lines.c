@@ -191,6 +191,18 @@ static void assert_radius(const json_t *radius, const octree_answer *answer)
     assert_ids(json_member(radius, "ids"), answer->points, answer->count);
 }
 
+static void assert_frustum(const json_t *frustum, const octree_answer *answer)
+{
+    const json_t *spaces = json_member(frustum, "half_spaces");
+    assert_members(frustum, "half_spaces ids cost");
+    assert_int_equal(json_array_size(spaces), answer->frustum.count);
+    for (size_t i = 0; i < answer->frustum.count; i++)
+        for (size_t k = 0; k < 4; k++)
+            assert_number(json_array_get(json_array_get(spaces, i), k),
+                          k < 3 ? answer->frustum.half_spaces[i].normal[k] : answer->frustum.half_spaces[i].offset);
+    assert_ids(json_member(frustum, "ids"), answer->points, answer->count);
+}
+
 static void assert_answers(const json_t *list, const octree_tick *tick)
 {
     static const struct {
@@ -202,6 +214,7 @@ static void assert_answers(const json_t *list, const octree_tick *tick)
         [OCTREE_QUERY_KNEAREST] = {"knearest", assert_knearest},
         [OCTREE_QUERY_RADIUS] = {"radius", assert_radius},
         [OCTREE_QUERY_RAY] = {"ray", assert_ray},
+        [OCTREE_QUERY_FRUSTUM] = {"frustum", assert_frustum},
     };
     assert_int_equal(json_array_size(list), tick->answer_count);
     for (size_t i = 0; i < tick->answer_count; i++) {

@@ -317,6 +317,9 @@ static void check_answers(const scene *s, const json_t *line, const division *d,
             const size_t count = count_in_box(d, &answer->box);
             assert_int_equal(json_array_size(json_member(json_member(one, "range"), "ids")), count);
             assert_ids(s, "range", seen[answer->kind], count, count ? answer->points[0].id : 0);
+        } else if (answer->kind == OCTREE_QUERY_FRUSTUM) {
+            assert_int_equal(json_array_size(json_member(json_member(one, "frustum"), "ids")), answer->count);
+            assert_ids(s, "frustum", seen[answer->kind], answer->count, answer->count ? answer->points[0].id : 0);
         } else if (answer->kind == OCTREE_QUERY_RADIUS) {
             const size_t count = count_in_ball(d, answer->target, answer->radius);
             assert_int_equal(json_array_size(json_member(json_member(one, "radius"), "ids")), count);

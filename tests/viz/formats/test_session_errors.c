@@ -338,11 +338,11 @@ static void bad_ticks_are_refused(void **state)
         {START "{\"tick\":1,\"edits\":[{\"remove\":\"all\"}]}",
          "3: edits[0].remove: expected a whole number from 0 to"},
         {START "{\"tick\":1,\"queries\":[{\"rnge\":1}]}",
-         "3: queries[0]: expected {\"range\": ...}, {\"nearest\": ...}, {\"knearest\": ...}, {\"radius\": ...} or "
-         "{\"ray\": ...}"},
+         "3: queries[0]: expected {\"range\": ...}, {\"nearest\": ...}, {\"knearest\": ...}, {\"radius\": ...}, "
+         "{\"ray\": ...} or {\"frustum\": ...}"},
         {START "{\"tick\":1,\"queries\":[{\"radius\":1,\"knearest\":2,\"at\":\"player\"}]}",
-         "3: queries[0]: expected one of {\"range\": ...}, {\"nearest\": ...}, {\"knearest\": ...}, {\"radius\": ...} "
-         "or {\"ray\": "
+         "3: queries[0]: expected one of {\"range\": ...}, {\"nearest\": ...}, {\"knearest\": ...}, {\"radius\": ...}, "
+         "{\"ray\": ...} or {\"frustum\": "
          "...}, "
          "found \"knearest\" and \"radius\" together"},
         {START "{\"tick\":1,\"queries\":[{\"nearest\":1}]}",

@@ -148,6 +148,33 @@ static void check_ray(const scene *s, const octree_answer *answer, size_t place,
     due->markers += answer->count;
 }
 
+/* The ends of the edges lie in all half-spaces, and on the boundary of at least one. */
+static void check_frustum(const scene *s, const octree_answer *answer, size_t place, layer_counts *due)
+{
+    for (size_t i = 0; i < s->segments.count; i++) {
+        const scene_segment *edge = &s->segments.items[i];
+        if (edge->style.layer != LAYER_FRUSTUM || edge->id >> 32 != place)
+            continue;
+        due->segments++;
+        for (int end = 0; end < 2; end++) {
+            size_t touched = 0;
+            for (size_t k = 0; k < answer->frustum.count; k++) {
+                const octree_half_space *space = &answer->frustum.half_spaces[k];
+                double excess = -space->offset, size = fabs(space->offset);
+                for (int axis = 0; axis < 3; axis++) {
+                    excess += space->normal[axis] * edge->ends[end][axis];
+                    size += fabs(space->normal[axis] * edge->ends[end][axis]);
+                }
+                assert_true(excess <= 1e-9 * size);
+                touched += fabs(excess) <= 1e-9 * size;
+            }
+            assert_true(touched >= 1);
+        }
+    }
+    check_marked(s, LAYER_FRUSTUM, answer);
+    due->markers += answer->count;
+}
+
 /* Each answer is shown in the layer of its kind, and that layer shows nothing else. */
 static void check_answers(const scene *s, const octree_tick *tick)
 {
@@ -160,6 +187,7 @@ static void check_answers(const scene *s, const octree_tick *tick)
         [OCTREE_QUERY_KNEAREST] = {LAYER_KNEAREST, check_knearest},
         [OCTREE_QUERY_RADIUS] = {LAYER_RADIUS, check_radius},
         [OCTREE_QUERY_RAY] = {LAYER_RAY, check_ray},
+        [OCTREE_QUERY_FRUSTUM] = {LAYER_FRUSTUM, check_frustum},
     };
     for (int kind = 0; kind < OCTREE_QUERY_KINDS; kind++) {
         layer_counts due = {0}, found = count_layer(s, kinds[kind].layer);

@@ -44,6 +44,8 @@ static const struct {
     {LAYER_NEAREST, SCENE_SEGMENT, "to neighbour 1: point ", false, true},
     {LAYER_NEAREST, SCENE_MARKER, "found by a nearest query", false, true},
     {LAYER_KNEAREST, SCENE_PANEL, "the background of the rank of a neighbour", false, false},
+    {LAYER_FRUSTUM, SCENE_SEGMENT, "the edge of the frustum query", false, false},
+    {LAYER_FRUSTUM, SCENE_MARKER, "found by a frustum query", false, true},
     {LAYER_RAY, SCENE_SEGMENT, " of the ray query (answer ", false, false},
     {LAYER_RAY, SCENE_MARKER, "found by a ray query", false, true},
     {LAYER_RAY, SCENE_LABEL, "the rank of a hit", false, false},

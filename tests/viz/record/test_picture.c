@@ -144,6 +144,7 @@ static uint64_t roles_of(unsigned layer)
     case LAYER_MERGES:
         return one << ROLE_CHANGE;
     case LAYER_RANGE:
+    case LAYER_FRUSTUM:
         return one << ROLE_RANGE;
     case LAYER_RADIUS:
     case LAYER_RAY:

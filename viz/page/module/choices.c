@@ -25,9 +25,13 @@ JSON_NAMES(bounds_name, octree_bounds_name, octree_bounds)
 /* Write the members of queries of one kind. The member after which the kind is named comes first. */
 static void write_query_members(json_writer *w, const octree_query_traits *about)
 {
-    static const char *const types[] = {
-        [OCTREE_MEMBER_BOX] = "box",      [OCTREE_MEMBER_POSITION] = "position", [OCTREE_MEMBER_DIRECTION] = "position",
-        [OCTREE_MEMBER_COUNT] = "number", [OCTREE_MEMBER_LENGTH] = "number",     [OCTREE_MEMBER_BOUNDS] = "choice"};
+    static const char *const types[] = {[OCTREE_MEMBER_BOX] = "box",
+                                        [OCTREE_MEMBER_POSITION] = "position",
+                                        [OCTREE_MEMBER_DIRECTION] = "position",
+                                        [OCTREE_MEMBER_COUNT] = "number",
+                                        [OCTREE_MEMBER_LENGTH] = "number",
+                                        [OCTREE_MEMBER_BOUNDS] = "choice",
+                                        [OCTREE_MEMBER_FRUSTUM] = "half-spaces"};
     json_begin_array_member(w, "members");
     for (int pass = 0; pass < 2; pass++)
         for (size_t i = 0; i < OCTREE_QUERY_MEMBERS; i++) {

@@ -14,6 +14,7 @@ const QUERY_INPUTS = {
     thickness: ["thickness", "0"],
     length: ["length (0: no end)", "0"],
     bounds: ["boundary"],
+    frustum: ["half-spaces (nx,ny,nz,offset each)", "1,1,1,0"],
 };
 const INPUT_VALUES = {position: "0,0,0", number: "1", box: "-100,-100,-100,100,100,100"};
 
@@ -99,6 +100,8 @@ class AskForm {
         if (type === "choice")
             return value;
         const numbers = numbersOf(value);
+        if (type === "half-spaces")
+            return numbers.flatMap((_, i) => (i % 4 === 0 ? [numbers.slice(i, i + 4)] : []));
         if (type === "box")
             return {min: numbers.slice(0, 3), max: numbers.slice(3)};
         return type === "position" ? numbers : numbers[0];

@@ -17,6 +17,7 @@ const QUERY_PARAMETERS = {
     radius: ["center", "radius"],
     range: ["min", "max"],
     ray: ["origin", "direction", "k", "thickness", "length"],
+    frustum: [],
 };
 const FOREIGN_MEMBERS = ["count", "leaves", "depth", "digest", "visited", "pruned", "hit"];
 const JUDGED_MEMBERS = ["answer", "mode", "wrong", "wrong_id", "expected", "missing", "extra", "rank", "ratio"];

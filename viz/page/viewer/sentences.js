@@ -202,6 +202,7 @@ const QUERY_TITLES = {
         [k === 1 ? "First hit of the ray from " : `First ${textOf(k)} hits of the ray from `, placeText(origin),
          " in direction ", placeText(direction), ...(thickness ? [", thickness ", numberText(thickness)] : []),
          ...(length ? [", length ", numberText(length)] : [])],
+    frustum: ({half_spaces}) => [`In ${counted(listLength(half_spaces ?? []), "half-space")}`],
     range: ({min, max}) => ["In the box ", placeText(min), " to ", placeText(max)],
 };
 
