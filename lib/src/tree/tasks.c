@@ -99,6 +99,8 @@ void divide_tree(forest *f, const octree *tree, subtree_opener *open, void *cont
 
 const subtree *first_subtree(const forest *f, size_t number)
 {
+    if (number == f->tasks)
+        return f->subtrees + f->count; /* also in an empty tree, whose root is at the start of all shares */
     const size_t before = find_share_start(f->tree->root.count, f->tasks, number);
     const subtree *first = f->subtrees;
     while (first < f->subtrees + f->count && first->before < before)

@@ -440,9 +440,22 @@ static void each_event_has_a_name(void **state)
     assert_null(octree_event_name(OCTREE_EVENT_MOVED | OCTREE_EVENT_SPLIT));
 }
 
+/* An empty tree has one node, its root. */
+static void an_empty_tree_has_the_same_digest_in_a_tick(void **state)
+{
+    (void)state;
+    octree_session session = small_session(NULL, 0);
+    session.player.kind = OCTREE_PLAYER_NONE;
+    octree_game *game = start_game(&session);
+    assert_int_equal(octree_count(octree_game_tree(game)), 0);
+    assert_true(octree_game_tick(game)->tree_digest == octree_digest(octree_game_tree(game)));
+    octree_game_destroy(game);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(an_empty_tree_has_the_same_digest_in_a_tick),
         cmocka_unit_test(the_default_session_is_the_one_of_the_paper),
         cmocka_unit_test(tick_zero_of_the_default_session_refuses_the_third_point_of_a_cell),
         cmocka_unit_test(the_default_session_meets_every_event_and_all_six_faces),

@@ -63,6 +63,12 @@ static void ring_of_trees_that_refuse_points_replays_to_the_same_bytes(void **st
     check_ring(state, OCTREE_REFUSE, 20);
 }
 
+/* All points have left the tree. */
+static void ring_of_an_empty_tree_replays_to_the_same_bytes(void **state)
+{
+    check_ring(state, OCTREE_REFUSE, 2);
+}
+
 static void ring_of_one_tick_has_the_last_tick(void **state)
 {
     check_ring(state, OCTREE_GROW, 1);
@@ -146,6 +152,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(ring_has_the_last_ticks_and_replays_to_the_same_bytes),
         TEST(ring_of_trees_that_refuse_points_replays_to_the_same_bytes),
+        TEST(ring_of_an_empty_tree_replays_to_the_same_bytes),
         TEST(ring_of_one_tick_has_the_last_tick),
         TEST(ring_that_is_not_full_has_all_ticks),
         TEST(ring_records_the_same_as_a_recorder_without_a_ring),
