@@ -73,6 +73,9 @@ cast_bounds make_cast_bounds(const cast *c)
     return made;
 }
 
+/* A lower bound of all times that overflow. HUGE_VAL means never. */
+#define LATEST_TIME 0x1p1023
+
 /* Returns the times at which a cast touches the intervals center +- half on one axis. On an axis without motion, this
  * is all time or none. */
 static inline time_spans find_spans(const cast_axis *c, lanes center, lanes half)
@@ -83,8 +86,9 @@ static inline time_spans find_spans(const cast_axis *c, lanes center, lanes half
                             lanes_all(HUGE_VAL)};
     const lanes way = lanes_multiply(offset, c->sign), size = lanes_add(lanes_absolute(offset), reach);
     const lanes error = lanes_add(lanes_multiply(size, c->slack), lanes_all(0x1p-1000));
-    return (time_spans){lanes_subtract(lanes_multiply(lanes_subtract(way, reach), c->inverse), error),
-                        lanes_add(lanes_multiply(lanes_add(way, reach), c->inverse), error)};
+    const lanes enter = lanes_subtract(lanes_multiply(lanes_subtract(way, reach), c->inverse), error);
+    const lanes leave = lanes_add(lanes_multiply(lanes_add(way, reach), c->inverse), error);
+    return (time_spans){lanes_smaller(lanes_all(LATEST_TIME), enter), leave};
 }
 
 /* A time that is NaN excludes nothing. */

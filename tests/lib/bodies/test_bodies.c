@@ -599,9 +599,35 @@ static void null_is_an_empty_set(void **state)
     assert_int_equal(octree_bodies_clear(NULL), OCTREE_NULL_ARGUMENT);
 }
 
+static bool count_body(const octree_body *body, void *count)
+{
+    (void)body;
+    ++*(size_t *)count;
+    return true;
+}
+
+/* The parameter of the hit is infinite as a double, but the ray hits the body. */
+static void a_ray_finds_a_body_whose_parameter_overflows(void **state)
+{
+    (void)state;
+    octree_bodies *set = make_set(cube(-DBL_MAX, DBL_MAX), 2);
+    const octree_body body = body_at(0, 0, 0x1p1022, 1, 1);
+    const octree_region ray = {.kind = OCTREE_REGION_RAY, .direction = {0, 0x1p-1074, 0.1}, .length = HUGE_VAL};
+    octree_hit hit;
+    size_t found = 0, count = 0;
+    assert_int_equal(octree_bodies_insert(set, &body), OCTREE_OK);
+    assert_int_equal(octree_bodies_search(set, &ray, NULL, count_body, &found), OCTREE_OK);
+    assert_int_equal(octree_bodies_cast(set, &ray, 1, NULL, NULL, NULL, &hit, &count), OCTREE_OK);
+    assert_int_equal(found, 1);
+    assert_int_equal(count, 1);
+    assert_true(isinf(hit.at));
+    octree_bodies_destroy(set);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_ray_finds_a_body_whose_parameter_overflows),
         cmocka_unit_test(a_body_is_inserted_moved_resized_and_removed),
         cmocka_unit_test(bodies_that_differ_in_one_member_are_different),
         cmocka_unit_test(bad_bodies_get_a_status_and_change_nothing),
