@@ -182,7 +182,8 @@ octree_cost recount_ray(recount *all, const octree_bodies *bodies, const octree_
 {
     octree_cost cost = {0};
     octree_search traced = *how;
-    octree_region region = {.kind = OCTREE_REGION_RAY, .length = ray->length > 0 ? ray->length : HUGE_VAL};
+    octree_region region = {.kind = ray->kind == OCTREE_QUERY_SWEEP ? OCTREE_REGION_SWEPT : OCTREE_REGION_RAY,
+                            .length = ray->length > 0 ? ray->length : HUGE_VAL};
     const size_t k = ray->k < octree_bodies_count(bodies) ? ray->k : octree_bodies_count(bodies);
     octree_hit *hits = malloc((k + 1) * sizeof *hits);
     size_t count;
@@ -190,7 +191,9 @@ octree_cost recount_ray(recount *all, const octree_bodies *bodies, const octree_
     memcpy(region.origin, ray->target, sizeof region.origin);
     memcpy(region.direction, ray->direction, sizeof region.direction);
     for (int axis = 0; axis < 3; axis++)
-        region.half[axis] = ray->thickness;
+        region.half[axis] = ray->kind == OCTREE_QUERY_SWEEP ? ray->half[axis] : ray->thickness;
+    memcpy(region.from, ray->target, sizeof region.from);
+    memcpy(region.to, ray->to, sizeof region.to);
     traced.cost = &cost;
     traced.trace = add_visit;
     traced.trace_context = all;
@@ -317,7 +320,7 @@ static octree_cost recount_answer(recount *all, const octree_game *game, const o
     if (!octree_query_about(answer->kind)->neighbors)
         return walk_region(r, tree);
     how.skip = same_position(answer->target, octree_game_tick(game)->player) ? OCTREE_SKIP_ID : OCTREE_SKIP_NONE;
-    if (answer->kind == OCTREE_QUERY_RAY)
+    if (answer->kind == OCTREE_QUERY_RAY || answer->kind == OCTREE_QUERY_SWEEP)
         return recount_ray(all, octree_game_bodies(game), answer, &how);
     if (r.reach)
         return recount_nearest_bodies(all, game, answer, &how);

@@ -33,7 +33,7 @@ static size_t count_numbers_of_type(octree_member_type type)
         [OCTREE_MEMBER_BOX] = 6,       [OCTREE_MEMBER_POSITION] = 3,
         [OCTREE_MEMBER_DIRECTION] = 3, [OCTREE_MEMBER_COUNT] = 1,
         [OCTREE_MEMBER_LENGTH] = 1,    [OCTREE_MEMBER_BOUNDS] = 0, /* no number: bounds are always closed */
-        [OCTREE_MEMBER_FRUSTUM] = 4};
+        [OCTREE_MEMBER_FRUSTUM] = 4,   [OCTREE_MEMBER_EXTENTS] = 3};
     return numbers[type];
 }
 

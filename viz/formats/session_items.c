@@ -143,6 +143,13 @@ static bool read_direction(json_reader *r, json_t *value, const json_place *at, 
                                                     json_fail(r, at, "the direction of a ray must not be [0, 0, 0]"));
 }
 
+static bool read_extents(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    const double *half = into;
+    return json_read_vector(r, value, at, into) &&
+           ((half[0] >= 0 && half[1] >= 0 && half[2] >= 0) || json_fail(r, at, "a half extent must not be negative"));
+}
+
 static void write_direction(json_writer *w, const void *from)
 {
     json_write_numbers(w, from, 3);
@@ -152,7 +159,7 @@ static void write_direction(json_writer *w, const void *from)
  * "player". An optional member is written if it is not 0; a count is always written, because 1 is its default. */
 static json_member make_query_member(const octree_query_member_traits *member)
 {
-    static const json_codec direction = {read_direction, write_direction};
+    static const json_codec direction = {read_direction, write_direction}, extents = {read_extents, write_direction};
     static const json_member rows[] = {
         [OCTREE_MEMBER_BOX] = {.codec = &json_box},
         [OCTREE_MEMBER_POSITION] = {.codec = &json_vector},
@@ -160,7 +167,8 @@ static json_member make_query_member(const octree_query_member_traits *member)
         [OCTREE_MEMBER_COUNT] = {.codec = &json_size, .max = UINT32_MAX},
         [OCTREE_MEMBER_LENGTH] = {.codec = &json_nonnegative, .nonzero_size = sizeof(double)},
         [OCTREE_MEMBER_BOUNDS] = {.codec = &json_choice, .names = bounds_name, .nonzero_size = sizeof(octree_bounds)},
-        [OCTREE_MEMBER_FRUSTUM] = {.codec = &json_frustum}};
+        [OCTREE_MEMBER_FRUSTUM] = {.codec = &json_frustum},
+        [OCTREE_MEMBER_EXTENTS] = {.codec = &extents, .nonzero_size = sizeof(double[3])}};
     static const json_codec target = {read_target, write_target};
     json_member row = rows[member->type];
     row.name = member->key;

@@ -195,7 +195,8 @@ void tick_write_query_parameters(json_writer *w, const octree_answer *answer)
         [OCTREE_MEMBER_COUNT] = {.codec = &json_size},
         [OCTREE_MEMBER_LENGTH] = {.codec = &json_number, .nonzero_size = sizeof(double)},
         [OCTREE_MEMBER_BOUNDS] = {.codec = &json_choice, .names = bounds_name, .nonzero_size = sizeof(octree_bounds)},
-        [OCTREE_MEMBER_FRUSTUM] = {.codec = &json_frustum}};
+        [OCTREE_MEMBER_FRUSTUM] = {.codec = &json_frustum},
+        [OCTREE_MEMBER_EXTENTS] = {.codec = &json_vector, .nonzero_size = sizeof(double[3])}};
     const octree_query_traits *about = octree_query_about(answer->kind);
     for (size_t i = 0; i < OCTREE_QUERY_MEMBERS; i++) {
         const octree_query_member_traits *member = octree_query_member_at(i);
@@ -205,6 +206,7 @@ void tick_write_query_parameters(json_writer *w, const octree_answer *answer)
         table[0].name = member->bit == OCTREE_QUERY_HAS_TARGET      ? about->place
                         : member->bit == OCTREE_QUERY_HAS_DIRECTION ? "direction"
                         : member->bit == OCTREE_QUERY_HAS_FRUSTUM   ? "half_spaces"
+                        : member->bit == OCTREE_QUERY_HAS_TO        ? "to"
                                                                     : member->key;
         table[0].offset = table[0].nonzero = member->in_answer;
         if (!member->optional)

@@ -393,3 +393,86 @@ const layer_type layer_RAY = {
     .write_answer = write_ray,
     .legend = {.order = 152, .sign = SIGN_ARROW, .text = "ray query", .drop_order = DROP_LATE},
     .describe = describe_ray};
+
+/* ---- Moving boxes ------------------------------------------------------------------------------------------- */
+
+/* The parts of a moving box: its first, its last and its searched position, and the ways of its eight corners. */
+enum { SWEEP_FIRST, SWEEP_LAST, SWEEP_SEARCHED, SWEEP_WAYS };
+
+/* Returns the moving box at the parameter t. */
+static octree_box find_moving_box(const octree_answer *sweep, double t)
+{
+    octree_box box;
+    for (int i = 0; i < 3; i++) {
+        const double at = t == 1 ? sweep->to[i] : sweep->target[i] * (1 - t) + sweep->to[i] * t;
+        box.min[i] = at - sweep->half[i];
+        box.max[i] = at + sweep->half[i];
+    }
+    return box;
+}
+
+static void add_ways(scene *s, const octree_box *first, const octree_box *last, size_t place, scene_style style)
+{
+    double from[3], to[3];
+    for (size_t corner = 0; corner < 8; corner++) {
+        for (int i = 0; i < 3; i++) {
+            from[i] = corner >> i & 1 ? first->max[i] : first->min[i];
+            to[i] = corner >> i & 1 ? last->max[i] : last->min[i];
+        }
+        scene_add_line(s, make_part_id(place, SWEEP_WAYS + corner), from, to, style);
+    }
+}
+
+/* With k hits, the search ended where the box hit the last of them. */
+static void add_sweep(scene *s, const layer_source *in, size_t place, view_layer layer)
+{
+    const octree_answer *sweep = &in->answers[place];
+    const octree_box first = find_moving_box(sweep, 0), last = find_moving_box(sweep, 1);
+    const unsigned half = sweep->count <= FEW_MARKS ? 6 : sweep->count <= MANY_MARKS ? 3 : 1;
+    const scene_style thin = make_layer_style(layer, STROKE_SOLID, 1);
+    double ranked[NUMBERED_RANKS][3];
+    const size_t ranks = sweep->count < NUMBERED_RANKS ? sweep->count : NUMBERED_RANKS;
+    scene_add_outline(s, make_part_id(place, SWEEP_FIRST), &first, make_layer_style(layer, STROKE_SOLID, 2));
+    scene_add_outline(s, make_part_id(place, SWEEP_LAST), &last, make_layer_style(layer, STROKE_DASHED, 1));
+    add_ways(s, &first, &last, place, make_layer_style(layer, STROKE_DASHED, 1));
+    if (sweep->count > 0 && sweep->count == sweep->k) {
+        const octree_box searched = find_moving_box(sweep, sweep->neighbors[sweep->count - 1].distance);
+        scene_add_outline(s, make_part_id(place, SWEEP_SEARCHED), &searched, make_layer_style(layer, STROKE_SOLID, 2));
+    }
+    for (size_t i = 0; i < sweep->count; i++)
+        scene_add_mark(s, sweep->neighbors[i].point.id, sweep->neighbors[i].point.position, SHAPE_DIAMOND,
+                       make_layer_style(layer, STROKE_SOLID, half));
+    for (size_t i = 0; i < ranks; i++)
+        memcpy(ranked[i], sweep->neighbors[i].point.position, sizeof ranked[i]);
+    add_ranks(s, ranked, ranks, half, place, thin);
+}
+
+static void write_sweep(pen *p, const octree_answer *answer)
+{
+    if (answer->k == 1)
+        write_only_neighbor(p, "sweep", answer, "t ", "");
+    else
+        write_neighbors(p, "sweep", answer);
+}
+
+static void describe_sweep(description *d, const described_element *element)
+{
+    static const char *const parts[] = {"first position", "last position", "searched end"};
+    const uint64_t place = element->id >> 32, part = element->id & UINT32_MAX;
+    if (element->kind == SCENE_LABEL) {
+        append_text(d, ", the rank of a hit");
+    } else if (element->kind == SCENE_PANEL) {
+        append_text(d, "the background of the rank of a hit");
+    } else {
+        const octree_answer *answer = append_query(d, part < SWEEP_WAYS ? parts[part] : "way of a corner", place);
+        append_position(d, ": from ", answer->target);
+        append_position(d, " to ", answer->to);
+        append_found_count(d, answer);
+    }
+}
+
+const layer_type layer_SWEEP = {
+    .add_answer = add_sweep,
+    .write_answer = write_sweep,
+    .legend = {.order = 153, .sign = SIGN_DASHES, .text = "sweep query", .drop_order = DROP_LATE},
+    .describe = describe_sweep};

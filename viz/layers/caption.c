@@ -182,8 +182,8 @@ static void append_single_answer(words *w, const layer_source *in, const octree_
     else
         octree_statistics(in->tree, &stats);
     const octree_query_traits *about = octree_query_about(answer->kind);
-    if (about->members & OCTREE_QUERY_HAS_DIRECTION)
-        append(w, "%zu hit%s of the ray", answer->count, plural_ending(answer->count));
+    if (about->members & (OCTREE_QUERY_HAS_DIRECTION | OCTREE_QUERY_HAS_TO))
+        append(w, "%zu hit%s of the %s", answer->count, plural_ending(answer->count), about->region);
     else if (!about->neighbors)
         append(w, "%zu point%s in the %s", answer->count, plural_ending(answer->count), about->region);
     else

@@ -107,9 +107,10 @@ typedef struct shown_answer {
     octree_box world;
 } shown_answer;
 
-static bool is_ray(const octree_query_traits *about)
+/* Returns true for rays and moving boxes. */
+static bool is_cast(const octree_query_traits *about)
 {
-    return about->members & OCTREE_QUERY_HAS_DIRECTION;
+    return about->members & (OCTREE_QUERY_HAS_DIRECTION | OCTREE_QUERY_HAS_TO);
 }
 
 static shown_answer make_shown_answer(const inspect_answers *answers, size_t i)
@@ -149,8 +150,9 @@ static bool describe_answer_note(const shown_answer *shown, char note[NOTE_TEXT]
     memcpy(target.min, answer->target, sizeof target.min);
     memcpy(target.max, answer->target, sizeof target.max);
     *note = 0;
-    if (is_ray(shown->about))
-        snprintf(note, answer->count == 0 ? NOTE_TEXT : 1, "the ray hits no point; a thicker ray may");
+    if (is_cast(shown->about))
+        snprintf(note, answer->count == 0 ? NOTE_TEXT : 1, "the %s hits no point; a thicker %s may",
+                 shown->about->region, shown->about->region);
     else if (shown->about->neighbors && answer->count < answer->k)
         snprintf(note, NOTE_TEXT, "the tree holds no %spoints", answer->count == 0 ? "" : "more ");
     else if (octree_answer_bound(answer, &bound) && is_outside(&shown->world, &bound))
@@ -172,7 +174,11 @@ static void print_member(const shown_answer *shown, const octree_query_member_tr
         inspect_print_numbers(((const octree_box *)value)->max, 3, out);
         break;
     case OCTREE_MEMBER_POSITION:
-        fprintf(out, " %s", is_ray(shown->about) ? "from" : shown->about->neighbors ? "to" : "about");
+        fprintf(out, " %s",
+                member->bit == OCTREE_QUERY_HAS_TO ? "to"
+                : is_cast(shown->about)            ? "from"
+                : shown->about->neighbors          ? "to"
+                                                   : "about");
         inspect_print_numbers((const double *)value, 3, out);
         break;
     case OCTREE_MEMBER_DIRECTION:
@@ -194,6 +200,10 @@ static void print_member(const shown_answer *shown, const octree_query_member_tr
         fprintf(out, " of %zu half-space%s", ((const octree_frustum *)value)->count,
                 plural_ending(((const octree_frustum *)value)->count));
         break;
+    case OCTREE_MEMBER_EXTENTS:
+        fprintf(out, ", half extents");
+        inspect_print_numbers((const double *)value, 3, out);
+        break;
     case OCTREE_MEMBER_COUNT: /* a count is printed at the start of the question */
         break;
     }
@@ -204,10 +214,10 @@ static void print_member(const shown_answer *shown, const octree_query_member_tr
 static void print_question(const shown_answer *shown, FILE *out)
 {
     const octree_query_traits *about = shown->about;
-    if (is_ray(about) && shown->answer->k == 1)
-        fputs("first hit of the ray", out);
-    else if (is_ray(about))
-        fprintf(out, "first %zu hits of the ray", shown->answer->k);
+    if (is_cast(about) && shown->answer->k == 1)
+        fprintf(out, "first hit of the %s", about->region);
+    else if (is_cast(about))
+        fprintf(out, "first %zu hits of the %s", shown->answer->k, about->region);
     else if (about->members & OCTREE_QUERY_HAS_K)
         fprintf(out, "%zu nearest", shown->answer->k);
     else
@@ -229,7 +239,7 @@ static void print_answer(const shown_answer *shown, FILE *out)
     if (describe_answer_note(shown, note))
         fprintf(out, "  note: %s\n", note);
     for (size_t i = 0; i < shown->answer->count && i < LIST_LINES; i++)
-        inspect_print_point(point_at(shown, i), is_ray(shown->about) ? shown->about->measure : "at",
+        inspect_print_point(point_at(shown, i), is_cast(shown->about) ? shown->about->measure : "at",
                             distance_at(shown, i), out);
     print_remaining_count(out, shown->answer->count, LIST_LINES, "--json lists all");
     fprintf(out,

@@ -36,7 +36,9 @@
     Y(X, FRUSTUM, "frustum", "frustum queries", "edges of frusta, and the points found in them", ROLE_RANGE,           \
       "NX,NY,NZ,D[,NX,NY,NZ,D...]", FRUSTUM,                                                                           \
       "print and draw the points in up to 8 half-spaces: those with NX*x + NY*y + NZ*z <= D for each",                 \
-      "1 to 8 half-spaces of four numbers each, as in 1,0,0,10,0,1,0,10")
+      "1 to 8 half-spaces of four numbers each, as in 1,0,0,10,0,1,0,10")                                              \
+    Y(X, SWEEP, "sweep", "sweep queries", "moving boxes, and the points that they hit, with their ranks", ROLE_RADIUS, \
+      NULL, SWEEP, NULL, NULL)
 
 #define QUERY_LAYER(X, kind, name, words, help, role, ...) X(kind, name, words, help, role, false, true)
 

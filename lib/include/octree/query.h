@@ -26,6 +26,7 @@ typedef enum octree_member_type {
     OCTREE_MEMBER_LENGTH,    /* double: finite, >= 0 */
     OCTREE_MEMBER_BOUNDS,    /* octree_bounds */
     OCTREE_MEMBER_FRUSTUM,   /* octree_frustum */
+    OCTREE_MEMBER_EXTENTS,   /* double[3]: three finite numbers >= 0 */
 } octree_member_type;
 
 /* Whether points exactly on the boundary of a region belong to the answer. Coordinates and distances are compared as
@@ -65,6 +66,8 @@ const char *octree_bounds_name(octree_bounds bounds);
     X(RADIUS, radius, LENGTH, "radius", REQUIRED)                                                                      \
     X(THICKNESS, thickness, LENGTH, "thickness", OPTIONAL)                                                             \
     X(LENGTH, length, LENGTH, "length", OPTIONAL)                                                                      \
+    X(TO, to, POSITION, "sweep", REQUIRED)                                                                             \
+    X(HALF, half, EXTENTS, "half", OPTIONAL)                                                                           \
     X(FRUSTUM, frustum, FRUSTUM, "frustum", REQUIRED)                                                                  \
     X(BOUNDS, bounds, BOUNDS, "bounds", OPTIONAL)
 
@@ -118,7 +121,9 @@ const octree_query_member_traits *octree_query_member_at(size_t index);
           OCTREE_QUERY_HAS_LENGTH,                                                                                     \
       OCTREE_QUERY_HAS_DIRECTION, NEIGHBORS, "the first k points that a ray hits", "ray", "origin", "t")               \
     X(FRUSTUM, frustum, OCTREE_QUERY_HAS_FRUSTUM | OCTREE_QUERY_HAS_BOUNDS, OCTREE_QUERY_HAS_FRUSTUM, POINTS,          \
-      "the points that no half-space excludes", "frustum", "center", "distance")
+      "the points that no half-space excludes", "frustum", "center", "distance")                                       \
+    X(SWEEP, sweep, OCTREE_QUERY_HAS_TARGET | OCTREE_QUERY_HAS_TO | OCTREE_QUERY_HAS_HALF | OCTREE_QUERY_HAS_K,        \
+      OCTREE_QUERY_HAS_TO, NEIGHBORS, "the first k points that a moving box hits", "moving box", "from", "t")
 
 typedef enum octree_query_kind {
 #define OCTREE_QUERY_ENUM(kind, ...) OCTREE_QUERY_##kind,
@@ -156,7 +161,7 @@ const char *octree_query_name(octree_query_kind kind);
 typedef struct octree_query {
     uint64_t tick; /* the number of the tick at which the query is asked, or OCTREE_EVERY_TICK */
     octree_query_kind kind;
-    /* true: the player's position is the target, and `box` and `frustum` are relative to this position */
+    /* true: the player's position is the target, and `box`, `to` and `frustum` are relative to this position */
     bool at_player;
     octree_box box; /* the box of a range query */
     /* the position whose neighbours are searched, the center of the ball, or the origin of the ray. Not read if
@@ -167,6 +172,8 @@ typedef struct octree_query {
     double radius;       /* the radius of the ball, >= 0 */
     double thickness;    /* the half extent of the ray on each axis, >= 0; without it, a ray rarely hits a point */
     double length;       /* the largest parameter t of the ray; 0: the ray has no end */
+    double to[3];        /* the last position of the moving box, whose first position is the target */
+    double half[3];      /* the half extents of the moving box */
     /* a point or body belongs to the answer unless a half-space has all of it outside (octree_region in bodies.h) */
     octree_frustum frustum;
     octree_bounds bounds; /* read for regions: whether the boundary belongs to the answer */
@@ -270,6 +277,8 @@ typedef struct octree_answer {
     double radius;
     double thickness;
     double length;
+    double to[3];
+    double half[3];
     octree_frustum frustum;
     octree_bounds bounds;
     octree_skip skip; /* skip, skip_id and epsilon of the query; skip is NONE if only the player is skipped */
@@ -277,7 +286,7 @@ typedef struct octree_answer {
     double epsilon;
     const octree_point *points; /* the result of a kind whose result is points, sorted by id */
     /* the result of a kind whose result is neighbours, sorted by distance, then by id. For a ray, the distance is the
-     * parameter t of the first point of the ray that is in the body's box */
+     * parameter t of the first point of the ray that is in the body's box; for a moving box, t goes from 0 to 1 */
     const octree_neighbor *neighbors;
     size_t count; /* the number of points or neighbours */
     octree_cost cost;

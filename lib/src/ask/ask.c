@@ -88,6 +88,8 @@ static octree_status check_member(const octree_query *query, const octree_query_
         return check_length(*(const double *)value);
     case OCTREE_MEMBER_FRUSTUM:
         return check_frustum(value);
+    case OCTREE_MEMBER_EXTENTS:
+        return check_half_extents(value);
     case OCTREE_MEMBER_BOUNDS:
         return octree_bounds_name(*(const octree_bounds *)value) ? OCTREE_OK : OCTREE_BAD_OPTION;
     case OCTREE_MEMBER_COUNT:
@@ -203,10 +205,10 @@ octree_status collect_first_bodies(query_run *run, const octree_answer *answer, 
 static const struct {
     size_t size, doubles;
 } member_sizes[] = {
-    [OCTREE_MEMBER_BOX] = {sizeof(octree_box), 6},        [OCTREE_MEMBER_POSITION] = {sizeof(double[3]), 3},
-    [OCTREE_MEMBER_DIRECTION] = {sizeof(double[3]), 3},   [OCTREE_MEMBER_COUNT] = {sizeof(size_t), 0},
-    [OCTREE_MEMBER_LENGTH] = {sizeof(double), 1},         [OCTREE_MEMBER_BOUNDS] = {sizeof(octree_bounds), 0},
-    [OCTREE_MEMBER_FRUSTUM] = {sizeof(octree_frustum), 0}};
+    [OCTREE_MEMBER_BOX] = {sizeof(octree_box), 6},         [OCTREE_MEMBER_POSITION] = {sizeof(double[3]), 3},
+    [OCTREE_MEMBER_DIRECTION] = {sizeof(double[3]), 3},    [OCTREE_MEMBER_COUNT] = {sizeof(size_t), 0},
+    [OCTREE_MEMBER_LENGTH] = {sizeof(double), 1},          [OCTREE_MEMBER_BOUNDS] = {sizeof(octree_bounds), 0},
+    [OCTREE_MEMBER_FRUSTUM] = {sizeof(octree_frustum), 0}, [OCTREE_MEMBER_EXTENTS] = {sizeof(double[3]), 3}};
 
 octree_answer make_answer_to_query(const octree_query *query, const double player[3])
 {
@@ -226,6 +228,7 @@ octree_answer make_answer_to_query(const octree_query *query, const double playe
     for (int i = 0; i < 3; i++) {
         answer.box.min[i] += player[i];
         answer.box.max[i] += player[i];
+        answer.to[i] += player[i];
         for (size_t k = 0; k < answer.frustum.count; k++)
             answer.frustum.half_spaces[k].offset += answer.frustum.half_spaces[k].normal[i] * player[i];
     }

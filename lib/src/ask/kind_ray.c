@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* kind_ray.c - the kind "ray": the first k bodies or points that a ray hits, in the order of the hits. */
-#include "../exact/cast.h"
-#include "kind.h"
+#include "hits.h"
 #include "../query/search.h"
 
 static double find_end(const octree_answer *asked)
@@ -33,23 +32,16 @@ static cast make_cast(const octree_answer *asked)
     return cast_make_ray(asked->target, asked->direction, find_end(asked), half);
 }
 
-/* Bodies that the ray misses come after all hits, and among them no order is known. */
 int compare_ray_order(const octree_answer *asked, const octree_body *a, const octree_body *b)
 {
     const cast ray = make_cast(asked);
-    cast_time first;
-    const bool hits_a = cast_touches(&ray, a, &first), hits_b = cast_touches(&ray, b, &first);
-    return hits_a && hits_b ? cast_compare(&ray, a, b) : hits_b - hits_a;
+    return compare_hits_of_cast(&ray, a, b);
 }
 
 double measure_for_ray(const octree_answer *asked, const octree_body *body)
 {
     const cast ray = make_cast(asked);
-    cast_time first;
-    if (!cast_touches(&ray, body, &first))
-        return HUGE_VAL;
-    const double time = cast_first_time(&ray, body);
-    return time < DBL_MAX ? time : DBL_MAX;
+    return measure_hit_of_cast(&ray, body);
 }
 
 /* A ray that hits a body hits it also after a move by `slack` if the ray is thicker by as much. The length is rounded

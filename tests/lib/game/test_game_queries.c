@@ -19,6 +19,8 @@ static octree_query query_of(int kind, bool at_player)
                           .radius = 5.5,
                           .direction = {-1, 1, 0.5},
                           .thickness = 4,
+                          .to = {-6, 4, 3},
+                          .half = {3, 4, 5},
                           .frustum = {{{{1, 0.5, 0}, 5}, {{-1, 0, 0.25}, 6}, {{0, 0, 1}, 7}}, 3}};
 }
 
@@ -49,6 +51,7 @@ static void the_names_in_files_stay(void **state)
     assert_string_equal(octree_query_name(OCTREE_QUERY_RADIUS), "radius");
     assert_string_equal(octree_query_name(OCTREE_QUERY_RAY), "ray");
     assert_string_equal(octree_query_name(OCTREE_QUERY_FRUSTUM), "frustum");
+    assert_string_equal(octree_query_name(OCTREE_QUERY_SWEEP), "sweep");
 }
 
 static void assert_same_answers(const octree_answer *a, const octree_answer *b)

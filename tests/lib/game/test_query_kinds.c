@@ -57,6 +57,10 @@ static octree_query random_query(octree_query_kind kind, uint64_t *random)
         case OCTREE_MEMBER_LENGTH:
             memcpy(value, &length, sizeof length);
             break;
+        case OCTREE_MEMBER_EXTENTS:
+            for (int j = 0; j < 3; j++)
+                ((double *)value)[j] = length / (j + 1);
+            break;
         case OCTREE_MEMBER_FRUSTUM:
             fill_frustum((octree_frustum *)value, random);
             break;
@@ -123,13 +127,13 @@ static uint64_t other_id(const uint64_t *ids, size_t count)
     }
 }
 
-/* The error of an answer with one more point: a ray hits it later, or never; all other points are neighbours. */
+/* The error of an answer with one more point: a ray or box hits it later, or never; all other points are neighbours. */
 static octree_wrong_kind expect_of_other(const octree *tree, octree_query query, uint64_t other)
 {
     uint64_t ids[POINTS + 1];
     if (!octree_query_about(query.kind)->neighbors)
         return OCTREE_WRONG_EXTRA;
-    if (!(octree_query_about(query.kind)->members & OCTREE_QUERY_HAS_DIRECTION))
+    if (!(octree_query_about(query.kind)->members & (OCTREE_QUERY_HAS_DIRECTION | OCTREE_QUERY_HAS_TO)))
         return OCTREE_WRONG_COUNT;
     query.k = POINTS;
     const size_t count = ask(tree, &query, ids);

@@ -36,6 +36,7 @@ const golden_frame golden_frames[] = {
     {"radius", "follow", SHAPES, 0, "radius", 0, 0},
     {"ray", "iso", "default", 0, "light", 640, 360},
     {"frustum", "iso", "default", 0, "eye", 640, 360},
+    {"sweep", "iso", "default", 0, "way", 640, 360},
     {"swept", "front", SHAPES, 1, "swept", 0, 0},
     {"closeup", "iso", "default", 219, NULL, 960, 540},
     {"slice", "iso", TREE, 0, "clustered", 0, 0},
@@ -248,6 +249,21 @@ static octree_session session_of_frustum(void)
     return session;
 }
 
+/* A box that moves from the player to the far corner, and hits two of the boxes. */
+static const octree_query way[] = {{.tick = OCTREE_EVERY_TICK,
+                                    .kind = OCTREE_QUERY_SWEEP,
+                                    .at_player = true,
+                                    .to = {1600, 1200, 1000},
+                                    .half = {100, 80, 60},
+                                    .k = 2}};
+
+static octree_session session_of_sweep(void)
+{
+    octree_session session = session_of_ray();
+    session.queries = way;
+    return session;
+}
+
 /* A step over one point and past another, which comes along the same way from above. */
 static octree_session swept_session(void)
 {
@@ -307,6 +323,8 @@ static octree_session session_of(const golden_frame *frame, octree_game_body bod
         return sampled_session(OCTREE_SAMPLE_UNIFORM, ball, bodies, 60);
     case 's':
         return swept_session();
+    case 'w':
+        return session_of_sweep();
     default:
         break;
     }

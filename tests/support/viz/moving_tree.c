@@ -78,6 +78,8 @@ static void ask(moving_tree *m)
                                 .direction = {1, -1, 0.5},
                                 .thickness = 2,
                                 .frustum = {{{{1, 2, -1}, 5}}, 1},
+                                .to = {3, -2, 4},
+                                .half = {1, 0, 2},
                                 .skip = kind % 2 ? OCTREE_SKIP_ID : OCTREE_SKIP_NONE,
                                 .skip_id = 3,
                                 .epsilon = 0.25 * kind};

@@ -45,7 +45,7 @@ static octree_session make_session_with_all_layers(octree_game_body bodies[32])
     bodies[session.body_count++] = (octree_game_body){.id = 701, .position = {-850, 650, -580}, .half = {80, 40, 20}};
     session.pairs = true;
     session.bodies = bodies;
-    assert_true(count + 5 <= sizeof queries / sizeof queries[0]);
+    assert_true(count + 6 <= sizeof queries / sizeof queries[0]);
     memcpy(queries, session.queries, count * sizeof *queries);
     queries[count++] =
         (octree_query){.tick = OCTREE_EVERY_TICK, .kind = OCTREE_QUERY_KNEAREST, .at_player = true, .k = 4};
@@ -57,6 +57,12 @@ static octree_session make_session_with_all_layers(octree_game_body bodies[32])
                                       .direction = {3, 3, 3},
                                       .k = 2,
                                       .thickness = 100};
+    queries[count++] = (octree_query){.tick = OCTREE_EVERY_TICK,
+                                      .kind = OCTREE_QUERY_SWEEP,
+                                      .target = {-900, 800, 900},
+                                      .to = {900, 700, 600},
+                                      .half = {90, 150, 200},
+                                      .k = 2};
     queries[count++] =
         (octree_query){.tick = OCTREE_EVERY_TICK,
                        .kind = OCTREE_QUERY_FRUSTUM,

@@ -183,6 +183,21 @@ static void assert_ray(const json_t *ray, const octree_answer *answer)
     }
 }
 
+static void assert_sweep(const json_t *sweep, const octree_answer *answer)
+{
+    const bool extended = answer->half[0] > 0 || answer->half[1] > 0 || answer->half[2] > 0;
+    const json_t *hits = json_member(sweep, "neighbors");
+    assert_members(sweep, extended ? "from k to half neighbors cost" : "from k to neighbors cost");
+    assert_position(sweep, "from", answer->target);
+    assert_position(sweep, "to", answer->to);
+    if (extended)
+        assert_position(sweep, "half", answer->half);
+    assert_whole_number(json_member(sweep, "k"), answer->k);
+    assert_int_equal(json_array_size(hits), answer->count);
+    for (size_t i = 0; i < answer->count; i++)
+        assert_neighbor(json_array_get(hits, i), "t", &answer->neighbors[i]);
+}
+
 static void assert_radius(const json_t *radius, const octree_answer *answer)
 {
     assert_members(radius, "center radius ids cost");
@@ -215,6 +230,7 @@ static void assert_answers(const json_t *list, const octree_tick *tick)
         [OCTREE_QUERY_RADIUS] = {"radius", assert_radius},
         [OCTREE_QUERY_RAY] = {"ray", assert_ray},
         [OCTREE_QUERY_FRUSTUM] = {"frustum", assert_frustum},
+        [OCTREE_QUERY_SWEEP] = {"sweep", assert_sweep},
     };
     assert_int_equal(json_array_size(list), tick->answer_count);
     for (size_t i = 0; i < tick->answer_count; i++) {

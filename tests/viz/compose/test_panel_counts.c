@@ -277,9 +277,10 @@ static void check_hits(const scene *s, const json_t *line, const division *d, co
 static void check_neighbors(const scene *s, const json_t *told, const division *d, const octree_answer *answer,
                             bool at_player, uint64_t player, size_t seen[])
 {
-    if (answer->kind == OCTREE_QUERY_RAY) {
-        assert_int_equal(json_array_size(json_member(json_member(told, "ray"), "neighbors")), answer->count);
-        assert_ids(s, "ray", seen[answer->kind], answer->count, answer->count ? answer->neighbors[0].point.id : 0);
+    if (answer->kind == OCTREE_QUERY_RAY || answer->kind == OCTREE_QUERY_SWEEP) {
+        const char *name = octree_query_name(answer->kind);
+        assert_int_equal(json_array_size(json_member(json_member(told, name), "neighbors")), answer->count);
+        assert_ids(s, name, seen[answer->kind], answer->count, answer->count ? answer->neighbors[0].point.id : 0);
         return;
     }
     const octree_point *nearest = find_nearest(d, answer->target, at_player, player);

@@ -339,10 +339,10 @@ static void bad_ticks_are_refused(void **state)
          "3: edits[0].remove: expected a whole number from 0 to"},
         {START "{\"tick\":1,\"queries\":[{\"rnge\":1}]}",
          "3: queries[0]: expected {\"range\": ...}, {\"nearest\": ...}, {\"knearest\": ...}, {\"radius\": ...}, "
-         "{\"ray\": ...} or {\"frustum\": ...}"},
+         "{\"ray\": ...}, {\"frustum\": ...} or {\"sweep\": ...}"},
         {START "{\"tick\":1,\"queries\":[{\"radius\":1,\"knearest\":2,\"at\":\"player\"}]}",
          "3: queries[0]: expected one of {\"range\": ...}, {\"nearest\": ...}, {\"knearest\": ...}, {\"radius\": ...}, "
-         "{\"ray\": ...} or {\"frustum\": "
+         "{\"ray\": ...}, {\"frustum\": ...} or {\"sweep\": "
          "...}, "
          "found \"knearest\" and \"radius\" together"},
         {START "{\"tick\":1,\"queries\":[{\"nearest\":1}]}",

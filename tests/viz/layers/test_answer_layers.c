@@ -175,6 +175,31 @@ static void check_frustum(const scene *s, const octree_answer *answer, size_t pl
     due->markers += answer->count;
 }
 
+/* The box at both ends and, with k hits, at the last of them; the ways of its corners; the hits and their ranks. */
+static void check_sweep(const scene *s, const octree_answer *answer, size_t place, layer_counts *due)
+{
+    const uint64_t id = (uint64_t)place << 32;
+    for (size_t i = 0; i < s->segments.count; i++) {
+        const scene_segment *way = &s->segments.items[i];
+        if (way->style.layer != LAYER_SWEEP || way->id >> 32 != place)
+            continue;
+        for (int axis = 0; axis < 3; axis++) {
+            assert_true(fabs(fabs(way->ends[0][axis] - answer->target[axis]) - answer->half[axis]) < 1e-9);
+            assert_true(fabs(fabs(way->ends[1][axis] - answer->to[axis]) - answer->half[axis]) < 1e-9);
+        }
+    }
+    for (size_t i = 0; i < answer->count; i++) {
+        const octree_point *point = &answer->neighbors[i].point;
+        assert_true(count_markers_at(s, LAYER_SWEEP, point->id, point->position) >= 1);
+        const bool ranked = rank_of(s, LAYER_SWEEP, id | i, i + 1, point->position) != NULL;
+        due->labels += ranked;
+        due->panels += ranked;
+    }
+    due->boxes += 2 + (answer->count > 0 && answer->count == answer->k);
+    due->segments += 8;
+    due->markers += answer->count;
+}
+
 /* Each answer is shown in the layer of its kind, and that layer shows nothing else. */
 static void check_answers(const scene *s, const octree_tick *tick)
 {
@@ -188,6 +213,7 @@ static void check_answers(const scene *s, const octree_tick *tick)
         [OCTREE_QUERY_RADIUS] = {LAYER_RADIUS, check_radius},
         [OCTREE_QUERY_RAY] = {LAYER_RAY, check_ray},
         [OCTREE_QUERY_FRUSTUM] = {LAYER_FRUSTUM, check_frustum},
+        [OCTREE_QUERY_SWEEP] = {LAYER_SWEEP, check_sweep},
     };
     for (int kind = 0; kind < OCTREE_QUERY_KINDS; kind++) {
         layer_counts due = {0}, found = count_layer(s, kinds[kind].layer);

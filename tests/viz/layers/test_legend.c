@@ -17,18 +17,31 @@ static const struct legend_row {
     bool shared; /* other layers have this colour too */
     const char *text;
 } legend_rows[] = {
-    {LAYER_PLAYER, ROLE_PLAYER, false, "player"},        {LAYER_POINTS, ROLE_POINT, true, "point"},
-    {LAYER_BODIES, ROLE_POINT, true, "box of a body"},   {LAYER_VELOCITIES, ROLE_FAINT, true, "velocity, "},
-    {LAYER_NODES, ROLE_NODE, true, "nodes, depth 0"},    {LAYER_VISITED, ROLE_NODE + 2, true, " visited"},
-    {LAYER_PRUNED, ROLE_NODE + 2, true, " pruned"},      {LAYER_HIT, ROLE_HIT, true, " hit"},
-    {LAYER_SPLITS, ROLE_CHANGE, true, " split"},         {LAYER_MERGES, ROLE_CHANGE, true, " merged"},
-    {LAYER_RANGE, ROLE_RANGE, false, "range query"},     {LAYER_RADIUS, ROLE_RADIUS, true, "radius query"},
-    {LAYER_KNEAREST, ROLE_KNEAREST, false, "k nearest"}, {LAYER_NEAREST, ROLE_NEAREST, false, "nearest point"},
-    {LAYER_RAY, ROLE_RADIUS, true, "ray query"},         {LAYER_FRUSTUM, ROLE_RANGE, true, "frustum query"},
-    {LAYER_BOX, ROLE_COLLISION, true, "collision"},      {LAYER_PAIRS, ROLE_COLLISION, true, "1 pair overlaps"},
-    {LAYER_SHAPES, ROLE_SHAPE, false, "4 shapes"},       {LAYER_VISIT_HEAT, ROLE_NODE + 9, true, "+ visits"},
-    {LAYER_POINT_HEAT, ROLE_NODE + 9, true, "+ points"}, {LAYER_WRONG, ROLE_WRONG, false, "extra point"},
-    {LAYER_WRONG, ROLE_MISSED, false, "missing point"},  {LAYER_WRONG, ROLE_WRONG, false, "wrong answer"},
+    {LAYER_PLAYER, ROLE_PLAYER, false, "player"},
+    {LAYER_POINTS, ROLE_POINT, true, "point"},
+    {LAYER_BODIES, ROLE_POINT, true, "box of a body"},
+    {LAYER_VELOCITIES, ROLE_FAINT, true, "velocity, "},
+    {LAYER_NODES, ROLE_NODE, true, "nodes, depth 0"},
+    {LAYER_VISITED, ROLE_NODE + 2, true, " visited"},
+    {LAYER_PRUNED, ROLE_NODE + 2, true, " pruned"},
+    {LAYER_HIT, ROLE_HIT, true, " hit"},
+    {LAYER_SPLITS, ROLE_CHANGE, true, " split"},
+    {LAYER_MERGES, ROLE_CHANGE, true, " merged"},
+    {LAYER_RANGE, ROLE_RANGE, false, "range query"},
+    {LAYER_RADIUS, ROLE_RADIUS, true, "radius query"},
+    {LAYER_KNEAREST, ROLE_KNEAREST, false, "k nearest"},
+    {LAYER_NEAREST, ROLE_NEAREST, false, "nearest point"},
+    {LAYER_RAY, ROLE_RADIUS, true, "ray query"},
+    {LAYER_FRUSTUM, ROLE_RANGE, true, "frustum query"},
+    {LAYER_SWEEP, ROLE_RADIUS, true, "sweep query"},
+    {LAYER_BOX, ROLE_COLLISION, true, "collision"},
+    {LAYER_PAIRS, ROLE_COLLISION, true, "1 pair overlaps"},
+    {LAYER_SHAPES, ROLE_SHAPE, false, "4 shapes"},
+    {LAYER_VISIT_HEAT, ROLE_NODE + 9, true, "+ visits"},
+    {LAYER_POINT_HEAT, ROLE_NODE + 9, true, "+ points"},
+    {LAYER_WRONG, ROLE_WRONG, false, "extra point"},
+    {LAYER_WRONG, ROLE_MISSED, false, "missing point"},
+    {LAYER_WRONG, ROLE_WRONG, false, "wrong answer"},
 };
 
 #define LEGEND_ROWS (sizeof legend_rows / sizeof legend_rows[0])
@@ -106,7 +119,7 @@ static void legend_lists_what_occurs(void **state)
 static unsigned worth_of(const struct legend_row *row)
 {
     static const unsigned answers = 1u << LAYER_RANGE | 1u << LAYER_RADIUS | 1u << LAYER_KNEAREST |
-                                    1u << LAYER_NEAREST | 1u << LAYER_RAY | 1u << LAYER_FRUSTUM;
+                                    1u << LAYER_NEAREST | 1u << LAYER_RAY | 1u << LAYER_FRUSTUM | 1u << LAYER_SWEEP;
     return row->layer == LAYER_POINTS || row->layer == LAYER_PLAYER ? 0 : answers >> row->layer & 1 ? 1 : 2;
 }
 

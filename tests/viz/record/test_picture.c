@@ -148,6 +148,7 @@ static uint64_t roles_of(unsigned layer)
         return one << ROLE_RANGE;
     case LAYER_RADIUS:
     case LAYER_RAY:
+    case LAYER_SWEEP:
         return one << ROLE_RADIUS;
     case LAYER_KNEAREST:
         return one << ROLE_KNEAREST;

@@ -198,7 +198,9 @@ static size_t elements(layer_counts of)
 }
 
 /* The layers whose labels stand where other layers leave room. */
-#define LABELLED (1u << LAYER_POINTS | 1u << LAYER_KNEAREST | 1u << LAYER_RAY | 1u << LAYER_SHAPES | 1u << LAYER_WRONG)
+#define LABELLED                                                                                                       \
+    (1u << LAYER_POINTS | 1u << LAYER_KNEAREST | 1u << LAYER_RAY | 1u << LAYER_SWEEP | 1u << LAYER_SHAPES |            \
+     1u << LAYER_WRONG)
 
 /* Compare elements by the digests of scenes that contain only them, without labels that avoid other layers. */
 static uint64_t layer_digest(const scene *s, unsigned layer)

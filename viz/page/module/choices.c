@@ -31,7 +31,8 @@ static void write_query_members(json_writer *w, const octree_query_traits *about
                                         [OCTREE_MEMBER_COUNT] = "number",
                                         [OCTREE_MEMBER_LENGTH] = "number",
                                         [OCTREE_MEMBER_BOUNDS] = "choice",
-                                        [OCTREE_MEMBER_FRUSTUM] = "half-spaces"};
+                                        [OCTREE_MEMBER_FRUSTUM] = "half-spaces",
+                                        [OCTREE_MEMBER_EXTENTS] = "position"};
     json_begin_array_member(w, "members");
     for (int pass = 0; pass < 2; pass++)
         for (size_t i = 0; i < OCTREE_QUERY_MEMBERS; i++) {

@@ -14,6 +14,8 @@ const QUERY_INPUTS = {
     thickness: ["thickness", "0"],
     length: ["length (0: no end)", "0"],
     bounds: ["boundary"],
+    sweep: ["end", "100,0,0"],
+    half: ["half extents", "0,0,0"],
     frustum: ["half-spaces (nx,ny,nz,offset each)", "1,1,1,0"],
 };
 const INPUT_VALUES = {position: "0,0,0", number: "1", box: "-100,-100,-100,100,100,100"};

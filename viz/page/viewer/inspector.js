@@ -18,6 +18,7 @@ const QUERY_PARAMETERS = {
     range: ["min", "max"],
     ray: ["origin", "direction", "k", "thickness", "length"],
     frustum: [],
+    sweep: ["from", "to", "half", "k"],
 };
 const FOREIGN_MEMBERS = ["count", "leaves", "depth", "digest", "visited", "pruned", "hit"];
 const JUDGED_MEMBERS = ["answer", "mode", "wrong", "wrong_id", "expected", "missing", "extra", "rank", "ratio"];
@@ -121,10 +122,10 @@ const distanceOf = (a, b) => Math.hypot(...a.map((at, i) => at - b[i]));
 
 /* The found points. The answer itself holds the positions and distances of neighbours, and the t of a ray's hits. The
  * page knows the positions of other points only if it plays the session. */
-function showHits({neighbors, id, position, distance, ids, target, center, origin}, look)
+function showHits({neighbors, id, position, distance, ids, target, center, origin, from: start}, look)
 {
     const points = neighbors ?? ids ?? (id === undefined || id === null ? [] : [{id, position, distance}]);
-    const from = center ?? target ?? origin, rows = keptEntries(points).map(point => {
+    const from = center ?? target ?? origin ?? start, rows = keptEntries(points).map(point => {
         const hit = typeof point === "object" ? point : {id: point, position: look.at(point)};
         const far = from && hit.position ? distanceOf(hit.position, from) : undefined;
         return {...hit, distance: hit.t ?? hit.distance ?? far};
@@ -134,7 +135,7 @@ function showHits({neighbors, id, position, distance, ids, target, center, origi
     if (!rows[0].position)
         return [paragraph(["Points ", ...enumerated(points, idLink, 100)])];
     const more = leftOut(points) ? [{more: leftOut(points)}] : [];
-    const heads = ["point", ...(from ? [origin ? "t" : "distance"] : []), "position"];
+    const heads = ["point", ...(from ? [origin ?? start ? "t" : "distance"] : []), "position"];
     return table(heads, [...rows, ...more], hit =>
         [idLink(hit.id), ...(from ? [numberText(hit.distance)] : []), placeText(hit.position)]);
 }

@@ -202,6 +202,9 @@ const QUERY_TITLES = {
         [k === 1 ? "First hit of the ray from " : `First ${textOf(k)} hits of the ray from `, placeText(origin),
          " in direction ", placeText(direction), ...(thickness ? [", thickness ", numberText(thickness)] : []),
          ...(length ? [", length ", numberText(length)] : [])],
+    sweep: ({from, to, half, k}) =>
+        [k === 1 ? "First hit of the box moving from " : `First ${textOf(k)} hits of the box moving from `,
+         placeText(from), " to ", placeText(to), ...(half ? [", half extents ", placeText(half)] : [])],
     frustum: ({half_spaces}) => [`In ${counted(listLength(half_spaces ?? []), "half-space")}`],
     range: ({min, max}) => ["In the box ", placeText(min), " to ", placeText(max)],
 };
