@@ -7,6 +7,7 @@
 
 #include <inttypes.h>
 #include <math.h>
+#include <string.h>
 
 /* ---- Words -------------------------------------------------------------------------------------------------- */
 
@@ -80,6 +81,12 @@ static void print_boundary(FILE *out, const octree_judgement *made, const char *
             octree_bounds_name(made->accepting));
 }
 
+/* Returns the values whose ratio the judge computes: the distances of neighbours, or t of the hits of a cast. */
+static const char *measures_of(const octree_query_traits *about)
+{
+    return strcmp(about->measure, "distance") == 0 ? "distances" : about->measure;
+}
+
 void audit_print_wrong_answer(FILE *out, const audit_case *c, const octree_query_traits *about)
 {
     char text[AUDIT_RATIO_TEXT];
@@ -91,7 +98,7 @@ void audit_print_wrong_answer(FILE *out, const audit_case *c, const octree_query
     if (c->made.rank)
         fprintf(out, "; wrong from rank %zu on", c->made.rank);
     if (about->neighbors)
-        fprintf(out, "; ratio of distances %s", audit_ratio_text(c->made.ratio, text));
+        fprintf(out, "; ratio of %s %s", measures_of(about), audit_ratio_text(c->made.ratio, text));
     fprintf(out, "; %zu missing, %zu extra", c->made.missing_count, c->made.extra_count);
     print_points(out, "; missing", c->missing, c->made.missing_count);
     print_points(out, "; extra", c->extra, c->made.extra_count);
@@ -149,7 +156,7 @@ void audit_print_kind(FILE *out, const audit_verdict *v, int of)
     fprintf(out, "%s: %" PRIu64 " asked, %" PRIu64 " wrong, recall %s", about->name, kind->asked, kind->wrong,
             format_share(audit_recall(kind), recall));
     if (about->neighbors)
-        fprintf(out, ", ratio of distances %s at worst, 99th percentile %s",
+        fprintf(out, ", ratio of %s %s at worst, 99th percentile %s", measures_of(about),
                 audit_ratio_text(audit_ratio_percentile(kind, 1), ratios[0]),
                 audit_ratio_text(audit_ratio_percentile(kind, 0.99), ratios[1]));
     else

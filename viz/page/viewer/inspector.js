@@ -148,7 +148,7 @@ function showJudged(judged, path)
     const parts = [`${wrong ? "Wrong" : "Right"} foreign answer, ${count}: `,
                    ...(answer.length ? enumerated(answer, idLink) : [ABSENT])];
     if (ratio !== undefined && ratio !== 1)
-        parts.push("; largest ratio of distances ", numberText(ratio));
+        parts.push("; largest ratio to the exact answer ", numberText(ratio));
     if (mode !== undefined)
         parts.push(`; promised for ${textOf(mode)}`);
     return [paragraph(parts, {class: wrong ? "wrong" : "right"}),
