@@ -50,8 +50,7 @@ static void bound_distances(const ordered_search *s, const cell_halves *h, doubl
     bound_squares_of_octants(s->target, s->scale, h, bounds);
 }
 
-static void bound_distances_of_bodies(const ordered_search *s, const octree_point *points, unsigned count,
-                                      double *bounds)
+static void bound_leaf_distances(const ordered_search *s, const octree_point *points, unsigned count, double *bounds)
 {
     bound_squares_of_bodies(s->target, s->scale, s->level, points, count, bounds);
 }
@@ -61,7 +60,7 @@ static void bound_times(const ordered_search *s, const cell_halves *h, double bo
     bound_times_of_octants(&s->cast_bounds, h, bounds);
 }
 
-static void bound_times_of_points(const ordered_search *s, const octree_point *points, unsigned count, double *bounds)
+static void bound_leaf_times(const ordered_search *s, const octree_point *points, unsigned count, double *bounds)
 {
     bound_times_of_bodies(&s->cast_bounds, s->level, points, count, bounds);
 }
@@ -332,7 +331,7 @@ octree_status octree_bodies_nearest(const octree_bodies *bodies, const double ta
         return status;
     ordered_search s = {.set = bodies,
                         .bound = bound_distances,
-                        .bound_bodies = bound_distances_of_bodies,
+                        .bound_bodies = bound_leaf_distances,
                         .measure = measure_distance,
                         .compare = compare_distances,
                         .finish = finish_distance,
@@ -370,7 +369,7 @@ octree_status octree_bodies_cast(const octree_bodies *bodies, const octree_regio
         return status;
     ordered_search s = {.set = bodies,
                         .bound = bound_times,
-                        .bound_bodies = bound_times_of_points,
+                        .bound_bodies = bound_leaf_times,
                         .measure = measure_time,
                         .compare = compare_first_times,
                         .finish = finish_time,
