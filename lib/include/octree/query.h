@@ -164,8 +164,8 @@ typedef struct octree_query {
     /* true: the player's position is the target, and `box`, `to` and `frustum` are relative to this position */
     bool at_player;
     octree_box box; /* the box of a range query */
-    /* the position whose neighbours are searched, the center of the ball, or the origin of the ray. Not read if
-     * at_player is true */
+    /* the position whose neighbours are searched, the center of the ball, the origin of the ray, or the first position
+     * of the moving box. Not read if at_player is true */
     double target[3];
     double direction[3]; /* the ray is target + t * direction for t >= 0; it need not have length 1 */
     size_t k;            /* the number of neighbours or hits to find; if there are fewer, all are found */
@@ -214,14 +214,14 @@ typedef enum octree_wrong_kind {
     OCTREE_WRONG_DUPLICATE, /* the answer contains a point twice */
     OCTREE_WRONG_SKIPPED,   /* the answer contains a point that the query skips */
     /* only for neighbours: the number of neighbours is neither k nor, in a smaller tree, the number of points. For
-     * rays, only if this is also true without the points that the ray misses */
+     * rays and moving boxes, only if this is also true without the points that they miss */
     OCTREE_WRONG_COUNT,
     /* only for neighbours: at some rank, the neighbour is farther than the exact neighbour of this rank */
     OCTREE_WRONG_FARTHER,
     /* only for regions: a point in the region is not in the answer. The query's bounds decide about points on the
      * boundary, here and for EXTRA */
     OCTREE_WRONG_MISSING,
-    OCTREE_WRONG_EXTRA, /* only for regions and rays: a point of the answer is outside the region, or the ray misses it
+    OCTREE_WRONG_EXTRA, /* only for regions, rays and moving boxes: a point of the answer is outside, or is missed
                          */
     OCTREE_WRONG_KINDS
 } octree_wrong_kind;
@@ -232,12 +232,11 @@ const char *octree_wrong_name(octree_wrong_kind wrong);
 
 /* The result of comparing the answer of a foreign index with the exact answer.
  *
- * Regions (a box, a ball) are compared as sets of points. Neighbours are sorted by distance, hits of a ray by t,
+ * Regions (a box, a ball, a frustum) are compared as sets of points. Neighbours are sorted by distance, hits by t,
  * whatever their order in the answer, and compared rank by rank; if several have the same, each of them is right. Real
- * numbers
- * decide all comparisons. An epsilon above 0 allows extra points that are within epsilon of the region, and neighbours
- * up to 1 + epsilon times as far as the exact ones; because of rounding, a ratio within 2^-46 of that limit counts as
- * right. */
+ * numbers decide all comparisons. An epsilon above 0 allows extra points that are within epsilon of the region, and
+ * neighbours up to 1 + epsilon times as far as the exact ones; because of rounding, a ratio within 2^-46 of that limit
+ * counts as right. */
 typedef struct octree_judgement {
     bool judged; /* false: the query has no foreign answer, and the other members are 0 */
     octree_wrong_kind wrong;
@@ -306,7 +305,7 @@ octree_status octree_query_answer(const octree *tree, const octree_query *query,
 void octree_answer_release(const octree *tree, octree_answer *answer);
 
 /* Store in *bound a box that contains the region of an answer. Returns false if the result is neighbours, which may lie
- * anywhere. The box of a large ball may be infinite. */
+ * anywhere. The box of a large ball may be infinite, and that of a frustum is. */
 bool octree_answer_bound(const octree_answer *answer, octree_box *bound);
 
 #ifdef __cplusplus
