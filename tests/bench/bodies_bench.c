@@ -31,13 +31,14 @@ static const body_peer *const all_peers[] = {&body_peer_octree, &body_peer_point
 };
 enum { PEERS = sizeof all_peers / sizeof all_peers[0] };
 
-/* The sizes of bodies: all equal, or spread over three decades, as many in each. */
-typedef enum body_sizes { SIZES_EQUAL, SIZES_DECADES, SIZES } body_sizes;
-static const char *const size_names[SIZES] = {"equal", "decades"};
+/* The sizes of bodies: all equal, or spread over three decades, as many in each; or those of a street. */
+typedef enum body_sizes { SIZES_EQUAL, SIZES_DECADES, SIZES_STREET, SIZES } body_sizes;
+static const char *const size_names[SIZES] = {"equal", "decades", "street"};
 
 typedef struct workload {
     octree_box world;
     size_t count;
+    double spacing; /* of bodies, if they were a lattice */
     octree_body *bodies, *to;
     octree_region regions[BODY_ASKS][QUERIES];
     octree_half_space planes[QUERIES][PLANES];
@@ -50,13 +51,43 @@ static double clamp(double x)
     return x < -WORLD ? -WORLD : x > WORLD ? WORLD : x;
 }
 
+/* Things in a street along x, in units of their spacing: half extents, and how many of 20 things they are. */
+static const struct {
+    double half[3];
+    int share;
+} things[] = {
+    {{0.5, 0.22, 0.18}, 8}, /* cars */
+    {{0.02, 0.02, 0.6}, 5}, /* poles */
+    {{3, 0.03, 0.02}, 3},   /* kerbs */
+    {{2, 0.05, 0.8}, 3},    /* walls */
+    {{1.5, 1.5, 2}, 1},     /* houses */
+};
+
+/* Put a thing on the ground beside one of 40 streets, half of which run along x and half along y. */
+static void place_in_street(octree_body *b, double spacing, uint64_t *seed)
+{
+    const int along = octree_random_unit(seed) < 0.5 ? 0 : 1, across = 1 - along;
+    int kind = 0, left = (int)(octree_random_unit(seed) * 20);
+    while (left >= things[kind].share)
+        left -= things[kind++].share;
+    const double street = WORLD * (floor(octree_random_unit(seed) * 20) - 9.5) / 10;
+    b->position[across] = clamp(street + WORLD / 40 * (octree_random_unit(seed) - 0.5));
+    for (int k = 0; k < 3; k++)
+        b->half[k] = spacing *
+                     things[kind].half[k == along    ? 0
+                                       : k == across ? 1
+                                                     : 2] *
+                     (0.75 + octree_random_unit(seed) / 2);
+    b->position[2] = b->half[2];
+}
+
 /* The volume of all bodies together is such that a body overlaps about one other in a uniform set. */
 static void make_bodies(workload *w, octree_sample_kind set, body_sizes sizes, uint64_t *seed)
 {
     double(*rows)[3] = resize_memory(NULL, w->count * sizeof *rows);
     if (octree_sample(set, 1, &w->world, w->count, rows) != OCTREE_OK)
         stop_with_error("cannot make %zu points", w->count);
-    const double spacing = 2 * WORLD / cbrt((double)w->count);
+    const double spacing = w->spacing;
     for (size_t i = 0; i < w->count; i++) {
         octree_body *b = &w->bodies[i], *to = &w->to[i];
         *b = (octree_body){.id = i};
@@ -65,6 +96,8 @@ static void make_bodies(workload *w, octree_sample_kind set, body_sizes sizes, u
             b->position[k] = rows[i][k];
             b->half[k] = spacing * size * (0.75 + octree_random_unit(seed) / 2);
         }
+        if (sizes == SIZES_STREET)
+            place_in_street(b, spacing, seed);
         *to = *b;
         for (int k = 0; k < 3; k++)
             to->position[k] = clamp(b->position[k] + spacing * (octree_random_unit(seed) - 0.5));
@@ -91,7 +124,7 @@ static void make_frustum(octree_half_space planes[PLANES], const double at[3], d
 
 static void make_regions(workload *w, uint64_t *seed)
 {
-    const double spacing = 2 * WORLD / cbrt((double)w->count);
+    const double spacing = w->spacing;
     for (int i = 0; i < QUERIES; i++) {
         const octree_body *near = &w->bodies[(size_t)(octree_random_unit(seed) * (double)w->count)];
         octree_region r = {
@@ -120,6 +153,7 @@ static workload *make_workload(octree_sample_kind set, body_sizes sizes, size_t 
     workload *w = resize_memory(NULL, sizeof *w);
     w->world = (octree_box){{-WORLD, -WORLD, -WORLD}, {WORLD, WORLD, WORLD}};
     w->count = count;
+    w->spacing = 2 * WORLD / (sizes == SIZES_STREET ? sqrt((double)count) : cbrt((double)count));
     w->bodies = resize_memory(NULL, count * sizeof *w->bodies);
     w->to = resize_memory(NULL, count * sizeof *w->to);
     make_bodies(w, set, sizes, &seed);
@@ -244,7 +278,7 @@ static bool measure_asks(const workload *w, int rounds)
         selves[i] = create_peer(all_peers[i], w);
         all_peers[i]->change[BODY_BUILD](selves[i], w->bodies, NULL, w->count);
         if (all_peers[i]->memory)
-            printf("%s%s %.1f", i == 0 ? "  bytes     " : "", i == 0 ? "  octree" : "  points",
+            printf("%s  %s %.1f", i == 0 ? "  bytes     " : "", all_peers[i]->name,
                    (double)all_peers[i]->memory(selves[i]) / (double)w->count);
     }
     putchar('\n');
@@ -277,7 +311,9 @@ static void print_help(void)
     puts(" (default uniform,clustered)\n"
          "      --rounds N    measure each N times and take the median (default 5)\n"
          "  -h, --help\n\n"
-         "Each set is measured with bodies of equal size, and with sizes spread over three decades. Times are "
+         "Each set is measured with bodies of equal size, with sizes spread over three decades, and as the cars, "
+         "poles,\n"
+         "kerbs, walls and houses of a city (street; only the set's positions along the streets). Times are "
          "nanoseconds\n"
          "of processor time: for changes and pairs per body, for other queries per query. move_all replaces all "
          "bodies. A\n"
