@@ -76,6 +76,7 @@ static const cause_row rows[] = {
     {"pairs.digest", "digest of the overlaps", MINOR},
     {"answers", "query", .plural = "queries", .rule = CAUSE_ANSWERS},
     {"answers.ids", "hit", BY_KEY},
+    {"answers.half_spaces", "half-space", PLAIN},
     {"answers.neighbors", "neighbour", PLAIN},
     {"answers.id", "nearest point", PLAIN},
     {"answers.position", "position of the nearest point", MINOR},
