@@ -3,6 +3,7 @@
  * has an option if its row in query_looks.h has a text for the option's value, such as X,Y,Z. The numbers in the value
  * are the members of the query, in the order of OCTREE_QUERY_MEMBER_MAP; optional members may be missing at the end. */
 #include "query_options.h"
+#include "inspect_answers.h"
 #include "number.h"
 #include "octree/octree.h"
 #include "query_looks.h"
@@ -92,7 +93,7 @@ static bool read_query(const command_option *option, const char *text, void *int
     query_options *queries = into;
     const size_t row = option->min; /* the index of the option's row in `rows`; query_option_row() stored it in `min` */
     const char *name = option->name;
-    octree_query query = {.kind = rows[row].kind, .k = 1};
+    octree_query query = {.kind = rows[row].kind, .k = 1, .thickness = INSPECT_ANY_THICKNESS};
     double values[MOST_NUMBERS];
     if (queries->count == MOST_QUERIES)
         return print_refusal("at most %d queries can be given", MOST_QUERIES);
@@ -107,7 +108,10 @@ static bool read_query(const command_option *option, const char *text, void *int
         return print_refusal(
             "--%s: the number of neighbours or hits must be a whole number from 1 to %.0f; found \"%s\"", name,
             0x1p53 - 1, text);
-    const octree_status status = octree_query_check(&query);
+    octree_query checked = query;
+    if (isnan(query.thickness))
+        checked.thickness = 0;
+    const octree_status status = octree_query_check(&checked);
     if (status != OCTREE_OK)
         return print_refusal("--%s: %s in \"%s\"", name, octree_status_text(status), text);
     queries->items[queries->count++] = query;

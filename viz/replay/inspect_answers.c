@@ -66,8 +66,10 @@ static double find_default_thickness(const octree *tree)
 void inspect_fill_queries(const octree *tree, octree_query *queries, size_t count)
 {
     for (size_t i = 0; i < count; i++)
-        if (octree_query_about(queries[i].kind)->members & OCTREE_QUERY_HAS_THICKNESS && queries[i].thickness == 0)
+        if (octree_query_about(queries[i].kind)->members & OCTREE_QUERY_HAS_THICKNESS && isnan(queries[i].thickness))
             queries[i].thickness = find_default_thickness(tree);
+        else if (isnan(queries[i].thickness))
+            queries[i].thickness = 0;
 }
 
 bool inspect_ask(const octree *tree, const octree_query *queries, size_t count, inspect_answers *result,

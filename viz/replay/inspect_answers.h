@@ -6,6 +6,7 @@
 #include "error.h"
 #include "octree/game.h"
 
+#include <math.h>
 #include <stdio.h>
 
 /* The answers to a list of queries, in the order of the queries. */
@@ -17,8 +18,11 @@ typedef struct inspect_answers {
     size_t count;
 } inspect_answers;
 
-/* Give each ray without a thickness one that suits the tree: about the distance of neighbouring points. Without it,
- * rays would hit no points. */
+/* The thickness of a ray for which the user gave none. */
+#define INSPECT_ANY_THICKNESS NAN
+
+/* Give each ray with INSPECT_ANY_THICKNESS one that suits the tree: about the distance of neighbouring points. Without
+ * it, rays would hit no points. */
 void inspect_fill_queries(const octree *tree, octree_query *queries, size_t count);
 
 /* Answer a list of queries. The region of a query may extend beyond the world. If a query is invalid or memory runs

@@ -29,7 +29,8 @@
     Y(X, RAY, "ray", "rays", "rays, the places at which they hit points, and the ranks of these hits", ROLE_RADIUS,    \
       "X,Y,Z,DX,DY,DZ[,K[,THICKNESS[,LENGTH]]]", RAY,                                                                  \
       "print and draw the first point that a ray from a position in a direction hits, or the first K points. A point " \
-      "is hit if it is at most THICKNESS from the ray on each axis (0 or none: chosen from the sizes of the leaves). " \
+      "is hit if it is at most THICKNESS from the ray on each axis (if missing: chosen from the sizes of the "         \
+      "leaves). "                                                                                                      \
       "The ray ends after LENGTH times the direction, or never",                                                       \
       "a position, a direction, and optionally the number of hits, the thickness and the length of the ray, as in "    \
       "0,0,0,1,0,0 or 0,0,0,1,0,0,8,0.5,100")                                                                          \

@@ -221,6 +221,8 @@ static void text_names_the_points_that_were_found(void **state)
         {"--ray -4,0,0,2,0,0,9,0.5",
          "first 9 hits of the ray in direction 2 0 0 from -4 0 0, thickness 0.5: 1 found\n  "
          "0: 0 0 0  t 1.75\n  cost: "},
+        {"--ray -4,0.5,0,2,0,0,2,0",
+         "first 2 hits of the ray in direction 2 0 0 from -4 0.5 0: 0 found\n  note: the ray"},
         {"--ray -4,0,0,2,0,0,2,4", " thickness 4: 2 found\n  0: 0 0 0  t 0\n  2: 3 0 4  t 1.5\n  cost: "},
         {"--ray -4,0,0,2,0,0,2,4,1.25", " thickness 4, length 1.25: 1 found\n  0: 0 0 0  t 0\n  cost: "},
         {"--ray -4,0,0,-2,0,0,1,1", ": 0 found\n  note: the ray hits no point; a thicker ray may\n  cost: "},
