@@ -166,6 +166,17 @@ static bool describe_answer_note(const shown_answer *shown, char note[NOTE_TEXT]
 
 /* ---- Text --------------------------------------------------------------------------------------------------- */
 
+/* Print the normal and the offset of each half-space. */
+static void print_frustum(const octree_frustum *frustum, FILE *out)
+{
+    for (size_t i = 0; i < frustum->count; i++) {
+        fputs(i == 0 ? "" : ",", out);
+        inspect_print_numbers(frustum->half_spaces[i].normal, 3, out);
+        fputs(" <=", out);
+        inspect_print_numbers(&frustum->half_spaces[i].offset, 1, out);
+    }
+}
+
 static void print_member(const shown_answer *shown, const octree_query_member_traits *member, FILE *out)
 {
     const char *value = (const char *)shown->answer + member->in_answer;
@@ -199,8 +210,7 @@ static void print_member(const shown_answer *shown, const octree_query_member_tr
             fprintf(out, ", %s bounds", octree_bounds_name(*(const octree_bounds *)value));
         break;
     case OCTREE_MEMBER_FRUSTUM:
-        fprintf(out, " of %zu half-space%s", ((const octree_frustum *)value)->count,
-                plural_ending(((const octree_frustum *)value)->count));
+        print_frustum((const octree_frustum *)value, out);
         break;
     case OCTREE_MEMBER_EXTENTS:
         fprintf(out, ", half extents");

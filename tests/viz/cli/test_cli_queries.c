@@ -216,6 +216,8 @@ static void text_names_the_points_that_were_found(void **state)
         {"--radius 1e308,1e308,1e308,1e307", "  note: the ball lies outside the world\n"},
         {"--range -1e308,-1e308,-1e308,1e308,1e308,1e308", ": 3 found\n  0: 0 0 0\n  1: 8 8 8\n  2: 3 0 4\n"},
         {"--world 50,50,50,60,60,60 --nearest 0,0,0", ": 0 found\n  note: the tree holds no points\n"},
+        {"--frustum 1,0,0,3,0,0,1,3.5", "frustum 1 0 0 <= 3, 0 0 1 <= 3.5: 1 found\n  0: 0 0 0\n  cost: "},
+        {"--frustum 0,-1,0,-8", "frustum 0 -1 0 <= -8: 1 found\n  1: 8 8 8\n  cost: "},
         {"--ray -4,0,0,2,0,0", "first hit of the ray in direction 2 0 0 from -4 0 0, thickness 5: 1 found\n  "
                                "0: 0 0 0  t 0\n  cost: "},
         {"--ray -4,0,0,2,0,0,9,0.5",
@@ -288,6 +290,9 @@ static void invalid_queries_are_refused_in_one_sentence(void **state)
         {"--nearest 1,2,3,2.5", "a whole number from 1 to 9007199254740991; found"},
         {"--nearest 1,2,3,99999999999999999999", "a whole number from 1 to 9007199254740991; found"},
         {"--nearest 1,2,3,1e300", "a whole number from 1 to 9007199254740991; found"},
+        {"--frustum 1,0,0", "--frustum takes 1 to 8 half-spaces of four numbers each"},
+        {"--frustum 1,0,0,1,2,3", "--frustum takes 1 to 8 half-spaces of four numbers each"},
+        {"--frustum 0,0,0,1", "--frustum: a size must not be negative, nor a direction zero"},
         {"--radius 1,2,3", "--radius takes a centre and a radius"},
         {"--radius 1,2,3,4,5", "--radius takes a centre and a radius"},
         {"--radius 1,2,3,-1", "must not be negative"},
