@@ -72,6 +72,9 @@ static void assert_same_query(const octree_query *a, const octree_query *b)
     if (a->kind == OCTREE_QUERY_RAY) {
         assert_memory_equal(a->direction, b->direction, sizeof a->direction);
         assert_memory_equal(&a->thickness, &b->thickness, sizeof a->thickness);
+        assert_memory_equal(a->to, b->to, sizeof a->to);
+        assert_memory_equal(a->half, b->half, sizeof a->half);
+        assert_memory_equal(&a->frustum, &b->frustum, sizeof a->frustum);
         assert_memory_equal(&a->length, &b->length, sizeof a->length);
     }
     if (a->kind == OCTREE_QUERY_RADIUS)
@@ -149,6 +152,24 @@ static void rays_survive_the_round_trip(void **state)
         {.kind = OCTREE_QUERY_RAY, .direction = {5e-324, 0, 0}, .k = 0, .length = 5e-324},
         {.kind = OCTREE_QUERY_RAY, .at_player = true, .direction = {1, 2, DBL_MAX}, .k = 9, .thickness = 0.1},
         {.kind = OCTREE_QUERY_RAY, .target = {1, 2, 3}, .direction = {1, 0, 0}, .k = 2, .thickness = 3, .length = 4},
+    };
+    octree_session session = octree_session_default();
+    (void)state;
+    session.queries = queries;
+    session.query_count = sizeof queries / sizeof queries[0];
+    assert_round_trip(&session);
+}
+
+static void frusta_and_sweeps_survive_the_round_trip(void **state)
+{
+    static const octree_query queries[] = {
+        {.kind = OCTREE_QUERY_FRUSTUM, .frustum = {{{{0, -1, 0}, DBL_MAX}}, 1}},
+        {.kind = OCTREE_QUERY_FRUSTUM,
+         .at_player = true,
+         .frustum = {{{{1, 0.1, 5e-324}, -3}, {{0, 0, -1}, 0}}, 2},
+         .bounds = OCTREE_BOUNDS_EITHER},
+        {.kind = OCTREE_QUERY_SWEEP, .target = {1, 2, 3}, .to = {0.1, -1, 5e-324}, .k = 1},
+        {.kind = OCTREE_QUERY_SWEEP, .at_player = true, .to = {1, 2, 3}, .half = {0, 0.5, 2}, .k = 7},
     };
     octree_session session = octree_session_default();
     (void)state;
@@ -482,6 +503,7 @@ int main(void)
         cmocka_unit_test(default_session_survives_the_round_trip),
         cmocka_unit_test(skips_and_epsilons_survive_the_round_trip),
         cmocka_unit_test(rays_survive_the_round_trip),
+        cmocka_unit_test(frusta_and_sweeps_survive_the_round_trip),
         cmocka_unit_test(a_ray_in_a_file_has_one_hit_and_no_end_by_default),
         cmocka_unit_test(bounds_survive_the_round_trip_and_closed_ones_are_not_written),
         cmocka_unit_test(answers_survive_the_round_trip),
