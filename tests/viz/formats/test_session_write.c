@@ -72,11 +72,15 @@ static void assert_same_query(const octree_query *a, const octree_query *b)
     if (a->kind == OCTREE_QUERY_RAY) {
         assert_memory_equal(a->direction, b->direction, sizeof a->direction);
         assert_memory_equal(&a->thickness, &b->thickness, sizeof a->thickness);
-        assert_memory_equal(a->to, b->to, sizeof a->to);
-        assert_memory_equal(a->half, b->half, sizeof a->half);
-        assert_memory_equal(&a->frustum, &b->frustum, sizeof a->frustum);
         assert_memory_equal(&a->length, &b->length, sizeof a->length);
     }
+    if (a->kind == OCTREE_QUERY_SWEEP) {
+        assert_int_equal(a->k, b->k);
+        assert_memory_equal(a->to, b->to, sizeof a->to);
+        assert_memory_equal(a->half, b->half, sizeof a->half);
+    }
+    if (a->kind == OCTREE_QUERY_FRUSTUM)
+        assert_memory_equal(&a->frustum, &b->frustum, sizeof a->frustum);
     if (a->kind == OCTREE_QUERY_RADIUS)
         assert_memory_equal(&a->radius, &b->radius, sizeof a->radius);
     assert_int_equal(a->bounds, b->bounds);
