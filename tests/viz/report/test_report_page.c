@@ -405,7 +405,8 @@ static void page_of_a_thousand_findings_renders_only_visible_ones(void **state)
         "    said.push(`selected\\t${text('selected')}`);\n"
         "    press('End');\n"
         "    await until(() => shown() === 'frame_000999.png' && isDrawn(last));\n"
-        "    said.push(`first after\\t${isDrawn(list[0].lastChild)}`, `decoded\\t${document.images.length}`, '');\n"
+        "    await until(() => !isDrawn(list[0].lastChild));\n" /* the browser hides it a few frames later */
+        "    said.push(`decoded\\t${document.images.length}`, '');\n"
         "    const made = document.body.appendChild(document.createElement('pre'));\n"
         "    made.textContent = said.join('\\n');\n"
         "    made.id = 'said';\n"
@@ -428,7 +429,6 @@ static void page_of_a_thousand_findings_renders_only_visible_ones(void **state)
                           "beside it.");
     assert_reported_value(said, "last before", "false");
     assert_reported_value(said, "selected", "1 selected, 1 frame");
-    assert_reported_value(said, "first after", "false");
     assert_reported_value(said, "decoded", "3");
     free(said);
 }
