@@ -59,6 +59,16 @@ void body_model_assert_same(const octree_bodies *set, const body_model *m)
     assert_int_equal(octree_bodies_create(&def, &built), OCTREE_OK);
     assert_int_equal(octree_bodies_insert_many(built, m->bodies, m->count, NULL, NULL), OCTREE_OK);
     assert_true(octree_bodies_digest(built) == octree_bodies_digest(set));
+    octree_bodies_destroy(built);
+}
+
+void body_model_compact(octree_bodies *set, const body_model *m)
+{
+    octree_bodies *built;
+    const octree_def def = octree_bodies_definition(set);
+    assert_int_equal(octree_bodies_compact(set), OCTREE_OK);
+    assert_int_equal(octree_bodies_create(&def, &built), OCTREE_OK);
+    assert_int_equal(octree_bodies_insert_many(built, m->bodies, m->count, NULL, NULL), OCTREE_OK);
     for (unsigned i = 0; i < OCTREE_BODY_LEVELS; i++) {
         double reach[3] = {0}, expected[3] = {0};
         const octree *a = octree_bodies_level(set, i, reach), *b = octree_bodies_level(built, i, expected);

@@ -17,7 +17,10 @@ typedef struct body_model {
 void body_model_change_one(octree_bodies *set, body_model *m, scene_numbers numbers, uint64_t *seed);
 void body_model_change_many(octree_bodies *set, body_model *m, scene_numbers numbers, uint64_t *seed);
 
-/* The set holds the bodies of the list, and is in the same state as a set that is built from them at once. */
+/* Assert that the set is valid and holds the bodies of the list. */
 void body_model_assert_same(const octree_bodies *set, const body_model *m);
+
+/* Compact the set. It must then have the nodes of a set that is built from its bodies at once. */
+void body_model_compact(octree_bodies *set, const body_model *m);
 
 #endif

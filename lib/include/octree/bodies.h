@@ -11,6 +11,10 @@
  * loose octree (Ulrich 2000) whose cells adapt to the number of bodies. The nodes of a level are a function of its
  * bodies.
  *
+ * Bodies that are small beside the leaves need no levels of their own. A bulk insertion into an empty set, replace_all
+ * and compact choose the size up to which bodies share the last level; a set that has grown fourfold since chooses it
+ * again. In a set filled by single insertions the levels depend on the bodies alone, until octree_bodies_compact().
+ *
  * All answers are decided by real numbers: no body is missed or added because of rounding. A node is skipped only if a
  * box that contains all of its bodies fails the test by which a body is accepted.
  *
@@ -54,8 +58,9 @@ void octree_bodies_destroy(octree_bodies *bodies);
 /* Remove all bodies. Errors: NULL_ARGUMENT, BUSY. Cost: O(memory blocks). */
 octree_status octree_bodies_clear(octree_bodies *bodies);
 
-/* Insert a body. Cost: O(D + M). Errors: NULL_ARGUMENT, NOT_FINITE, OUTSIDE (the position), BAD_SIZE (half < 0),
- * DUPLICATE, NO_MEMORY, TOO_MANY, BUSY; the set is then unchanged. */
+/* Insert a body. Cost: O(D + M); O(n log n) whenever a set that was filled in bulk has grown fourfold. Errors:
+ * NULL_ARGUMENT, NOT_FINITE, OUTSIDE (the position), BAD_SIZE (half < 0), DUPLICATE, NO_MEMORY, TOO_MANY, BUSY; the set
+ * is then unchanged. */
 octree_status octree_bodies_insert(octree_bodies *bodies, const octree_body *body);
 
 /* Remove the body with this position, these half extents and this id. Cost: O(D + M). Errors: those of insertion, and
@@ -83,8 +88,9 @@ octree_status octree_bodies_move_many(octree_bodies *bodies, const octree_body *
 octree_status octree_bodies_replace_all(octree_bodies *bodies, const octree_body *added, size_t count,
                                         octree_status *statuses, size_t *changed);
 
-/* Store the bodies in the order of their leaves, and release unused memory. Queries are then faster. Answers and nodes
- * stay the same. Errors: NULL_ARGUMENT, BUSY, NO_MEMORY; the set is then unchanged. Cost: O(n log n). */
+/* Store the bodies in the order of their leaves, divide them by size again, and release unused memory. Queries are then
+ * faster. Answers stay the same. Errors: NULL_ARGUMENT, BUSY, NO_MEMORY; the set is then unchanged. Cost: O(n log n).
+ */
 octree_status octree_bodies_compact(octree_bodies *bodies);
 
 /* ---- Read --------------------------------------------------------------------------------------------------- */
@@ -199,9 +205,9 @@ typedef bool (*octree_pair_visitor)(const octree_body *a, const octree_body *b, 
 
 /* Visit all pairs of bodies whose boxes have a common point, each pair once. If `other` is null, the pairs within the
  * set are visited, with `a` before `b` in the order of octree_compare_bodies(); otherwise the pairs of one body of each
- * set, `a` from the first. The order of the pairs is a function of the bodies and the definitions. Errors:
- * NULL_ARGUMENT, and NO_MEMORY. Cost: O(n M) for bodies of bounded density, plus the number of pairs; about 110 bytes
- * of memory a body during the call. */
+ * set, `a` from the first. The order of the pairs is a function of the bodies, the definitions and, for sets filled in
+ * bulk, the calls that filled them. Errors: NULL_ARGUMENT, and NO_MEMORY. Cost: O(n M) for bodies of bounded density,
+ * plus the number of pairs; about 110 bytes of memory a body during the call. */
 octree_status octree_bodies_pairs(const octree_bodies *bodies, const octree_bodies *other, octree_pair_visitor visit,
                                   void *context);
 

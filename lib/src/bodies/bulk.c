@@ -13,6 +13,7 @@
 #include "../exact/float_mode.h"
 #include "../exact/point.h"
 #include "../query/search.h"
+#include "order.h"
 #include "two_bodies.h"
 
 enum { PREFETCH_AHEAD = 8 };
@@ -178,55 +179,6 @@ static void add_row(bulk *b, size_t index)
         collect(b, index, row, body, find_level(b->set, body->half));
 }
 
-/* The least number of bodies that are sorted before they are added. */
-enum { LEAST_SORTED = 1024 };
-
-/* The order in which rows are added: that of the cells of a grid, so that the bodies of a leaf are close together in
- * memory. Null indices: the order of the caller, for few bodies or if memory is short. Only the speed depends on it. */
-typedef struct row_order {
-    uint32_t *indices; /* followed by the cells of the bodies, and by the ends of the cells */
-    size_t size;       /* in bytes */
-} row_order;
-
-/* Counting sort. Bodies of one cell keep their order; so, of two equal bodies, the first is added. Bodies whose cell is
- * not certain come last. */
-static void sort_by_cells(const octree_bodies *set, const octree_body *added, size_t count, unsigned depth,
-                          uint32_t *indices)
-{
-    uint32_t *cells = indices + count, *ends = cells + count;
-    const uint32_t last = UINT32_C(1) << 3 * depth;
-    memset(ends, 0, (last + 2) * sizeof *ends);
-    compute_grid_cells(anchor_of(set)->axes, depth, added->position, sizeof *added / sizeof(double), count, cells);
-    for (size_t i = 0; i < count; i++) {
-        cells[i] = cells[i] < last ? cells[i] : last;
-        ends[cells[i] + 1]++;
-    }
-    for (uint32_t i = 1; i < last + 2; i++)
-        ends[i] += ends[i - 1];
-    for (size_t i = 0; i < count; i++)
-        indices[ends[cells[i]]++] = (uint32_t)i;
-}
-
-static row_order make_order(octree_bodies *set, const octree_body *added, size_t count)
-{
-    row_order order = {NULL, 0};
-    unsigned depth = 1;
-    if (count < LEAST_SORTED)
-        return order;
-    while (depth < GRID_DEEPEST && (size_t)1 << 3 * (depth + 1) <= count)
-        depth++;
-    order.size = (2 * count + ((size_t)1 << 3 * depth) + 2) * sizeof *order.indices;
-    order.indices = arena_allocate(&set->memory, order.size);
-    if (order.indices)
-        sort_by_cells(set, added, count, depth, order.indices);
-    return order;
-}
-
-static void free_order(octree_bodies *set, const row_order *order)
-{
-    arena_free(&set->memory, order->indices, order->size);
-}
-
 octree_status octree_bodies_insert_many(octree_bodies *bodies, const octree_body *added, size_t count,
                                         octree_status *statuses, size_t *changed)
 {
@@ -239,7 +191,9 @@ octree_status octree_bodies_insert_many(octree_bodies *bodies, const octree_body
     bulk b = {.set = bodies, .from = added, .statuses = statuses};
     if (!begin_bulk(&b, count))
         return OCTREE_NO_MEMORY;
-    row_order order = make_order(bodies, added, count);
+    const row_order order = make_order(bodies, added, count);
+    if (order.indices && bodies->rows.count == 0)
+        choose_floor(bodies, &order, count);
     for (size_t i = 0; i < count; i++) {
         const size_t soon = i + PREFETCH_AHEAD, later = soon + PREFETCH_AHEAD;
         if (soon < count)
@@ -250,7 +204,9 @@ octree_status octree_bodies_insert_many(octree_bodies *bodies, const octree_body
     }
     free_order(bodies, &order);
     make_changes(&b, insert_points, finish_insertion);
-    return finish_bulk(&b, changed);
+    status = finish_bulk(&b, changed);
+    rebuild_if_due(bodies);
+    return status;
 }
 
 /* ---- Remove ------------------------------------------------------------------------------------------------- */
@@ -420,21 +376,32 @@ static octree_walk_order gather_leaf(const octree_node *node, void *context)
     return OCTREE_WALK_ON;
 }
 
-octree_status octree_bodies_compact(octree_bodies *bodies)
+/* Insert all bodies of a set into an empty set, in the order of the leaves. */
+static octree_status rebuild_in_order(octree_bodies *set)
 {
-    RETURN_IN_DEFAULT_MODE(octree_status, octree_bodies_compact, bodies);
-    octree_status status = check_set_change(bodies);
-    if (status != OCTREE_OK)
-        return status;
-    arena memory = {.allocator = bodies->memory.allocator};
-    const size_t size = ((size_t)bodies->rows.count + 1) * sizeof(octree_body);
-    gathering g = {bodies, arena_allocate(&memory, size), 0};
+    arena memory = {.allocator = set->memory.allocator};
+    const size_t size = ((size_t)set->rows.count + 1) * sizeof(octree_body);
+    gathering g = {set, arena_allocate(&memory, size), 0};
     if (!g.bodies)
         return OCTREE_NO_MEMORY;
     for (unsigned i = 0; i < OCTREE_BODY_LEVELS; i++)
-        if (bodies->levels[i].tree)
-            octree_walk(bodies->levels[i].tree, gather_leaf, &g);
-    status = rebuild_set(bodies, g.bodies, g.count, NULL, NULL);
+        if (set->levels[i].tree)
+            octree_walk(set->levels[i].tree, gather_leaf, &g);
+    const octree_status status = rebuild_set(set, g.bodies, g.count, NULL, NULL);
     arena_free(&memory, g.bodies, size);
     return status;
+}
+
+octree_status octree_bodies_compact(octree_bodies *bodies)
+{
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_bodies_compact, bodies);
+    const octree_status status = check_set_change(bodies);
+    return status == OCTREE_OK ? rebuild_in_order(bodies) : status;
+}
+
+/* If memory is short, the set stays valid; it is only slower. */
+void rebuild_if_due(octree_bodies *set)
+{
+    if (set->rows.count >= set->due && rebuild_in_order(set) != OCTREE_OK)
+        set->due = GROWTH_BEFORE_REBUILD * (size_t)set->rows.count;
 }

@@ -12,6 +12,9 @@
  * The bound must not depend on the history of the set, so that costs and traces are reproducible: a level counts its
  * half extents in buckets, and the reach is the upper end of the highest bucket in use.
  *
+ * Bodies up to the floor of the set share the last level, although they differ more: beside its leaves all of them are
+ * small. A bulk insertion into an empty set chooses the floor (order.c).
+ *
  * Cost: a query descends once in each level in use. A change updates three counters.
  */
 #include "two_bodies.h"
@@ -38,6 +41,8 @@ int find_exponent_of_world(const octree_box *world)
 
 unsigned find_level(const octree_bodies *set, const double half[3])
 {
+    if (half[0] <= set->floor[0] && half[1] <= set->floor[1] && half[2] <= set->floor[2])
+        return OCTREE_BODY_LEVELS - 1;
     const double largest = larger(larger(half[0], half[1]), half[2]);
     const int below = set->largest - get_exponent(largest);
     const int number = below < 0 ? 0 : below / LEVEL_EXPONENTS;
@@ -59,18 +64,25 @@ octree_status create_level(octree_bodies *set, unsigned number)
 
 /* ---- The reach ---------------------------------------------------------------------------------------------- */
 
-/* Returns the number that all half extents of a bucket share: their exponent and the two highest bits of the mantissa,
- * for the highest bucket of a level. */
+/* Returns the number that all half extents of a bucket share: their exponent and the two highest bits of the
+ * mantissa. */
+static int64_t number_of_bucket(double half)
+{
+    uint64_t bits;
+    memcpy(&bits, &half, sizeof bits);
+    return (int64_t)(bits >> BUCKET_SHIFT);
+}
+
+/* Returns the number of the highest bucket of a level. */
 static int64_t number_of_top_bucket(const octree_bodies *set, unsigned number)
 {
-    return (int64_t)(set->largest - LEVEL_EXPONENTS * (int)number + 1) * BUCKETS_OF_EXPONENT - 1;
+    const int64_t top = (int64_t)(set->largest - LEVEL_EXPONENTS * (int)number + 1) * BUCKETS_OF_EXPONENT - 1;
+    return number == OCTREE_BODY_LEVELS - 1 && set->floor_bucket > top ? set->floor_bucket : top;
 }
 
 static int find_bucket(int64_t top, double half)
 {
-    uint64_t bits;
-    memcpy(&bits, &half, sizeof bits);
-    const int64_t bucket = REACH_BUCKETS - 1 + (int64_t)(bits >> BUCKET_SHIFT) - top;
+    const int64_t bucket = REACH_BUCKETS - 1 + number_of_bucket(half) - top;
     return bucket < 0 ? 0 : bucket >= REACH_BUCKETS ? REACH_BUCKETS - 1 : (int)bucket;
 }
 
@@ -90,11 +102,12 @@ static double end_of_bucket(const octree_bodies *set, unsigned number, int bucke
     return (number == 0 && bucket == REACH_BUCKETS - 1) || value > DBL_MAX ? DBL_MAX : value;
 }
 
-/* The unit is the upper end of the highest bucket divided by MAX_STEPS + 1: a power of two. Below 2^-1022 it would not
- * be; there it is larger. */
+/* The unit is the least power of two that is at least the upper end of the highest bucket, divided by MAX_STEPS + 1.
+ * Below 2^-1022 it would not be a power of two; there it is larger. */
 level make_empty_level(const octree_bodies *set, unsigned number)
 {
-    const int64_t unit = number_of_top_bucket(set, number) + 1 - STEP_BITS * BUCKETS_OF_EXPONENT;
+    const int64_t exponent = number_of_top_bucket(set, number) / BUCKETS_OF_EXPONENT + 1;
+    const int64_t unit = (exponent - STEP_BITS) * BUCKETS_OF_EXPONENT;
     level l = {.tree = NULL};
     l.unit = l.rest = value_of_number(unit < BUCKETS_OF_EXPONENT ? BUCKETS_OF_EXPONENT : unit);
     l.units = 1 / l.unit;
@@ -122,4 +135,20 @@ void change_reach(octree_bodies *set, unsigned number, const double half[3], int
         if (*count <= 1) /* the bucket has become empty, or is used for the first time */
             update_reach(set, number, i);
     }
+}
+
+void reset_level(octree_bodies *set, unsigned number)
+{
+    level *l = &set->levels[number];
+    const level kept = *l;
+    *l = make_empty_level(set, number);
+    l->tree = kept.tree;
+    l->counts = kept.counts;
+}
+
+void set_floor(octree_bodies *set, const double floor[3])
+{
+    memcpy(set->floor, floor, sizeof set->floor);
+    set->floor_bucket = number_of_bucket(larger(larger(floor[0], floor[1]), floor[2]));
+    reset_level(set, OCTREE_BODY_LEVELS - 1);
 }

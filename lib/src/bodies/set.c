@@ -24,6 +24,7 @@ static octree_status create_set(const octree_allocator *allocator, octree_bodies
         return OCTREE_NO_MEMORY;
     memset(made, 0, sizeof *made);
     made->memory = memory;
+    made->due = SIZE_MAX;
     rows_init(&made->rows, &made->memory);
     *bodies = made;
     return OCTREE_OK;
@@ -105,18 +106,17 @@ octree_status check_set_change(const octree_bodies *set)
 octree_status octree_bodies_clear(octree_bodies *bodies)
 {
     const octree_status status = check_set_change(bodies);
-    for (unsigned i = 0; status == OCTREE_OK && i < OCTREE_BODY_LEVELS; i++) {
-        level *l = &bodies->levels[i];
-        if (l->tree)
-            octree_clear(l->tree);
-        const level kept = *l;
-        *l = make_empty_level(bodies, i);
-        l->tree = kept.tree;
-        l->counts = kept.counts;
+    if (status != OCTREE_OK)
+        return status;
+    set_floor(bodies, (const double[3]){0, 0, 0});
+    bodies->due = SIZE_MAX;
+    for (unsigned i = 0; i < OCTREE_BODY_LEVELS; i++) {
+        if (bodies->levels[i].tree)
+            octree_clear(bodies->levels[i].tree);
+        reset_level(bodies, i);
     }
-    if (status == OCTREE_OK)
-        rows_release(&bodies->rows);
-    return status;
+    rows_release(&bodies->rows);
+    return OCTREE_OK;
 }
 
 void octree_bodies_destroy(octree_bodies *bodies)
@@ -179,11 +179,13 @@ octree_status octree_bodies_insert(octree_bodies *bodies, const octree_body *bod
     const uint64_t id = make_point_id(&bodies->levels[number], row, added.half);
     status = octree_insert(bodies->levels[number].tree, added.position, id);
     end_callbacks(begun);
-    if (status == OCTREE_OK)
-        change_reach(bodies, number, added.half, 1);
-    else
+    if (status != OCTREE_OK) {
         rows_remove(&bodies->rows, row);
-    return status;
+        return status;
+    }
+    change_reach(bodies, number, added.half, 1);
+    rebuild_if_due(bodies);
+    return OCTREE_OK;
 }
 
 octree_status octree_bodies_remove(octree_bodies *bodies, const octree_body *body)
@@ -396,7 +398,7 @@ static bool are_counts_right(const level *l, const reach_counts *counted)
 /* Count the half extents of all levels again, in a set on the stack that has no bodies. */
 static const char *check_rows(const octree_bodies *set)
 {
-    octree_bodies counted = {.largest = set->largest};
+    octree_bodies counted = {.largest = set->largest, .floor_bucket = set->floor_bucket};
     reach_counts counts[OCTREE_BODY_LEVELS] = {{{{0}}}};
     size_t count = 0;
     inspection s = {(octree_bodies *)(uintptr_t)set, &counted, 0, NULL};

@@ -9,6 +9,9 @@
 /* A bucket counts the half extents between two values whose ratio is at most 1.25. */
 enum { REACH_BUCKETS = 32 };
 
+/* A set whose floor was chosen chooses it again when it has this many times as many bodies. */
+enum { GROWTH_BEFORE_REBUILD = 4 };
+
 /* On each axis, the number of half extents in each bucket. Half extents of 0 are not counted. */
 typedef struct reach_counts {
     uint32_t buckets[3][REACH_BUCKETS];
@@ -33,6 +36,10 @@ struct octree_bodies {
     arena memory;
     octree_def def;
     int largest; /* the binary exponent, biased, of the half extents with which level 0 begins */
+    /* Bodies whose half extents are at most these belong to the last level. The bucket is that of the largest. */
+    double floor[3];
+    int64_t floor_bucket;
+    size_t due; /* the number of bodies at which the set is rebuilt with another floor; SIZE_MAX: never */
     level levels[OCTREE_BODY_LEVELS];
     rows rows;
     /* only in a set made by octree_bodies_of_points(): the caller's tree, which is also the tree of the last level */
@@ -69,6 +76,15 @@ int find_exponent_of_world(const octree_box *world);
 
 /* Returns the level of a body with these half extents. */
 unsigned find_level(const octree_bodies *set, const double half[3]);
+
+/* Reset all of a level but its tree, which is empty, and the memory of its counts. */
+void reset_level(octree_bodies *set, unsigned number);
+
+/* Set the floor of an empty set. */
+void set_floor(octree_bodies *set, const double floor[3]);
+
+/* Rebuild a set that has so many bodies that its floor may be too large for its leaves. */
+void rebuild_if_due(octree_bodies *set);
 
 /* Create the tree and the counts of a level if it has none. Returns OK or NO_MEMORY. */
 octree_status create_level(octree_bodies *set, unsigned number);
