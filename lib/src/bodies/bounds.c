@@ -35,7 +35,7 @@ void bound_squares_of_octants(const double target[3], double scale, const cell_h
         lanes_store(&bounds[o], bound_sums_of_squares(lanes_all(gaps[0][o >> 2]), lanes_all(gaps[1][o >> 1 & 1]), z));
 }
 
-lanes bound_squares_of_two(const double target[3], double scale, const two_bodies *two)
+static inline lanes bound_two_squares(const double target[3], double scale, const two_bodies *two)
 {
     lanes gaps[3];
     for (int k = 0; k < 3; k++)
@@ -43,13 +43,27 @@ lanes bound_squares_of_two(const double target[3], double scale, const two_bodie
     return bound_sums_of_squares(gaps[0], gaps[1], gaps[2]);
 }
 
-void bound_squares_of_bodies(const double target[3], double scale, const level *l, const octree_point *points,
-                             unsigned count, double *bounds)
+lanes bound_squares_of_two(const double target[3], double scale, const two_bodies *two)
 {
+    return bound_two_squares(target, scale, two);
+}
+
+/* Store two bounds at an even index. Returns the bits of those that are at most `cut`. */
+static inline uint64_t store_bounds(double *bounds, unsigned i, lanes two, lanes cut)
+{
+    lanes_store(&bounds[i], two);
+    return (uint64_t)(3 & ~lanes_less(cut, two)) << i;
+}
+
+uint64_t bound_squares_of_bodies(const double target[3], double scale, const level *l, const octree_point *points,
+                                 unsigned count, double cut, double *bounds)
+{
+    uint64_t near = 0;
     for (unsigned i = 0; i < count; i += 2) {
         const two_bodies two = load_two_bodies(l, &points[i], &points[i + 1 < count ? i + 1 : i]);
-        lanes_store(&bounds[i], bound_squares_of_two(target, scale, &two));
+        near |= store_bounds(bounds, i, bound_two_squares(target, scale, &two), lanes_all(cut));
     }
+    return near & UINT64_MAX >> (SCAN_POINTS - count);
 }
 
 /* ---- Times -------------------------------------------------------------------------------------------------- */
@@ -59,10 +73,16 @@ typedef struct time_spans {
     lanes enter, leave;
 } time_spans;
 
+/* A lower bound of all times that overflow. HUGE_VAL means never. */
+#define LATEST_TIME 0x1p1023
+
+/* Covers the underflow of products. */
+#define TIME_SLACK 0x1p-1000
+
 cast_bounds make_cast_bounds(const cast *c)
 {
     cast_bounds made;
-    made.length = lanes_all(c->length);
+    made.length = lanes_all(c->length < LATEST_TIME ? c->length : HUGE_VAL);
     for (int i = 0; i < 3; i++)
         made.axes[i] = (cast_axis){lanes_all(c->origin[i]),
                                    lanes_all(c->half[i]),
@@ -73,22 +93,18 @@ cast_bounds make_cast_bounds(const cast *c)
     return made;
 }
 
-/* A lower bound of all times that overflow. HUGE_VAL means never. */
-#define LATEST_TIME 0x1p1023
-
 /* Returns the times at which a cast touches the intervals center +- half on one axis. On an axis without motion, this
- * is all time or none. */
+ * is all time or none. The error is 16u * (distance + reach) / speed with u = 2^-53: some 8 roundings of a factor 1 +
+ * u. It is computed as a time, because among subnormal numbers it would vanish as a distance. */
 static inline time_spans find_spans(const cast_axis *c, lanes center, lanes half)
 {
     const lanes offset = lanes_subtract(center, c->origin), reach = lanes_add(half, c->half);
+    const lanes distance = lanes_absolute(offset), way = lanes_multiply(offset, c->sign);
     if (!c->moves) /* rounding is monotone, so the rounded terms are compared without an error */
-        return (time_spans){lanes_if_positive(lanes_subtract(lanes_absolute(offset), reach), HUGE_VAL),
-                            lanes_all(HUGE_VAL)};
-    const lanes way = lanes_multiply(offset, c->sign), size = lanes_add(lanes_absolute(offset), reach);
-    const lanes error = lanes_add(lanes_multiply(size, c->slack), lanes_all(0x1p-1000));
-    const lanes enter = lanes_subtract(lanes_multiply(lanes_subtract(way, reach), c->inverse), error);
-    const lanes leave = lanes_add(lanes_multiply(lanes_add(way, reach), c->inverse), error);
-    return (time_spans){lanes_smaller(lanes_all(LATEST_TIME), enter), leave};
+        return (time_spans){lanes_if_positive(lanes_subtract(distance, reach), HUGE_VAL), lanes_all(HUGE_VAL)};
+    const lanes error = lanes_multiply(lanes_add(distance, reach), c->slack);
+    return (time_spans){lanes_subtract(lanes_multiply(lanes_subtract(way, reach), c->inverse), error),
+                        lanes_add(lanes_multiply(lanes_add(way, reach), c->inverse), error)};
 }
 
 /* A time that is NaN excludes nothing. */
@@ -98,10 +114,12 @@ static inline void narrow_spans(time_spans *known, time_spans axis)
     known->leave = lanes_smaller(axis.leave, known->leave);
 }
 
-/* Returns the begins of spans, or HUGE_VAL for a span that has no time. */
+/* Returns the begins of spans, or HUGE_VAL for a span that has no time. A begin that overflows is the latest time. */
 static inline lanes begin_of_spans(time_spans spans)
 {
-    return lanes_larger(lanes_if_positive(lanes_subtract(spans.enter, spans.leave), HUGE_VAL), spans.enter);
+    const lanes excess = lanes_subtract(lanes_subtract(spans.enter, spans.leave), lanes_all(2 * TIME_SLACK));
+    const lanes begin = lanes_smaller(lanes_all(LATEST_TIME), lanes_subtract(spans.enter, lanes_all(TIME_SLACK)));
+    return lanes_larger(lanes_if_positive(excess, HUGE_VAL), begin);
 }
 
 void bound_times_of_octants(const cast_bounds *c, const cell_halves *h, double bounds[8])
@@ -123,7 +141,7 @@ void bound_times_of_octants(const cast_bounds *c, const cell_halves *h, double b
     }
 }
 
-lanes bound_times_of_two(const cast_bounds *c, const two_bodies *two)
+static inline lanes bound_two_times(const cast_bounds *c, const two_bodies *two)
 {
     time_spans known = {lanes_all(0), c->length};
     for (int k = 0; k < 3; k++)
@@ -131,11 +149,18 @@ lanes bound_times_of_two(const cast_bounds *c, const two_bodies *two)
     return begin_of_spans(known);
 }
 
-void bound_times_of_bodies(const cast_bounds *c, const level *l, const octree_point *points, unsigned count,
-                           double *bounds)
+lanes bound_times_of_two(const cast_bounds *c, const two_bodies *two)
 {
+    return bound_two_times(c, two);
+}
+
+uint64_t bound_times_of_bodies(const cast_bounds *c, const level *l, const octree_point *points, unsigned count,
+                               double cut, double *bounds)
+{
+    uint64_t near = 0;
     for (unsigned i = 0; i < count; i += 2) {
         const two_bodies two = load_two_bodies(l, &points[i], &points[i + 1 < count ? i + 1 : i]);
-        lanes_store(&bounds[i], bound_times_of_two(c, &two));
+        near |= store_bounds(bounds, i, bound_two_times(c, &two), lanes_all(cut));
     }
+    return near & UINT64_MAX >> (SCAN_POINTS - count);
 }

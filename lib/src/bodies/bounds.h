@@ -31,11 +31,12 @@ cast_bounds make_cast_bounds(const cast *c);
 void bound_squares_of_octants(const double target[3], double scale, const cell_halves *h, double bounds[8]);
 void bound_times_of_octants(const cast_bounds *c, const cell_halves *h, double bounds[8]);
 
-/* Compute the same bounds for the bodies of some points of a level. bounds[] has room for count + 1 numbers. */
-void bound_squares_of_bodies(const double target[3], double scale, const level *l, const octree_point *points,
-                             unsigned count, double *bounds);
-void bound_times_of_bodies(const cast_bounds *c, const level *l, const octree_point *points, unsigned count,
-                           double *bounds);
+/* Compute the same bounds for the bodies of at most SCAN_POINTS points of a level. bounds[] has room for count + 1
+ * numbers. Returns a bit mask of the bounds that are at most `cut`. */
+uint64_t bound_squares_of_bodies(const double target[3], double scale, const level *l, const octree_point *points,
+                                 unsigned count, double cut, double *bounds);
+uint64_t bound_times_of_bodies(const cast_bounds *c, const level *l, const octree_point *points, unsigned count,
+                               double cut, double *bounds);
 
 /* Compute the same bounds for two bodies. */
 lanes bound_squares_of_two(const double target[3], double scale, const two_bodies *two);

@@ -19,10 +19,12 @@ typedef struct key {
 
 typedef struct ordered_search {
     const octree_bodies *set;
-    /* Compute lower bounds of the keys of the bodies in the eight octants of a cell, and of the bodies of some points;
-     * bounds[] has room for one number more. HUGE_VAL: no such body counts. */
+    /* Compute lower bounds of the keys of the bodies in the eight octants of a cell, and of the bodies of at most
+     * SCAN_POINTS points; HUGE_VAL: no such body counts. The latter returns a bit mask of the bounds that are at most
+     * `cut`. */
     void (*bound)(const struct ordered_search *s, const cell_halves *h, double bounds[8]);
-    void (*bound_bodies)(const struct ordered_search *s, const octree_point *points, unsigned count, double *bounds);
+    uint64_t (*bound_bodies)(const struct ordered_search *s, const octree_point *points, unsigned count,
+                             double *bounds);
     /* Compute the key of a body. Returns false if the body does not count. */
     bool (*measure)(const struct ordered_search *s, const octree_body *body, key *k);
     /* Returns the sign of the key of `a` minus that of `b`, in real numbers. */
@@ -37,8 +39,9 @@ typedef struct ordered_search {
     octree_hit *hits; /* a heap; hits[0] has the greatest key. The key is octree_hit.at */
     size_t count, k;
     double limit;    /* no body whose key is certainly greater than this is among the first k */
-    double farthest; /* a node is also skipped if its bound exceeds this: its bodies are beyond the radius */
-    double shrink;   /* a node is skipped if its bound exceeds this factor times `limit` */
+    double farthest; /* the greatest bound of a node that may have bodies within the radius */
+    double shrink;   /* below 1 if the answer may be approximate */
+    double cut;      /* nodes and bodies whose bound exceeds this are skipped: min(limit * shrink, farthest, DBL_MAX) */
     const level *level;
     meter meter;
 } ordered_search;
@@ -50,9 +53,10 @@ static void bound_distances(const ordered_search *s, const cell_halves *h, doubl
     bound_squares_of_octants(s->target, s->scale, h, bounds);
 }
 
-static void bound_leaf_distances(const ordered_search *s, const octree_point *points, unsigned count, double *bounds)
+static uint64_t bound_leaf_distances(const ordered_search *s, const octree_point *points, unsigned count,
+                                     double *bounds)
 {
-    bound_squares_of_bodies(s->target, s->scale, s->level, points, count, bounds);
+    return bound_squares_of_bodies(s->target, s->scale, s->level, points, count, s->cut, bounds);
 }
 
 static void bound_times(const ordered_search *s, const cell_halves *h, double bounds[8])
@@ -60,9 +64,9 @@ static void bound_times(const ordered_search *s, const cell_halves *h, double bo
     bound_times_of_octants(&s->cast_bounds, h, bounds);
 }
 
-static void bound_leaf_times(const ordered_search *s, const octree_point *points, unsigned count, double *bounds)
+static uint64_t bound_leaf_times(const ordered_search *s, const octree_point *points, unsigned count, double *bounds)
 {
-    bound_times_of_bodies(&s->cast_bounds, s->level, points, count, bounds);
+    return bound_times_of_bodies(&s->cast_bounds, s->level, points, count, s->cut, bounds);
 }
 
 /* ---- Keys --------------------------------------------------------------------------------------------------- */
@@ -141,12 +145,18 @@ static void sift_down(const ordered_search *s, size_t count)
     }
 }
 
+static void set_limit(ordered_search *s, double limit)
+{
+    s->limit = limit;
+    s->cut = fmin(fmin(limit * s->shrink, s->farthest), DBL_MAX);
+}
+
 static void update_limit(ordered_search *s)
 {
     key worst;
     s->measure(s, &s->hits[0].body, &worst);
     const double limit = worst.value + worst.error;
-    s->limit = limit == limit ? limit : HUGE_VAL;
+    set_limit(s, limit == limit ? limit : HUGE_VAL);
 }
 
 /* Add a body that counts and whose key may be among the first k. */
@@ -180,11 +190,6 @@ static void sort_hits(ordered_search *s)
 
 /* ---- The descent -------------------------------------------------------------------------------------------- */
 
-static bool is_too_far(const ordered_search *s, double bound)
-{
-    return bound > s->limit * s->shrink || bound > s->farthest || bound > DBL_MAX;
-}
-
 static bool is_within_radius(const ordered_search *s, const octree_body *body)
 {
     return s->radius > DBL_MAX || body_meets_ball(body, s->target, s->radius);
@@ -205,16 +210,16 @@ static void measure_and_offer(ordered_search *s, const octree_point *point)
 static void scan_points(ordered_search *s, const octree_point *points, unsigned count)
 {
     double bounds[SCAN_POINTS + 1];
-    unsigned first = 0;
-    s->bound_bodies(s, points, count, bounds);
-    for (unsigned i = 1; i < count; i++)
-        first = bounds[i] < bounds[first] ? i : first;
-    if (is_too_far(s, bounds[first]))
+    uint64_t near = s->bound_bodies(s, points, count, bounds);
+    if (near == 0)
         return;
+    unsigned first = bits_lowest(near);
+    for (uint64_t left = near & (near - 1); left; left &= left - 1)
+        first = bounds[bits_lowest(left)] < bounds[first] ? bits_lowest(left) : first;
     measure_and_offer(s, &points[first]);
-    for (unsigned i = 0; i < count; i++)
-        if (i != first && !is_too_far(s, bounds[i]))
-            measure_and_offer(s, &points[i]);
+    for (near &= ~(UINT64_C(1) << first); near; near &= near - 1)
+        if (bounds[bits_lowest(near)] <= s->cut)
+            measure_and_offer(s, &points[bits_lowest(near)]);
 }
 
 static void scan_leaf(ordered_search *s, const node *leaf)
@@ -243,7 +248,7 @@ static unsigned sort_children(ordered_search *s, const node *n, const cell_halve
     for (unsigned left = n->octants; left; left &= left - 1) {
         const unsigned octant = bits_lowest(left);
         const double bound = bounds[octant];
-        if (is_too_far(s, bound)) {
+        if (bound > s->cut) {
             pruned |= 1u << octant;
             continue;
         }
@@ -271,7 +276,7 @@ static void descend(ordered_search *s, const node *n, cell c, const cell_halves 
     for (unsigned i = 0; i < count; i++) {
         const unsigned octant = branches[i].octant;
         const node *child = look_up_child(n, octant);
-        if (is_too_far(s, branches[i].bound)) {
+        if (branches[i].bound > s->cut) {
             meter_record_pruned(&s->meter, address, 1u << octant);
             continue;
         }
@@ -292,6 +297,7 @@ static void search_level(ordered_search *s, const level *l)
 static void search_in_order(ordered_search *s, size_t *count)
 {
     const unsigned begun = begin_set_callbacks(s->set);
+    set_limit(s, HUGE_VAL);
     for (unsigned i = 0; i < OCTREE_BODY_LEVELS && s->k > 0; i++)
         if (octree_count(s->set->levels[i].tree) > 0)
             search_level(s, &s->set->levels[i]);
@@ -340,7 +346,6 @@ octree_status octree_bodies_nearest(const octree_bodies *bodies, const double ta
                         .accept = {accept, context},
                         .hits = hits,
                         .k = k,
-                        .limit = HUGE_VAL,
                         .meter.how = &search};
     s.scale = anchor_of(bodies)->scale;
     s.farthest = metric_above(radius * s.scale * (radius * s.scale));
@@ -377,7 +382,6 @@ octree_status octree_bodies_cast(const octree_bodies *bodies, const octree_regio
                         .hits = hits,
                         .k = k,
                         .radius = HUGE_VAL,
-                        .limit = HUGE_VAL,
                         .farthest = HUGE_VAL,
                         .shrink = 1,
                         .meter.how = &search};
