@@ -183,13 +183,6 @@ bool cast_touches(const cast *c, const octree_body *e, cast_time *first)
     return answer < 0 ? test_exactly(c, e) : answer;
 }
 
-int cast_compare(const cast *c, const octree_body *a, const octree_body *b)
-{
-    fraction of_a, of_b;
-    const bool enters_a = find_entry(c, a, &of_a), enters_b = find_entry(c, b, &of_b);
-    return enters_a && enters_b ? compare_times(c, &of_a, &of_b) : enters_a - enters_b;
-}
-
 /* Returns whether one axis certainly has the latest time of entering, in doubles. If so, *axis receives it; -1: the box
  * touches the body at its start. */
 static bool find_entry_in_doubles(const cast *c, const octree_body *e, int *axis)
@@ -208,6 +201,18 @@ static bool find_entry_in_doubles(const cast *c, const octree_body *e, int *axis
         error = one.error > error ? one.error : error;
     }
     return latest - second > 2 * error;
+}
+
+/* If both casts enter on the same axis, the faces decide. Things on one floor are an example: all of their lower faces
+ * are hit at the same time. */
+int cast_compare(const cast *c, const octree_body *a, const octree_body *b)
+{
+    int i, other;
+    if (find_entry_in_doubles(c, a, &i) && find_entry_in_doubles(c, b, &other) && i >= 0 && i == other)
+        return body_sign(c->sign[i] * a->position[i], -c->sign[i] * b->position[i], -a->half[i], b->half[i]);
+    fraction of_a, of_b;
+    const bool enters_a = find_entry(c, a, &of_a), enters_b = find_entry(c, b, &of_b);
+    return enters_a && enters_b ? compare_times(c, &of_a, &of_b) : enters_a - enters_b;
 }
 
 /* Returns the sum of four terms, rounded: in doubles if hardly anything cancels out, else exactly.
