@@ -8,7 +8,7 @@ sanitizer=$("$cc" -print-file-name=libasan.so)
 sources='lib/src/*/*.[ch]'
 prefix=lib/src
 
-rules="-std=c17 -O1 $types -ffp-contract=off -D_POSIX_C_SOURCE=200809L -Ilib/include -Ilib/src/tree
+rules="-std=c17 -O1 $types -ffp-contract=off -D_POSIX_C_SOURCE=200809L -Ilib/include -Ilib/src/tree -Ilib/src/exact
        -I$root/tests/support -I$root/tests/support/oracle"
 
 flags_of()
@@ -60,10 +60,10 @@ compile_tests()
 {
     oracle=
     if echo '#include <gmp.h>' | "$cc" -E - >gmp.i 2>gmp.log; then
-        oracle="$root/tests/support/oracle/exact_oracle.c $root/tests/support/oracle/quick_oracle.c -lgmp"
+        oracle=-lgmp
     fi
     # shellcheck disable=SC2086
-    for support in "$root"/tests/support/*.c; do
+    for support in "$root"/tests/support/*.c ${oracle:+"$root"/tests/support/oracle/*.c}; do
         "$cc" $rules -c "$support" -o "programs/$(basename "$support" .c).o" || stop 'tests/support does not compile'
     done
     for file in "$root"/tests/lib/*/test_*.c "$root"/tests/threads/test_executor.c; do
@@ -73,7 +73,7 @@ compile_tests()
             test_exact*) [ -n "$oracle" ] || continue ;;
         esac
         # shellcheck disable=SC2086
-        "$cc" $rules "$file" programs/*.o $oracle -Lwhole -loctree -lcmocka -lm -lpthread -o "programs/$name" ||
+        "$cc" $rules "$file" programs/*.o -Lwhole -loctree -lcmocka $oracle -lm -lpthread -o "programs/$name" ||
             stop "$name does not compile"
     done
 }
