@@ -195,11 +195,20 @@ static bool is_within_radius(const ordered_search *s, const octree_body *body)
     return s->radius > DBL_MAX || body_meets_ball(body, s->target, s->radius);
 }
 
+/* Returns whether the k best bodies all have the key 0, the least possible, and lower ids than this one. Crowds of
+ * bodies that contain the target are common. */
+static bool comes_after_all(const ordered_search *s, const octree_body *body)
+{
+    return s->limit == 0 && s->count == s->k && body->id > s->hits[0].body.id;
+}
+
 static void measure_and_offer(ordered_search *s, const octree_point *point)
 {
     octree_body scratch;
     key k;
     const octree_body *body = load_body(s->set, point, &scratch);
+    if (comes_after_all(s, body))
+        return;
     if (s->measure(s, body, &k) && !(k.value - k.error > s->limit) && is_within_radius(s, body) &&
         !is_skipped(s->meter.how, body, s->target))
         offer_body(s, body);
