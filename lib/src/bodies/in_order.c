@@ -199,7 +199,7 @@ static bool is_within_radius(const ordered_search *s, const octree_body *body)
  * bodies that contain the target are common. */
 static bool comes_after_all(const ordered_search *s, const octree_body *body)
 {
-    return s->limit == 0 && s->count == s->k && body->id > s->hits[0].body.id;
+    return s->limit == 0 && body->id > s->hits[0].body.id;
 }
 
 static void measure_and_offer(ordered_search *s, const octree_point *point)

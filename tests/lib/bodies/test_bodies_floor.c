@@ -115,6 +115,21 @@ static void small_bodies_share_a_level_after_a_bulk_insertion(void **state)
     octree_bodies_destroy(single);
 }
 
+/* The leaves of a dense cluster are small beside the grid whose counts are known. */
+static void dense_cluster_has_a_small_floor(void **state)
+{
+    (void)state;
+    static octree_body bodies[BODIES];
+    octree_bodies *set = make_set(cube(-8, 8), NULL);
+    make_decades(bodies, BODIES, 3);
+    for (size_t i = 0; i < BODIES; i++)
+        for (int k = 0; k < 3; k++)
+            bodies[i].position[k] /= 1024;
+    assert_int_equal(octree_bodies_insert_many(set, bodies, BODIES, NULL, NULL), OCTREE_OK);
+    assert_int_equal(count_levels(set), 4);
+    octree_bodies_destroy(set);
+}
+
 static void answers_are_the_same_with_and_without_a_floor(void **state)
 {
     (void)state;
@@ -205,6 +220,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(small_bodies_share_a_level_after_a_bulk_insertion),
+        cmocka_unit_test(dense_cluster_has_a_small_floor),
         cmocka_unit_test(answers_are_the_same_with_and_without_a_floor),
         cmocka_unit_test(set_that_has_grown_chooses_again),
         cmocka_unit_test(cleared_set_has_no_floor),
