@@ -60,4 +60,11 @@ static inline int compare_uint64(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
+/* Compares two items that are doubles. For qsort(). */
+static inline int compare_float64(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
 #endif

@@ -220,12 +220,6 @@ static bool play_and_count(octree_game *game, const watcher *watch, audit_report
     }
 }
 
-static int compare_numbers(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static bool play_session(const char *path, const octree_session *session, const watcher *watch, audit_report *report,
                          octreel_error *error)
 {
@@ -237,7 +231,7 @@ static bool play_session(const char *path, const octree_session *session, const 
     octree_game_destroy(game);
     for (int kind = 0; kind < OCTREE_QUERY_KINDS; kind++)
         if (report->kinds[kind].ratio_count > 1)
-            qsort(report->kinds[kind].ratios, report->kinds[kind].ratio_count, sizeof(double), compare_numbers);
+            qsort(report->kinds[kind].ratios, report->kinds[kind].ratio_count, sizeof(double), compare_float64);
     if (done && report->asked == 0 && !report->nodes.given)
         return error_set(
             error, "%s: nothing to audit: the played ticks have neither foreign nodes nor a query with an \"answer\"",

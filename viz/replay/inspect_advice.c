@@ -12,6 +12,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "array.h"
 #include "octree/octree.h"
 #include "octree/sample.h"
 #include "text.h"
@@ -34,12 +35,6 @@ static double processor_ns(void)
     struct timespec now;
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
     return 1e9 * (double)now.tv_sec + (double)now.tv_nsec;
-}
-
-static int compare_numbers(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
 }
 
 /* ---- The targets -------------------------------------------------------------------------------------------- */
@@ -101,7 +96,7 @@ static double measure_round_ns(const octree *tree, const bench *b, size_t k, dou
 
 static double find_median(double rounds[ROUNDS])
 {
-    qsort(rounds, ROUNDS, sizeof *rounds, compare_numbers);
+    qsort(rounds, ROUNDS, sizeof *rounds, compare_float64);
     return rounds[ROUNDS / 2];
 }
 
