@@ -389,10 +389,11 @@ static octree_walk_order check_rows_of_leaf(const octree_node *node, void *conte
     return s->violation ? OCTREE_WALK_STOP : OCTREE_WALK_ON;
 }
 
-/* Returns whether the counts of a level are those of its bodies. */
-static bool are_counts_right(const level *l, const reach_counts *counted)
+/* Returns whether the counts and the reach of a level are those of its bodies. */
+static bool is_reach_right(const level *l, const level *counted)
 {
-    return octree_count(l->tree) == 0 || memcmp(l->counts, counted, sizeof *counted) == 0;
+    return octree_count(l->tree) == 0 || (memcmp(l->counts, counted->counts, sizeof *l->counts) == 0 &&
+                                          memcmp(l->reach, counted->reach, sizeof l->reach) == 0);
 }
 
 /* Count the half extents of all levels again, in a set on the stack that has no bodies. */
@@ -408,8 +409,8 @@ static const char *check_rows(const octree_bodies *set)
         count += octree_count(l->tree);
         if (l->tree)
             octree_walk(l->tree, check_rows_of_leaf, &s);
-        if (!s.violation && !are_counts_right(l, &counts[s.number]))
-            s.violation = "the counters of a level's reach are wrong";
+        if (!s.violation && !is_reach_right(l, &counted.levels[s.number]))
+            s.violation = "the reach of a level is not that of its bodies";
     }
     return s.violation                ? s.violation
            : count == set->rows.count ? NULL
