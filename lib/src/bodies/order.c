@@ -78,16 +78,19 @@ static void count_by_depth(const row_order *order, size_t capacity, unsigned dep
 
 void choose_floor(octree_bodies *set, const row_order *order, size_t count)
 {
+    const size_t sure = order->ends[(UINT32_C(1) << 3 * order->depth) - 1]; /* the bodies whose cell is certain */
     size_t counts[OCTREE_MAX_DEPTH + 1] = {0}, seen = 0;
     unsigned depth = 0;
     double floor[3];
+    if (2 * sure < count)
+        return;
     count_by_depth(order, anchor_of(set)->def.leaf_capacity, 0, 0, counts);
-    while (depth < OCTREE_MAX_DEPTH && (seen += counts[depth]) < count - count / 10)
+    while (depth < OCTREE_MAX_DEPTH && (seen += counts[depth]) < sure - sure / 10)
         depth++;
     for (int i = 0; i < 3; i++) {
         const axis *a = &anchor_of(set)->axes[i];
         floor[i] = ldexp(0.75 * (a->max / 2 - a->min / 2), -(int)depth); /* 3/8 of a cell */
     }
     set_floor(set, floor);
-    set->due = GROWTH_BEFORE_REBUILD * count;
+    set->due = GROWTH_BEFORE_REBUILD * sure;
 }

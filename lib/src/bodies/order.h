@@ -17,7 +17,7 @@ typedef struct row_order {
 row_order make_order(octree_bodies *set, const octree_body *added, size_t count);
 void free_order(octree_bodies *set, const row_order *order);
 
-/* Choose the floor of an empty set that will have these bodies. */
+/* Choose the floor of an empty set that will have these bodies, unless most of them have no certain cell. */
 void choose_floor(octree_bodies *set, const row_order *order, size_t count);
 
 #endif

@@ -130,6 +130,21 @@ static void dense_cluster_has_a_small_floor(void **state)
     octree_bodies_destroy(set);
 }
 
+static void refused_bodies_do_not_count(void **state)
+{
+    (void)state;
+    static octree_body bodies[BODIES + BODIES / 2];
+    size_t changed;
+    octree_bodies *set = make_set(cube(-8, 8), NULL);
+    make_decades(bodies, BODIES, 3);
+    for (size_t i = 0; i < BODIES / 2; i++)
+        bodies[BODIES + i].position[0] = i % 2 ? NAN : 9;
+    assert_int_equal(octree_bodies_insert_many(set, bodies, BODIES + BODIES / 2, NULL, &changed), OCTREE_OK);
+    assert_int_equal(changed, BODIES);
+    assert_int_equal(count_levels(set), 3);
+    octree_bodies_destroy(set);
+}
+
 static void answers_are_the_same_with_and_without_a_floor(void **state)
 {
     (void)state;
@@ -221,6 +236,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(small_bodies_share_a_level_after_a_bulk_insertion),
         cmocka_unit_test(dense_cluster_has_a_small_floor),
+        cmocka_unit_test(refused_bodies_do_not_count),
         cmocka_unit_test(answers_are_the_same_with_and_without_a_floor),
         cmocka_unit_test(set_that_has_grown_chooses_again),
         cmocka_unit_test(cleared_set_has_no_floor),
