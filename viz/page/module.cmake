@@ -31,7 +31,7 @@ function(compile_wasm source objects)
   # Optimize for size, to keep pages small; for speed only the loops over nodes, points, lines and pixels.
   set(optimized -Oz)
   if(name MATCHES "/src/(tree/(leaf|walk)|query/region)[.]c$" OR
-     name MATCHES "^viz/[a-z]+/(camera|filter|scene|velocity_layer|node_layers|node_boxes|fill|edges|box_lines|quads|paint|stroke|project|splats|splat_buffer|canvas|image|rgba)[.]c$")
+     name MATCHES "^viz/([a-z]+/)+(camera|filter|scene|velocity_layer|node_layers|node_boxes|fill|edges|box_lines|quads|paint|stroke|project|splats|splat_buffer|canvas|image|rgba)[.]c$")
     set(optimized -O2 -fno-unroll-loops)
   endif()
   string(REPLACE "/" "_" name ${name})
