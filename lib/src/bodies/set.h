@@ -9,7 +9,7 @@
 /* A bucket counts the half extents between two values whose ratio is at most 1.25. */
 enum { REACH_BUCKETS = 32 };
 
-/* A set whose floor was chosen chooses it again when it has this many times as many bodies. */
+/* A set whose floor was chosen chooses it again when its number of bodies has been multiplied by this. */
 enum { GROWTH_BEFORE_REBUILD = 4 };
 
 /* On each axis, the number of half extents in each bucket. Half extents of 0 are not counted. */
@@ -83,7 +83,7 @@ void reset_level(octree_bodies *set, unsigned number);
 /* Set the floor of an empty set. */
 void set_floor(octree_bodies *set, const double floor[3]);
 
-/* Rebuild a set that has so many bodies that its floor may be too large for its leaves. */
+/* Rebuild a set that has grown until its floor may be too large for its leaves. */
 void rebuild_if_due(octree_bodies *set);
 
 /* Create the tree and the counts of a level if it has none. Returns OK or NO_MEMORY. */
