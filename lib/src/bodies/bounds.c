@@ -35,12 +35,17 @@ void bound_squares_of_octants(const double target[3], double scale, const cell_h
         lanes_store(&bounds[o], bound_sums_of_squares(lanes_all(gaps[0][o >> 2]), lanes_all(gaps[1][o >> 1 & 1]), z));
 }
 
-inline lanes bound_squares_of_two(const double target[3], double scale, const two_bodies *two)
+static inline lanes bound_two_squares(const double target[3], double scale, const two_bodies *two)
 {
     lanes gaps[3];
     for (int k = 0; k < 3; k++)
         gaps[k] = bound_gaps(target[k], two->center[k], two->most[k], scale);
     return bound_sums_of_squares(gaps[0], gaps[1], gaps[2]);
+}
+
+lanes bound_squares_of_two(const double target[3], double scale, const two_bodies *two)
+{
+    return bound_two_squares(target, scale, two);
 }
 
 /* Store two bounds at an even index. Returns the bits of the bounds that are at most `cut`. */
@@ -56,7 +61,7 @@ uint64_t bound_squares_of_bodies(const double target[3], double scale, const lev
     uint64_t near = 0;
     for (unsigned i = 0; i < count; i += 2) {
         const two_bodies two = load_two_bodies(l, &points[i], &points[i + 1 < count ? i + 1 : i]);
-        near |= store_bounds(bounds, i, bound_squares_of_two(target, scale, &two), lanes_all(cut));
+        near |= store_bounds(bounds, i, bound_two_squares(target, scale, &two), lanes_all(cut));
     }
     return near & UINT64_MAX >> (SCAN_POINTS - count);
 }
@@ -136,12 +141,17 @@ void bound_times_of_octants(const cast_bounds *c, const cell_halves *h, double b
     }
 }
 
-inline lanes bound_times_of_two(const cast_bounds *c, const two_bodies *two)
+static inline lanes bound_two_times(const cast_bounds *c, const two_bodies *two)
 {
     time_spans known = {lanes_all(0), c->length};
     for (int k = 0; k < 3; k++)
         narrow_spans(&known, find_spans(&c->axes[k], two->center[k], two->most[k]));
     return begin_of_spans(known);
+}
+
+lanes bound_times_of_two(const cast_bounds *c, const two_bodies *two)
+{
+    return bound_two_times(c, two);
 }
 
 uint64_t bound_times_of_bodies(const cast_bounds *c, const level *l, const octree_point *points, unsigned count,
@@ -150,7 +160,7 @@ uint64_t bound_times_of_bodies(const cast_bounds *c, const level *l, const octre
     uint64_t near = 0;
     for (unsigned i = 0; i < count; i += 2) {
         const two_bodies two = load_two_bodies(l, &points[i], &points[i + 1 < count ? i + 1 : i]);
-        near |= store_bounds(bounds, i, bound_times_of_two(c, &two), lanes_all(cut));
+        near |= store_bounds(bounds, i, bound_two_times(c, &two), lanes_all(cut));
     }
     return near & UINT64_MAX >> (SCAN_POINTS - count);
 }
