@@ -34,18 +34,16 @@ static octree_status add_child_leaf(octree *tree, node *parent, unsigned octant,
     node leaf = {0};
     if (!leaf_append(&tree->store, &leaf, point))
         return OCTREE_NO_MEMORY;
-    node *group = pool_allocate(&tree->store.nodes, children + 1);
+    node *group = group_copy_with_gap(&tree->store, parent->below, children, index);
     if (!group) {
         leaf_release(&tree->store, &leaf);
         return OCTREE_NO_MEMORY;
     }
-    memcpy(group, parent->below, index * sizeof(node));
     group[index] = leaf;
-    memcpy(group + index + 1, children_of(parent) + index, (children - index) * sizeof(node));
     if (undo)
         *undo = (step){.kind = STEP_REGROUPED, .old = *parent};
     else
-        pool_free(&tree->store.nodes, parent->below, children);
+        group_free(&tree->store, parent->below, children);
     parent->below = group;
     parent->octants |= (uint8_t)(1u << octant);
     return OCTREE_OK;
@@ -109,7 +107,7 @@ static bool create_leaves(octree *tree, node *group, const shares *s)
 static bool make_split_node(octree *tree, node *made, const node *full, const octree_point *point, const shares *s)
 {
     const unsigned children = bits_count8(s->mask);
-    node *group = pool_allocate(&tree->store.nodes, children);
+    node *group = group_allocate(&tree->store, children);
     if (!group)
         return false;
     memset(group, 0, children * sizeof(node));
@@ -140,7 +138,7 @@ static bool make_grown_leaf(octree *tree, node *made, const node *full, const oc
 static bool make_parent_chain(octree *tree, node *bottom, uint64_t code, unsigned from, unsigned to)
 {
     for (; from > to; from--) {
-        node *only = pool_allocate(&tree->store.nodes, 1);
+        node *only = group_allocate(&tree->store, 1);
         if (!only) {
             node_release(&tree->store, bottom);
             return false;
@@ -271,8 +269,7 @@ void remove_empty_child(octree *tree, node *parent, node *child)
     node *group = children_of(parent);
     const unsigned children = bits_count8(parent->octants), index = (unsigned)(child - group);
     leaf_release(&tree->store, child);
-    memmove(child, child + 1, (children - index - 1) * sizeof(node));
-    pool_free(&tree->store.nodes, group + children - 1, 1);
+    group_remove(&tree->store, group, children, index);
     unsigned octant = 0;
     while (!(parent->octants >> octant & 1) || child_index(parent, octant) != index)
         octant++;

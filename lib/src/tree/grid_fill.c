@@ -254,7 +254,7 @@ static bool make_grid_children(filling *f, cell c, size_t index, node *made)
     for (unsigned octant = 0; octant < 8; octant++)
         octants |= mask_if(parts[octant] > 0, 1u << octant);
     const unsigned children = bits_count8(octants);
-    node *group = pool_allocate(&f->whole->store->nodes, children);
+    node *group = group_allocate(f->whole->store, children);
     *made = (node){.below = group, .count = f->counts[c.depth][index], .octants = (uint8_t)octants};
     if (!group)
         return false;

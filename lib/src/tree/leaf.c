@@ -108,6 +108,60 @@ static void remove_from_hashed_leaf(octree_point *points, uint32_t count, uint32
     hash_slots_of(points)[slot] = index + 1;
 }
 
+/* ---- Groups of nodes ---------------------------------------------------------------------------------------- */
+
+static void forget_boxes(const store *s, const node *group, unsigned siblings)
+{
+    if (!has_boxes(s))
+        return;
+    for (unsigned column = 0; column < BOX_COLUMNS; column++)
+        for (unsigned i = 0; i < siblings; i++)
+            box_column(group, siblings, column)[i] = column < BOX_COLUMNS / 2 ? -HUGE_VAL : HUGE_VAL;
+}
+
+node *group_allocate(store *s, unsigned siblings)
+{
+    node *group = pool_allocate(&s->nodes, siblings);
+    if (group)
+        forget_boxes(s, group, siblings);
+    return group;
+}
+
+void group_free(store *s, node *group, unsigned siblings)
+{
+    pool_free(&s->nodes, group, siblings);
+}
+
+node *group_copy_with_gap(store *s, const node *group, unsigned siblings, unsigned index)
+{
+    node *copy = group_allocate(s, siblings + 1);
+    if (!copy)
+        return NULL;
+    memcpy(copy, group, index * sizeof(node));
+    memcpy(copy + index + 1, group + index, (siblings - index) * sizeof(node));
+    for (unsigned column = 0; has_boxes(s) && column < BOX_COLUMNS; column++) {
+        const double *from = box_column(group, siblings, column);
+        double *to = box_column(copy, siblings + 1, column);
+        memcpy(to, from, index * sizeof *to);
+        memcpy(to + index + 1, from + index, (siblings - index) * sizeof *to);
+    }
+    return copy;
+}
+
+/* The columns move towards the beginning of the block, so they are moved in their order. */
+void group_remove(store *s, node *group, unsigned siblings, unsigned index)
+{
+    const double *columns = box_column(group, siblings, 0);
+    memmove(group + index, group + index + 1, (siblings - index - 1) * sizeof(node));
+    for (unsigned column = 0; has_boxes(s) && column < BOX_COLUMNS; column++) {
+        const double *from = columns + column * siblings;
+        double *to = box_column(group, siblings - 1, column);
+        memmove(to, from, index * sizeof *to);
+        memmove(to + index, from + index + 1, (siblings - index - 1) * sizeof *to);
+    }
+    pool_free(&s->nodes, (char *)group + (siblings - 1) * s->nodes.unit, 1);
+}
+
 /* ---- Leaves ------------------------------------------------------------------------------------------------- */
 
 /* Returns the size, in points, of the block for `count` points. Sizes grow by about a quarter: 1 to 4, 6, 8, 12, 16 ...
@@ -288,7 +342,7 @@ void node_release_unshared(store *s, const node *n, const node *other)
         const node *counterpart = child_at(other, octant);
         node_release_unshared(s, child++, counterpart ? counterpart : &none);
     }
-    pool_free(&s->nodes, n->below, bits_count8(n->octants));
+    group_free(s, n->below, bits_count8(n->octants));
 }
 
 void node_release(store *s, const node *n)
@@ -296,9 +350,9 @@ void node_release(store *s, const node *n)
     node_release_unshared(s, n, &(node){0});
 }
 
-void store_init(store *s)
+void store_init(store *s, size_t node_size)
 {
-    pool_init(&s->nodes, &s->memory, sizeof(node));
+    pool_init(&s->nodes, &s->memory, node_size);
     pool_init(&s->points, &s->memory, sizeof(octree_point));
 }
 

@@ -30,8 +30,9 @@ typedef struct store {
     pool points;
 } store;
 
-/* Initialize the pools of a store. The caller has already set the member `memory`. */
-void store_init(store *s);
+/* Initialize the pools of a store. The caller has already set the member `memory`. `node_size` is sizeof(node), or
+ * NODE_WITH_BOX. */
+void store_init(store *s, size_t node_size);
 
 /* Tell empty pools how many points will be stored, so that their first slabs are large enough. One large slab is
  * allocated faster than many small slabs, and malloc keeps a large slab's memory for the next build instead of
@@ -40,6 +41,40 @@ void store_expect_points(store *s, size_t count);
 
 /* Free the nodes below a root, and all blocks of the pools. */
 void store_release(store *s, const node *root);
+
+/* A group of siblings is a block of the pool `nodes`: the array of the nodes, and in trees of bodies a box for each
+ * node. The tree only marks the boxes of new nodes as unknown; bodies/boxes.c computes them.
+ *
+ * The boxes are six columns, one after the other: column[i] is a number of the box of sibling i. The first three
+ * columns are the lower corners, the others the upper corners. The box of an unknown node is infinite. */
+enum { BOX_COLUMNS = 6, NODE_WITH_BOX = sizeof(node) + BOX_COLUMNS * sizeof(double) };
+
+/* Returns whether the nodes of a tree have boxes. With OCTREE_WITHOUT_NODE_BOXES, no tree has them: the pages of
+ * recordings fill no sets of bodies, and are smaller without the code for boxes. */
+static inline bool has_boxes(const store *s)
+{
+#ifdef OCTREE_WITHOUT_NODE_BOXES
+    (void)s;
+    return false;
+#else
+    return s->nodes.unit == NODE_WITH_BOX;
+#endif
+}
+
+static inline double *box_column(const node *group, unsigned siblings, unsigned column)
+{
+    return (double *)(uintptr_t)(group + siblings) + column * siblings;
+}
+
+/* Allocate a group for `siblings` nodes. Returns null if memory runs out. The nodes are not initialized. */
+node *group_allocate(store *s, unsigned siblings);
+void group_free(store *s, node *group, unsigned siblings);
+
+/* Make a copy of a group with a gap for another node at an index. Returns null if memory runs out. */
+node *group_copy_with_gap(store *s, const node *group, unsigned siblings, unsigned index);
+
+/* Remove the node at an index from a group. */
+void group_remove(store *s, node *group, unsigned siblings, unsigned index);
 
 static inline node *children_of(const node *n)
 {

@@ -218,7 +218,7 @@ octree_status rebuild_from_batch(batch *b)
     b->overflow = b->to && !b->grid && can_overflow(b, &tree->root, root_cell(), b->arriving);
     if (b->overflow)
         return OCTREE_OK;
-    store_init(&tree->store);
+    store_init(&tree->store, tree->store.nodes.unit);
     create_part_pools(b, b->arriving.count);
     const bool ok = b->grid ? build_from_grid(b, &made) : build_node_by_tasks(b, root_cell(), b->arriving, &made);
     join_part_pools(b);

@@ -179,7 +179,7 @@ static bool build_children(batch *b, cell c, span items, node *made)
 {
     span shares[8];
     const unsigned octants = divide_items_by_octant(items, c.depth, shares), children = bits_count8(octants);
-    node *group = pool_allocate(&b->store->nodes, children);
+    node *group = group_allocate(b->store, children);
     *made = (node){.below = group, .octants = (uint8_t)octants};
     if (!group)
         return false;
@@ -377,7 +377,7 @@ static bool change_children(batch *b, const node *old, cell c, span leaving, spa
     if (octants == old->octants)
         return change_same_children(b, old, c, out, in, made);
     const unsigned children = bits_count8(octants);
-    node *group = pool_allocate(&b->store->nodes, children);
+    node *group = group_allocate(b->store, children);
     *made = (node){.below = group, .octants = (uint8_t)octants};
     if (!group)
         return false;

@@ -71,8 +71,12 @@ octree_status octree_create(const octree_def *def, octree **tree)
     if (!tree)
         return OCTREE_NULL_ARGUMENT;
     *tree = NULL;
-    if (!def)
-        return OCTREE_NULL_ARGUMENT;
+    return def ? create_tree(def, sizeof(node), tree) : OCTREE_NULL_ARGUMENT;
+}
+
+octree_status create_tree(const octree_def *def, size_t node_size, octree **tree)
+{
+    *tree = NULL;
     const octree_status status = check_definition(def);
     if (status != OCTREE_OK)
         return status;
@@ -87,7 +91,7 @@ octree_status octree_create(const octree_def *def, octree **tree)
     for (int i = 0; i < 3; i++)
         made->axes[i] = axis_make(def->world.min[i], def->world.max[i]);
     set_key_squares(made);
-    store_init(&made->store);
+    store_init(&made->store, node_size);
     *tree = made;
     return OCTREE_OK;
 }
@@ -168,7 +172,7 @@ static void swap_contents(octree *tree, octree *other)
 octree_status rebuild_tree(octree *tree, const octree_def *def)
 {
     octree *other;
-    octree_status status = octree_create(def, &other);
+    octree_status status = create_tree(def, tree->store.nodes.unit, &other);
     if (status != OCTREE_OK)
         return status;
     const size_t count = octree_count(tree), size = (count + 1) * sizeof(octree_point);

@@ -58,6 +58,9 @@ static inline bool fits_leaf(const octree *tree, size_t count)
     return count <= tree->def.leaf_capacity;
 }
 
+/* octree_create() with a size of nodes, which is that of store_init(). */
+octree_status create_tree(const octree_def *def, size_t node_size, octree **tree);
+
 /* Check whether a position is finite and in the world. Returns OK, NULL_ARGUMENT, NOT_FINITE or OUTSIDE. */
 octree_status check_position(const octree *tree, const double position[3]);
 

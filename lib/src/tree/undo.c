@@ -22,7 +22,7 @@ static void restore_removed_point(node *leaf, const step *s, const octree_point 
 static void restore_child_group(octree *tree, node *at, const node *old)
 {
     leaf_release(&tree->store, child_at(at, bits_lowest(at->octants & ~old->octants)));
-    pool_free(&tree->store.nodes, at->below, bits_count8(at->octants));
+    group_free(&tree->store, at->below, bits_count8(at->octants));
     *at = *old;
 }
 
@@ -98,7 +98,7 @@ void finish_move(octree *tree, const octree_point *old, const step undo[2])
         if (s->kind == STEP_REPLACED)
             node_release(&tree->store, &s->old);
         else if (s->kind == STEP_REGROUPED)
-            pool_free(&tree->store.nodes, s->old.below, bits_count8(s->old.octants));
+            group_free(&tree->store, s->old.below, bits_count8(s->old.octants));
         else if (s->kind == STEP_REMOVED)
             finish_removal(tree, s, old);
     }
