@@ -5,15 +5,17 @@
  * spans the real numbers position - half to position + half, which are not rounded. Each triple (position, half, id) is
  * stored once. The position must lie in the world; the box may reach beyond it.
  *
- * How it works. A tree of points finds bodies if each query is extended by the largest half extents. One large body
- * would then slow down every query. So bodies are divided by size into at most twelve levels, and each level is an
- * octree of positions (octree.h). A level extends queries only by its own largest half extents, its `reach`. This is a
- * loose octree (Ulrich 2000) whose cells adapt to the number of bodies. The nodes of a level are a function of its
- * bodies.
+ * How it works. Bodies are divided by size into at most twelve levels, and each level is an octree of their positions
+ * (octree.h). Each node of the tree has a box around all bodies in and below it, as in a bounding volume hierarchy, and
+ * a query skips a node whose box it does not meet. Without levels, one large body would enlarge the boxes of many small
+ * ones. Level 0, of the largest bodies, has no boxes; its cells are extended by its largest half extents, its `reach`.
+ * The nodes of a level, and their boxes, are a function of its bodies; only the box of a leaf of more than 64 bodies,
+ * most of them at one place, does not shrink when bodies are removed.
  *
- * Bodies that are small beside the leaves need no levels of their own. A bulk insertion into an empty set, replace_all
- * and compact choose the size up to which bodies share the last level; a set that has grown fourfold since chooses it
- * again. In a set filled by single insertions the levels depend on the bodies alone, until octree_bodies_compact().
+ * Bodies that are not large beside the leaves need no levels of their own. A bulk insertion into an empty set,
+ * replace_all and compact choose the size up to which bodies share the last level; a set that has grown fourfold since
+ * chooses it again. In a set filled by single insertions the levels depend on the bodies alone, until
+ * octree_bodies_compact().
  *
  * All answers are decided by real numbers: no body is missed or added because of rounding. A node is skipped only if a
  * box that contains all of its bodies fails the test by which a body is accepted.
@@ -169,8 +171,8 @@ octree_status octree_region_check(const octree_region *region);
 /* Visit every body that matches a region, in no stated order. The options count and trace nodes; levels are searched in
  * ascending order, and the trace of each level begins with its root. The answer is exact whatever mode and epsilon say.
  * With OCTREE_SKIP_ID, bodies with the id skip_id are skipped.
- * Errors: NULL_ARGUMENT, those of octree_region_check, and BAD_OPTION. Cost: O(nodes that meet the region, extended by
- * the reach of their level, + bodies in their leaves). */
+ * Errors: NULL_ARGUMENT, those of octree_region_check, and BAD_OPTION. Cost: O(nodes whose boxes meet the region +
+ * bodies in their leaves). */
 octree_status octree_bodies_search(const octree_bodies *bodies, const octree_region *region, const octree_search *how,
                                    octree_body_visitor visit, void *context);
 

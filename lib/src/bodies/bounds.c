@@ -1,166 +1,283 @@
 /* SPDX-License-Identifier: MIT */
-/* bounds.c - lower bounds of distances and times for boxes that contain bodies. */
+/* bounds.c - lower bounds of distances and times for the bodies of a leaf, the boxes of nodes, and the octants of
+ * cells.
+ *
+ * Most of the time of a search among bodies is spent here, so a body must cost few instructions. Two bodies are
+ * computed at once, from the points of the leaf alone. Everything that is the same for all bodies of a level is folded
+ * into two numbers an axis: a body's half extent, with the extent of the query and a bound of all rounding errors, is
+ * at most steps * step + rest. The bound of the errors is that of the farthest position in the world. It is 2^-50 of
+ * the world's extent, far below the size of the smallest cell.
+ */
 #include "bounds.h"
+#include "../exact/exact.h"
 #include "../query/search.h"
+#include "two_bodies.h"
+
+/* Returns an upper bound, but for rounding, of the distances from a coordinate to the positions of a level. */
+static double find_farthest(const level *l, int axis, double origin)
+{
+    return larger(fabs(l->tree->axes[axis].min - origin), fabs(l->tree->axes[axis].max - origin));
+}
+
+static inline lanes reach_of_bodies(const axis_bounds *a, lanes steps)
+{
+    return lanes_add(lanes_multiply(steps, a->step), a->rest);
+}
+
+static inline lanes reach_of_halves(const axis_bounds *a, const cell_halves *h, int axis)
+{
+    return lanes_add(lanes_multiply(lanes_load(h->outer[axis]), a->unit), a->extra);
+}
 
 /* ---- Distances ---------------------------------------------------------------------------------------------- */
 
-/* Returns lower bounds of the distances on one axis from a target to the intervals center +- half, multiplied by a
- * scale. Three roundings of at most 2^-53 * (offset + half) each are subtracted. If a value overflows, the bound is
- * 0. */
-static inline lanes bound_gaps(double target, lanes center, lanes half, double scale)
+/* Three roundings of at most 2^-53 * (distance + reach) each are covered, and by the factor those of the squares. Far
+ * outside the world squares might overflow. */
+query_bounds prepare_squares(const level *l, const double target[3])
 {
-    const lanes offset = lanes_absolute(lanes_subtract(lanes_all(target), center));
-    const lanes error = lanes_multiply(lanes_add(offset, half), lanes_all(0x1p-50));
-    const lanes gap = lanes_subtract(lanes_subtract(offset, half), error);
-    return lanes_multiply(lanes_larger(gap, lanes_all(0)), lanes_all(scale));
-}
-
-/* Returns lower bounds of the sums of three squares. A sum near overflow is cut. */
-static inline lanes bound_sums_of_squares(lanes x, lanes y, lanes z)
-{
-    const lanes xy = lanes_add(lanes_multiply(x, x), lanes_multiply(y, y));
-    const lanes sum = lanes_add(xy, lanes_multiply(z, z));
-    const lanes bound = lanes_subtract(lanes_multiply(sum, lanes_all(1 - 0x1p-50)), lanes_all(0x1p-1000));
-    return lanes_larger(lanes_smaller(bound, lanes_all(0x1p1020)), lanes_all(0));
-}
-
-void bound_squares_of_octants(const double target[3], double scale, const cell_halves *h, double bounds[8])
-{
-    double gaps[2][2];
-    for (int i = 0; i < 2; i++)
-        lanes_store(gaps[i], bound_gaps(target[i], lanes_load(h->center[i]), lanes_load(h->outer[i]), scale));
-    const lanes z = bound_gaps(target[2], lanes_load(h->center[2]), lanes_load(h->outer[2]), scale);
-    for (unsigned o = 0; o < 8; o += 2)
-        lanes_store(&bounds[o], bound_sums_of_squares(lanes_all(gaps[0][o >> 2]), lanes_all(gaps[1][o >> 1 & 1]), z));
-}
-
-static inline lanes bound_two_squares(const double target[3], double scale, const two_bodies *two)
-{
-    lanes gaps[3];
-    for (int k = 0; k < 3; k++)
-        gaps[k] = bound_gaps(target[k], two->center[k], two->most[k], scale);
-    return bound_sums_of_squares(gaps[0], gaps[1], gaps[2]);
-}
-
-lanes bound_squares_of_two(const double target[3], double scale, const two_bodies *two)
-{
-    return bound_two_squares(target, scale, two);
-}
-
-/* Store two bounds at an even index. Returns the bits of the bounds that are at most `cut`. */
-static inline uint64_t store_bounds(double *bounds, unsigned i, lanes two, lanes cut)
-{
-    lanes_store(&bounds[i], two);
-    return (uint64_t)(3 & ~lanes_less(cut, two)) << i;
-}
-
-uint64_t bound_squares_of_bodies(const double target[3], double scale, const level *l, const octree_point *points,
-                                 unsigned count, double cut, double *bounds)
-{
-    uint64_t near = 0;
-    for (unsigned i = 0; i < count; i += 2) {
-        const two_bodies two = load_two_bodies(l, &points[i], &points[i + 1 < count ? i + 1 : i]);
-        near |= store_bounds(bounds, i, bound_two_squares(target, scale, &two), lanes_all(cut));
+    query_bounds b = {.length = lanes_all(0)};
+    const double scale = l->tree->scale;
+    for (int i = 0; i < 3; i++) {
+        const double way = find_farthest(l, i, target[i]), error = (way + l->reach[i]) * 0x1p-50;
+        const half_steps half = half_steps_of(l, i);
+        const bool moderate = way * scale < 0x1p500;
+        b.axes[i] = (axis_bounds){lanes_all(target[i]), lanes_all(moderate ? scale * (1 - 0x1p-51) : 0),
+                                  lanes_all(half.step), lanes_all(moderate ? half.rest + error : HUGE_VAL),
+                                  lanes_all(1),         lanes_all(moderate ? error : HUGE_VAL),
+                                  lanes_all(target[i]), lanes_all(target[i])};
     }
-    return near & UINT64_MAX >> (SCAN_POINTS - count);
+    return b;
+}
+
+static inline lanes bound_gap(const axis_bounds *a, lanes center, lanes reach)
+{
+    const lanes offset = lanes_absolute(lanes_subtract(center, a->origin));
+    return lanes_multiply(lanes_larger(lanes_subtract(offset, reach), lanes_all(0)), a->factor);
+}
+
+/* The last term covers the underflow of squares. */
+static inline lanes bound_two_squares(const query_bounds *b, const two_bodies *two)
+{
+    lanes sum = lanes_all(-0x1p-1000);
+    for (int i = 0; i < 3; i++) {
+        const lanes gap = bound_gap(&b->axes[i], two->position[i], reach_of_bodies(&b->axes[i], two->steps[i]));
+        sum = lanes_add(sum, lanes_multiply(gap, gap));
+    }
+    return sum;
+}
+
+uint64_t bound_squares(const query_bounds *b, const octree_point *points, unsigned count, double cut, double *bounds)
+{
+    uint64_t far = 0;
+    for (unsigned i = 0; i < count; i += 2) {
+        const unsigned at = begin_of_pair(count, i);
+        const two_bodies two = load_two_bodies(points, count, at);
+        const lanes squares = bound_two_squares(b, &two);
+        lanes_store(&bounds[at], squares);
+        far |= (uint64_t)lanes_less(lanes_all(cut), squares) << at;
+    }
+    return ~far & UINT64_MAX >> (SCAN_POINTS - count);
+}
+
+/* The halves of the cell are bounded once. */
+void bound_squares_of_octants(const query_bounds *b, const cell_halves *h, double bounds[8])
+{
+    double squares[2][2];
+    lanes gap;
+    for (int i = 0; i < 3; i++) {
+        gap = bound_gap(&b->axes[i], lanes_load(h->center[i]), reach_of_halves(&b->axes[i], h, i));
+        if (i < 2)
+            lanes_store(squares[i], lanes_multiply(gap, gap));
+    }
+    const lanes z = lanes_subtract(lanes_multiply(gap, gap), lanes_all(0x1p-1000));
+    for (unsigned o = 0; o < 8; o += 2)
+        lanes_store(&bounds[o], lanes_add(lanes_all(squares[0][o >> 2] + squares[1][o >> 1 & 1]), z));
+}
+
+/* The differences have only relative errors, which the factor covers. */
+void bound_squares_of_boxes(const query_bounds *b, const sibling_boxes *boxes, double bounds[8])
+{
+    for (unsigned i = 0; i < boxes->count; i += 2) {
+        const unsigned at = begin_of_pair(boxes->count, i);
+        const two_boxes two = load_two_boxes(boxes, at);
+        lanes sum = lanes_all(-0x1p-1000);
+        for (int k = 0; k < 3; k++) {
+            const axis_bounds *a = &b->axes[k];
+            const lanes outside = lanes_larger(lanes_subtract(two.min[k], a->max), lanes_subtract(a->min, two.max[k]));
+            const lanes gap = lanes_multiply(lanes_larger(outside, lanes_all(0)), a->factor);
+            sum = lanes_add(sum, lanes_multiply(gap, gap));
+        }
+        lanes_store(&bounds[at], sum);
+    }
 }
 
 /* ---- Times -------------------------------------------------------------------------------------------------- */
 
-/* The intervals of time in which a moving box touches the bodies in two boxes, rounded outwards. */
-typedef struct time_spans {
-    lanes enter, leave;
-} time_spans;
-
-/* A lower bound of all times that overflow. HUGE_VAL means never. */
-#define LATEST_TIME 0x1p1023
-
-/* Covers the underflow of products. */
-#define TIME_SLACK 0x1p-1000
-
-cast_bounds make_cast_bounds(const cast *c)
+/* Without motion on an axis, any speed is right: a body is touched at all times or never. The speed is so small that a
+ * body beside the way is touched only after all other times. */
+static double find_inverse_speed(const cast *c, int axis, double way)
 {
-    cast_bounds made;
-    made.length = lanes_all(c->length < LATEST_TIME ? c->length : HUGE_VAL);
+    return c->sign[axis] ? c->inverse[axis] : 0x1p900 / way;
+}
+
+/* Some 8 roundings of at most 2^-53 * (distance + reach) / speed are covered, and the underflow of products. */
+static axis_bounds prepare_axis_of_times(const level *l, const cast *c, int i)
+{
+    const double way = find_farthest(l, i, c->origin[i]) + l->reach[i] + c->half[i];
+    const double inverse = find_inverse_speed(c, i, way), latest = way * inverse;
+    const half_steps half = half_steps_of(l, i);
+    const double extra = c->half[i] * inverse + latest * 0x1p-49 + 0x1p-1000;
+    return (axis_bounds){lanes_all(c->origin[i]),
+                         lanes_all(!(latest < 0x1p1000) ? NAN
+                                   : c->sign[i] < 0     ? -inverse
+                                                        : inverse),
+                         lanes_all(half.step * inverse),
+                         lanes_all(half.rest * inverse + extra),
+                         lanes_all(inverse),
+                         lanes_all(extra),
+                         lanes_all(exact_add_down(c->origin[i], -c->half[i])),
+                         lanes_all(exact_add_up(c->origin[i], c->half[i]))};
+}
+
+query_bounds prepare_times(const level *l, const cast *c)
+{
+    query_bounds b = {.length = lanes_all(c->length < 0x1p1000 ? c->length : HUGE_VAL)};
     for (int i = 0; i < 3; i++)
-        made.axes[i] = (cast_axis){lanes_all(c->origin[i]),
-                                   lanes_all(c->half[i]),
-                                   lanes_all(c->sign[i]),
-                                   lanes_all(c->inverse[i]),
-                                   lanes_all(c->inverse[i] * 0x1p-49),
-                                   c->sign[i] != 0};
-    return made;
+        b.axes[i] = prepare_axis_of_times(l, c, i);
+    return b;
 }
 
-/* Returns the times at which a cast touches the intervals center +- half on one axis. On an axis without motion, this
- * is all time or none. The error is 16u * (distance + reach) / speed with u = 2^-53: some 8 roundings of a factor 1 +
- * u. It is computed as a time, because among subnormal numbers it would vanish as a distance. */
-static inline time_spans find_spans(const cast_axis *c, lanes center, lanes half)
-{
-    const lanes offset = lanes_subtract(center, c->origin), reach = lanes_add(half, c->half);
-    const lanes distance = lanes_absolute(offset), way = lanes_multiply(offset, c->sign);
-    if (!c->moves) /* rounding is monotone, so the rounded terms are compared without an error */
-        return (time_spans){lanes_if_positive(lanes_subtract(distance, reach), HUGE_VAL), lanes_all(HUGE_VAL)};
-    const lanes error = lanes_multiply(lanes_add(distance, reach), c->slack);
-    return (time_spans){lanes_subtract(lanes_multiply(lanes_subtract(way, reach), c->inverse), error),
-                        lanes_add(lanes_multiply(lanes_add(way, reach), c->inverse), error)};
-}
+/* The times at which two bodies are touched, on the axes that were examined so far. */
+typedef struct two_spans {
+    lanes enter, leave;
+} two_spans;
 
 /* A time that is NaN excludes nothing. */
-static inline void narrow_spans(time_spans *known, time_spans axis)
+static inline void narrow_spans(two_spans *known, const axis_bounds *a, lanes center, lanes reach)
 {
-    known->enter = lanes_larger(axis.enter, known->enter);
-    known->leave = lanes_smaller(axis.leave, known->leave);
+    const lanes middle = lanes_multiply(lanes_subtract(center, a->origin), a->factor);
+    known->enter = lanes_larger(lanes_subtract(middle, reach), known->enter);
+    known->leave = lanes_smaller(lanes_add(middle, reach), known->leave);
 }
 
-/* Returns the begins of spans, or HUGE_VAL for a span that has no time. A begin that overflows is the latest time. */
-static inline lanes begin_of_spans(time_spans spans)
+uint64_t bound_times(const query_bounds *b, const octree_point *points, unsigned count, double cut, double *bounds)
 {
-    const lanes excess = lanes_subtract(lanes_subtract(spans.enter, spans.leave), lanes_all(2 * TIME_SLACK));
-    const lanes begin = lanes_smaller(lanes_all(LATEST_TIME), lanes_subtract(spans.enter, lanes_all(TIME_SLACK)));
-    return lanes_larger(lanes_if_positive(excess, HUGE_VAL), begin);
+    uint64_t far = 0;
+    for (unsigned i = 0; i < count; i += 2) {
+        const unsigned at = begin_of_pair(count, i);
+        const two_bodies two = load_two_bodies(points, count, at);
+        two_spans known = {lanes_all(0), b->length};
+        for (int k = 0; k < 3; k++)
+            narrow_spans(&known, &b->axes[k], two.position[k], reach_of_bodies(&b->axes[k], two.steps[k]));
+        lanes_store(&bounds[at], known.enter);
+        far |= (uint64_t)lanes_less(lanes_smaller(lanes_all(cut), known.leave), known.enter) << at;
+    }
+    return ~far & UINT64_MAX >> (SCAN_POINTS - count);
 }
 
-void bound_times_of_octants(const cast_bounds *c, const cell_halves *h, double bounds[8])
+void bound_times_of_octants(const query_bounds *b, const cell_halves *h, double bounds[8])
 {
     double enter[2][2], leave[2][2];
-    for (int i = 0; i < 2; i++) {
-        time_spans halves = {lanes_all(0), c->length};
-        narrow_spans(&halves, find_spans(&c->axes[i], lanes_load(h->center[i]), lanes_load(h->outer[i])));
-        lanes_store(enter[i], halves.enter);
-        lanes_store(leave[i], halves.leave);
+    two_spans halves;
+    for (int i = 0; i < 3; i++) {
+        halves = (two_spans){lanes_all(0), lanes_all(HUGE_VAL)};
+        narrow_spans(&halves, &b->axes[i], lanes_load(h->center[i]), reach_of_halves(&b->axes[i], h, i));
+        if (i < 2) {
+            lanes_store(enter[i], halves.enter);
+            lanes_store(leave[i], halves.leave);
+        }
     }
-    const time_spans z = find_spans(&c->axes[2], lanes_load(h->center[2]), lanes_load(h->outer[2]));
     for (unsigned o = 0; o < 8; o += 2) {
         const unsigned x = o >> 2, y = o >> 1 & 1;
-        time_spans octants = {lanes_all(larger(enter[0][x], enter[1][y])),
-                              lanes_all(-larger(-leave[0][x], -leave[1][y]))};
-        narrow_spans(&octants, z);
-        lanes_store(&bounds[o], begin_of_spans(octants));
+        const lanes begin = lanes_larger(lanes_all(larger(enter[0][x], enter[1][y])), halves.enter);
+        const lanes end = lanes_smaller(lanes_all(-larger(-leave[0][x], -leave[1][y])), halves.leave);
+        const lanes excess = lanes_subtract(begin, lanes_smaller(end, b->length));
+        lanes_store(&bounds[o], lanes_larger(lanes_if_positive(excess, HUGE_VAL), begin));
     }
 }
 
-static inline lanes bound_two_times(const cast_bounds *c, const two_bodies *two)
+/* Intersect with the times at which the moving box touches two boxes on one axis. They have only relative errors. */
+static inline void narrow_spans_of_boxes(two_spans *known, const axis_bounds *a, lanes min, lanes max)
 {
-    time_spans known = {lanes_all(0), c->length};
-    for (int k = 0; k < 3; k++)
-        narrow_spans(&known, find_spans(&c->axes[k], two->center[k], two->most[k]));
-    return begin_of_spans(known);
+    const lanes one = lanes_multiply(lanes_subtract(min, a->max), a->factor);
+    const lanes other = lanes_multiply(lanes_subtract(max, a->min), a->factor);
+    known->enter = lanes_larger(lanes_smaller(one, other), known->enter);
+    known->leave = lanes_smaller(lanes_larger(one, other), known->leave);
 }
 
-lanes bound_times_of_two(const cast_bounds *c, const two_bodies *two)
+/* Returns the beginnings of spans, or HUGE_VAL for a span without time: after three roundings of a time on each side.
+ */
+static inline lanes begin_of_spans(const two_spans *known)
 {
-    return bound_two_times(c, two);
+    const lanes enter = lanes_subtract(lanes_multiply(known->enter, lanes_all(1 - 0x1p-50)), lanes_all(0x1p-1000));
+    const lanes error =
+        lanes_add(lanes_multiply(lanes_absolute(known->leave), lanes_all(0x1p-50)), lanes_all(0x1p-1000));
+    const lanes excess = lanes_subtract(enter, lanes_add(known->leave, error));
+    return lanes_larger(lanes_if_positive(excess, HUGE_VAL), enter);
 }
 
-uint64_t bound_times_of_bodies(const cast_bounds *c, const level *l, const octree_point *points, unsigned count,
-                               double cut, double *bounds)
+void bound_times_of_boxes(const query_bounds *b, const sibling_boxes *boxes, double bounds[8])
 {
-    uint64_t near = 0;
+    for (unsigned i = 0; i < boxes->count; i += 2) {
+        const unsigned at = begin_of_pair(boxes->count, i);
+        const two_boxes two = load_two_boxes(boxes, at);
+        two_spans known = {lanes_all(0), b->length};
+        for (int k = 0; k < 3; k++)
+            narrow_spans_of_boxes(&known, &b->axes[k], two.min[k], two.max[k]);
+        lanes_store(&bounds[at], begin_of_spans(&known));
+    }
+}
+
+/* ---- Boxes -------------------------------------------------------------------------------------------------- */
+
+/* The box is cut to the extent of the level, so that all numbers are finite. Among subnormal numbers, the errors are
+ * those of halving. */
+query_bounds prepare_box_test(const level *l, const octree_box *box)
+{
+    query_bounds b = {.length = lanes_all(0)};
+    for (int i = 0; i < 3; i++) {
+        const axis *world = &l->tree->axes[i];
+        const double min = larger(box->min[i], world->min - l->reach[i]);
+        const double max = -larger(-box->max[i], -world->max - l->reach[i]);
+        const double middle = min / 2 + max / 2, size = larger(fabs(min), fabs(max));
+        const double error = (size + find_farthest(l, i, 0) + l->reach[i]) * 0x1p-50 + 0x1p-1072;
+        const half_steps half = half_steps_of(l, i);
+        b.axes[i] = (axis_bounds){
+            lanes_all(middle), lanes_all(1), lanes_all(half.step),   lanes_all(half.rest + (max / 2 - min / 2) + error),
+            lanes_all(1),      lanes_all(0), lanes_all(box->min[i]), lanes_all(box->max[i])};
+    }
+    return b;
+}
+
+uint64_t test_box(const query_bounds *b, const octree_point *points, unsigned count)
+{
+    uint64_t apart = 0;
     for (unsigned i = 0; i < count; i += 2) {
-        const two_bodies two = load_two_bodies(l, &points[i], &points[i + 1 < count ? i + 1 : i]);
-        near |= store_bounds(bounds, i, bound_two_times(c, &two), lanes_all(cut));
+        const unsigned at = begin_of_pair(count, i);
+        const two_bodies two = load_two_bodies(points, count, at);
+        lanes gap = lanes_all(0);
+        for (int k = 0; k < 3; k++) {
+            const axis_bounds *a = &b->axes[k];
+            const lanes offset = lanes_absolute(lanes_subtract(two.position[k], a->origin));
+            gap = lanes_larger(lanes_subtract(offset, reach_of_bodies(a, two.steps[k])), gap);
+        }
+        apart |= (uint64_t)lanes_less(lanes_all(0), gap) << at;
     }
-    return near & UINT64_MAX >> (SCAN_POINTS - count);
+    return ~apart & UINT64_MAX >> (SCAN_POINTS - count);
+}
+
+unsigned test_boxes(const query_bounds *b, const sibling_boxes *boxes)
+{
+    unsigned apart = 0;
+    for (unsigned i = 0; i < boxes->count; i += 2) {
+        const unsigned at = begin_of_pair(boxes->count, i);
+        const two_boxes two = load_two_boxes(boxes, at);
+        lanes gap = lanes_all(0);
+        for (int k = 0; k < 3; k++) {
+            gap = lanes_larger(lanes_subtract(two.min[k], b->axes[k].max), gap);
+            gap = lanes_larger(lanes_subtract(b->axes[k].min, two.max[k]), gap);
+        }
+        apart |= lanes_less(lanes_all(0), gap) << at;
+    }
+    return ~apart & ((1u << boxes->count) - 1);
 }

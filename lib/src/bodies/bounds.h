@@ -1,45 +1,56 @@
 /* SPDX-License-Identifier: MIT */
-/* bounds.h - lower bounds of distances and times for boxes that contain bodies. Private.
+/* bounds.h - lower bounds of distances and times for the bodies of a leaf, the boxes of nodes, and the octants of
+ * cells. Private.
  *
- * A bound is certain in spite of rounding: no body in the box is nearer, or is touched earlier. Bounds are computed for
- * two boxes at once: for the two halves of a cell, which its octants share, or for two bodies of a leaf. A computation
- * that overflows excludes nothing.
+ * A bound is certain in spite of rounding: no body is nearer, or is touched earlier.  * A query is prepared once for
+ * each level. Then a leaf costs some 20 instructions a body. A computation that overflows excludes nothing.
  */
 #ifndef OCTREE_BOUNDS_H
 #define OCTREE_BOUNDS_H
 
 #include "../exact/cast.h"
+#include "boxes.h"
 #include "cell.h"
-#include "two_bodies.h"
 
-/* A cast, prepared for bounds of times. */
-typedef struct cast_axis {
-    lanes origin, half, sign, inverse;
-    lanes slack; /* an error of a time, as a multiple of the terms of its numerator */
-    bool moves;
-} cast_axis;
+/* A query on one axis. The half extent of a body, with all that is added to it, is at most `steps * step + rest`;
+ * `steps` is in the id of the body's point (two_bodies.h). That of a box with a half extent is half * unit + extra. */
+typedef struct axis_bounds {
+    lanes origin, factor;
+    lanes step, rest;
+    lanes unit, extra;
+    lanes min, max; /* the extent of the query: of the target, the region or the moving box at its origin */
+} axis_bounds;
 
-typedef struct cast_bounds {
-    cast_axis axes[3];
-    lanes length;
-} cast_bounds;
+typedef struct query_bounds {
+    axis_bounds axes[3];
+    lanes length; /* only for times */
+} query_bounds;
 
-cast_bounds make_cast_bounds(const cast *c);
+/* Prepare bounds of squared distances from a target, multiplied by the square of the tree's scale. */
+query_bounds prepare_squares(const level *l, const double target[3]);
 
-/* Compute lower bounds for the bodies of the eight octants of a cell: of the squared distance from a target, both
- * multiplied by a power of two; and of the time at which a cast touches them, HUGE_VAL if it never does. */
-void bound_squares_of_octants(const double target[3], double scale, const cell_halves *h, double bounds[8]);
-void bound_times_of_octants(const cast_bounds *c, const cell_halves *h, double bounds[8]);
+/* Prepare bounds of the times at which a cast touches a body. */
+query_bounds prepare_times(const level *l, const cast *c);
 
-/* Compute the same bounds for the bodies of at most SCAN_POINTS points of a level. bounds[] has room for count + 1
- * numbers. Returns a bit mask of the bounds that are at most `cut`. */
-uint64_t bound_squares_of_bodies(const double target[3], double scale, const level *l, const octree_point *points,
-                                 unsigned count, double cut, double *bounds);
-uint64_t bound_times_of_bodies(const cast_bounds *c, const level *l, const octree_point *points, unsigned count,
-                               double cut, double *bounds);
+/* Prepare the test whether a body meets a box. Corners of the box may be infinite. */
+query_bounds prepare_box_test(const level *l, const octree_box *box);
 
-/* Compute the same bounds for two bodies. */
-lanes bound_squares_of_two(const double target[3], double scale, const two_bodies *two);
-lanes bound_times_of_two(const cast_bounds *c, const two_bodies *two);
+/* Compute bounds for at most SCAN_POINTS points. bounds[] has room for count + 1 numbers. Returns a bit mask of the
+ * bodies whose bounds are at most `cut`; other bodies have no valid bound. */
+uint64_t bound_squares(const query_bounds *b, const octree_point *points, unsigned count, double cut, double *bounds);
+uint64_t bound_times(const query_bounds *b, const octree_point *points, unsigned count, double cut, double *bounds);
+
+/* Returns a bit mask of the bodies that may meet the box. */
+uint64_t test_box(const query_bounds *b, const octree_point *points, unsigned count);
+
+/* The same for the eight octants of a cell. */
+void bound_squares_of_octants(const query_bounds *b, const cell_halves *h, double bounds[8]);
+void bound_times_of_octants(const query_bounds *b, const cell_halves *h, double bounds[8]);
+
+/* The same for the boxes of at most eight siblings: bounds[i] is for the bodies of sibling i. HUGE_VAL: the cast never
+ * touches them. */
+void bound_squares_of_boxes(const query_bounds *b, const sibling_boxes *boxes, double bounds[8]);
+void bound_times_of_boxes(const query_bounds *b, const sibling_boxes *boxes, double bounds[8]);
+unsigned test_boxes(const query_bounds *b, const sibling_boxes *boxes);
 
 #endif

@@ -13,6 +13,7 @@
 #include "../exact/float_mode.h"
 #include "../exact/point.h"
 #include "../query/search.h"
+#include "boxes.h"
 #include "order.h"
 #include "two_bodies.h"
 
@@ -26,7 +27,8 @@ typedef struct pending {
     octree_body body; /* the body that is inserted or removed; before a move, the body that is moved */
 } pending;
 
-typedef octree_status bulk_change(octree *tree, const octree_point *points, const double (*to)[3], size_t count);
+/* Change the tree of a level, and its boxes. */
+typedef octree_status bulk_change(const level *l, const octree_point *points, const double (*to)[3], size_t count);
 
 typedef struct bulk {
     octree_bodies *set;
@@ -100,8 +102,8 @@ static octree_status change_level_in_bulk(bulk *b, unsigned level, bulk_change *
     const unsigned begun = begin_set_callbacks(b->set); /* the executor */
     octree_status status = create_level(b->set, level);
     if (status == OCTREE_OK)
-        status = change(b->set->levels[level].tree, b->points + begin, b->to ? (const double(*)[3])b->to + begin : NULL,
-                        count);
+        status =
+            change(&b->set->levels[level], b->points + begin, b->to ? (const double(*)[3])b->to + begin : NULL, count);
     end_callbacks(begun);
     b->failure = b->failure == OCTREE_OK ? status : b->failure;
     return status;
@@ -154,10 +156,13 @@ static void prefetch_row_of(const bulk *b, size_t index, size_t count)
 
 /* ---- Insert ------------------------------------------------------------------------------------------------- */
 
-static octree_status insert_points(octree *tree, const octree_point *points, const double (*to)[3], size_t count)
+static octree_status insert_points(const level *l, const octree_point *points, const double (*to)[3], size_t count)
 {
     (void)to;
-    return octree_insert_many(tree, points, count, NULL, NULL);
+    const octree_status status = octree_insert_many(l->tree, points, count, NULL, NULL);
+    if (status == OCTREE_OK)
+        fit_changes(l, points, count, true);
+    return status;
 }
 
 static void finish_insertion(bulk *b, const pending *p, bool made)
@@ -211,10 +216,13 @@ octree_status octree_bodies_insert_many(octree_bodies *bodies, const octree_body
 
 /* ---- Remove ------------------------------------------------------------------------------------------------- */
 
-static octree_status remove_points(octree *tree, const octree_point *points, const double (*to)[3], size_t count)
+static octree_status remove_points(const level *l, const octree_point *points, const double (*to)[3], size_t count)
 {
     (void)to;
-    return octree_remove_many(tree, points, count, NULL, NULL);
+    const octree_status status = octree_remove_many(l->tree, points, count, NULL, NULL);
+    if (status == OCTREE_OK)
+        fit_changes(l, points, count, false);
+    return status;
 }
 
 static void finish_removal(bulk *b, const pending *p, bool made)
@@ -260,9 +268,12 @@ octree_status octree_bodies_remove_many(octree_bodies *bodies, const octree_body
 
 /* ---- Move --------------------------------------------------------------------------------------------------- */
 
-static octree_status move_points(octree *tree, const octree_point *points, const double (*to)[3], size_t count)
+static octree_status move_points(const level *l, const octree_point *points, const double (*to)[3], size_t count)
 {
-    return octree_move_many(tree, points, to, count, NULL, NULL);
+    const octree_status status = octree_move_many(l->tree, points, to, count, NULL, NULL);
+    if (status == OCTREE_OK)
+        fit_moves(l, points, to, count);
+    return status;
 }
 
 static void finish_move(bulk *b, const pending *p, bool made)

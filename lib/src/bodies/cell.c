@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* cell.c - boxes around the bodies of the eight octants of a cell. */
+/* cell.c - boxes around the bodies of the eight octants of a cell, in levels whose nodes have no boxes: in sets that
+ * show the points of a tree, and in level 0. */
 #include "cell.h"
 #include "../exact/lanes.h"
 #include "../query/search.h"

@@ -17,13 +17,15 @@ typedef struct key {
     double value, error;
 } key;
 
+/* The keys of as many hits are kept, those at the top of the heap. Others are measured when they are needed. */
+enum { KEPT_KEYS = 32 };
+
 typedef struct ordered_search {
     const octree_bodies *set;
-    /* Compute lower bounds of the keys of the bodies in the eight octants of a cell, and of the bodies of at most
-     * SCAN_POINTS points; HUGE_VAL: no such body counts. The latter returns a bit mask of the bounds that are at most
-     * `cut`. */
-    void (*bound)(const struct ordered_search *s, const cell_halves *h, double bounds[8]);
-    uint64_t (*bound_bodies)(const struct ordered_search *s, const octree_point *points, unsigned count,
+    /* Compute lower bounds of the keys of the bodies in the eight octants of a cell, HUGE_VAL if no such body counts;
+     * and of the bodies of a leaf, as bound_squares() does. */
+    void (*bound)(const query_bounds *b, const cell_halves *h, double bounds[8]);
+    uint64_t (*bound_bodies)(const query_bounds *b, const octree_point *points, unsigned count, double cut,
                              double *bounds);
     /* Compute the key of a body. Returns false if the body does not count. */
     bool (*measure)(const struct ordered_search *s, const octree_body *body, key *k);
@@ -34,9 +36,10 @@ typedef struct ordered_search {
     double radius; /* HUGE_VAL: there is none, as in a cast */
     double scale;
     cast cast;
-    cast_bounds cast_bounds;
+    query_bounds bounds; /* for the bodies of the current level */
     body_call accept;
-    octree_hit *hits; /* a heap; hits[0] has the greatest key. The key is octree_hit.at */
+    octree_hit *hits; /* a heap; hits[0] has the greatest key */
+    key *keys;        /* of the first KEPT_KEYS hits */
     size_t count, k;
     double limit;    /* no body whose key is certainly greater than this is among the first k */
     double farthest; /* the greatest bound of a node that may have bodies within the radius */
@@ -45,29 +48,6 @@ typedef struct ordered_search {
     const level *level;
     meter meter;
 } ordered_search;
-
-/* ---- Lower bounds of keys ----------------------------------------------------------------------------------- */
-
-static void bound_distances(const ordered_search *s, const cell_halves *h, double bounds[8])
-{
-    bound_squares_of_octants(s->target, s->scale, h, bounds);
-}
-
-static uint64_t bound_leaf_distances(const ordered_search *s, const octree_point *points, unsigned count,
-                                     double *bounds)
-{
-    return bound_squares_of_bodies(s->target, s->scale, s->level, points, count, s->cut, bounds);
-}
-
-static void bound_times(const ordered_search *s, const cell_halves *h, double bounds[8])
-{
-    bound_times_of_octants(&s->cast_bounds, h, bounds);
-}
-
-static uint64_t bound_leaf_times(const ordered_search *s, const octree_point *points, unsigned count, double *bounds)
-{
-    return bound_times_of_bodies(&s->cast_bounds, s->level, points, count, s->cut, bounds);
-}
 
 /* ---- Keys --------------------------------------------------------------------------------------------------- */
 
@@ -108,40 +88,59 @@ static double finish_time(const ordered_search *s, const octree_body *body)
 
 /* ---- The heap of the best bodies ---------------------------------------------------------------------------- */
 
-/* Compare two bodies by key, then by id, position and half extents. NaN and infinite errors decide nothing. */
-static int compare_hits(const ordered_search *s, const octree_body *a, const octree_body *b)
+static key key_of_hit(const ordered_search *s, size_t at)
 {
-    key x, y;
-    s->measure(s, a, &x);
-    s->measure(s, b, &y);
+    key k;
+    if (at < KEPT_KEYS)
+        return s->keys[at];
+    s->measure(s, &s->hits[at].body, &k);
+    return k;
+}
+
+static void set_key(ordered_search *s, size_t at, key k)
+{
+    if (at < KEPT_KEYS)
+        s->keys[at] = k;
+}
+
+/* Compare two bodies by key, then by id, position and half extents. NaN and infinite errors decide nothing. */
+static int compare_by_key(const ordered_search *s, const octree_body *a, key x, const octree_body *b, key y)
+{
     if (fabs(x.value - y.value) > x.error + y.error)
         return x.value < y.value ? -1 : 1;
     const int order = x.error + y.error == 0 ? 0 : s->compare(s, a, b);
     return order ? order : octree_compare_bodies(a, b);
 }
 
-static void swap_hits(octree_hit *a, octree_hit *b)
+static int compare_hits(const ordered_search *s, size_t a, size_t b)
 {
-    const octree_hit kept = *a;
-    *a = *b;
-    *b = kept;
+    return compare_by_key(s, &s->hits[a].body, key_of_hit(s, a), &s->hits[b].body, key_of_hit(s, b));
+}
+
+static void swap_hits(ordered_search *s, size_t a, size_t b)
+{
+    const octree_hit kept = s->hits[a];
+    const key key_of_a = key_of_hit(s, a), key_of_b = key_of_hit(s, b);
+    s->hits[a] = s->hits[b];
+    s->hits[b] = kept;
+    set_key(s, a, key_of_b);
+    set_key(s, b, key_of_a);
 }
 
 static void sift_up(ordered_search *s, size_t at)
 {
-    for (; at > 0 && compare_hits(s, &s->hits[at].body, &s->hits[(at - 1) / 2].body) > 0; at = (at - 1) / 2)
-        swap_hits(&s->hits[at], &s->hits[(at - 1) / 2]);
+    for (; at > 0 && compare_hits(s, at, (at - 1) / 2) > 0; at = (at - 1) / 2)
+        swap_hits(s, at, (at - 1) / 2);
 }
 
-static void sift_down(const ordered_search *s, size_t count)
+static void sift_down(ordered_search *s, size_t count)
 {
-    octree_hit *heap = s->hits;
     for (size_t at = 0, child; (child = 2 * at + 1) < count; at = child) {
-        if (child + 1 < count && compare_hits(s, &heap[child].body, &heap[child + 1].body) < 0)
+        if (child + 1 < count && compare_hits(s, child, child + 1) < 0)
             child++;
-        if (compare_hits(s, &heap[at].body, &heap[child].body) >= 0)
+        if (compare_hits(s, at, child) >= 0)
             return;
-        swap_hits(&heap[at], &heap[child]);
+        swap_hits(s, at, child);
     }
 }
 
@@ -153,26 +152,26 @@ static void set_limit(ordered_search *s, double limit)
 
 static void update_limit(ordered_search *s)
 {
-    key worst;
-    s->measure(s, &s->hits[0].body, &worst);
+    const key worst = key_of_hit(s, 0);
     const double limit = worst.value + worst.error;
     set_limit(s, limit == limit ? limit : HUGE_VAL);
 }
 
 /* Add a body that counts and whose key may be among the first k. */
-static void offer_body(ordered_search *s, const octree_body *body)
+static void offer_body(ordered_search *s, const octree_body *body, key k)
 {
-    if (s->count == s->k && compare_hits(s, body, &s->hits[0].body) >= 0)
+    if (s->count == s->k && compare_by_key(s, body, k, &s->hits[0].body, key_of_hit(s, 0)) >= 0)
         return;
     if (!call_with_body(&s->accept, body))
         return;
-    if (s->count < s->k) {
-        s->hits[s->count].body = *body;
-        sift_up(s, s->count++);
-    } else {
-        s->hits[0].body = *body;
+    const bool grows = s->count < s->k;
+    const size_t at = grows ? s->count++ : 0;
+    s->hits[at].body = *body;
+    set_key(s, at, k);
+    if (grows)
+        sift_up(s, at);
+    else
         sift_down(s, s->count);
-    }
     if (s->count == s->k)
         update_limit(s);
 }
@@ -181,7 +180,7 @@ static void offer_body(ordered_search *s, const octree_body *body)
 static void sort_hits(ordered_search *s)
 {
     for (size_t left = s->count; left > 1; left--) {
-        swap_hits(&s->hits[0], &s->hits[left - 1]);
+        swap_hits(s, 0, left - 1);
         sift_down(s, left - 1);
     }
     for (size_t i = 0; i < s->count; i++)
@@ -211,7 +210,7 @@ static void measure_and_offer(ordered_search *s, const octree_point *point)
         return;
     if (s->measure(s, body, &k) && !(k.value - k.error > s->limit) && is_within_radius(s, body) &&
         !is_skipped(s->meter.how, body, s->target))
-        offer_body(s, body);
+        offer_body(s, body, k);
 }
 
 /* Offer the bodies of at most SCAN_POINTS points. The body with the least bound comes first: its key is a limit for the
@@ -219,7 +218,7 @@ static void measure_and_offer(ordered_search *s, const octree_point *point)
 static void scan_points(ordered_search *s, const octree_point *points, unsigned count)
 {
     double bounds[SCAN_POINTS + 1];
-    uint64_t near = s->bound_bodies(s, points, count, bounds);
+    uint64_t near = s->bound_bodies(&s->bounds, points, count, s->cut, bounds);
     if (near == 0)
         return;
     unsigned first = bits_lowest(near);
@@ -244,34 +243,51 @@ static void scan_leaf(ordered_search *s, const node *leaf)
 /* A child of a node, with the lower bound of the keys of its bodies. */
 typedef struct branch {
     double bound;
+    const node *child;
     unsigned octant;
 } branch;
+
+/* Compute lower bounds for the children of a node, indexed by child if they have boxes, or else by octant. */
+static void bound_children(const ordered_search *s, const node *n, const cell_halves *h, double bounds[8])
+{
+    if (!has_boxes(&s->level->tree->store)) {
+        s->bound(&s->bounds, h, bounds);
+        return;
+    }
+    const sibling_boxes boxes = boxes_of_children(n);
+    if (s->target)
+        bound_squares_of_boxes(&s->bounds, &boxes, bounds);
+    else
+        bound_times_of_boxes(&s->bounds, &boxes, bounds);
+}
 
 /* Store the children whose bodies may count in an array, sorted by their bounds. Returns their number. */
 static unsigned sort_children(ordered_search *s, const node *n, const cell_halves *h, octree_address address,
                               branch branches[8])
 {
     double bounds[8];
+    const node *child = children_of(n);
     unsigned count = 0, pruned = 0;
-    s->bound(s, h, bounds);
-    for (unsigned left = n->octants; left; left &= left - 1) {
+    const bool boxed = has_boxes(&s->level->tree->store);
+    bound_children(s, n, h, bounds);
+    for (unsigned left = n->octants; left; left &= left - 1, child++) {
         const unsigned octant = bits_lowest(left);
-        const double bound = bounds[octant];
+        const double bound = bounds[boxed ? (unsigned)(child - children_of(n)) : octant];
         if (bound > s->cut) {
             pruned |= 1u << octant;
             continue;
         }
-        prefetch_memory(look_up_child(n, octant)->below);
+        prefetch_memory(child->below);
         unsigned at = count++;
         for (; at > 0 && branches[at - 1].bound > bound; at--)
             branches[at] = branches[at - 1];
-        branches[at] = (branch){bound, octant};
+        branches[at] = (branch){bound, child, octant};
     }
     meter_record_pruned(&s->meter, address, pruned);
     return count;
 }
 
-/* Search a node whose cell is `c`. `h` has the halves of this cell, or of a leaf's parent. */
+/* Search a node whose cell is `c`. `h` has the halves of this cell if nodes have no boxes, or of a leaf's parent. */
 static void descend(ordered_search *s, const node *n, cell c, const cell_halves *h, octree_address address)
 {
     meter_record_visited(&s->meter, address);
@@ -284,12 +300,12 @@ static void descend(ordered_search *s, const node *n, cell c, const cell_halves 
     const unsigned count = sort_children(s, n, h, address, branches);
     for (unsigned i = 0; i < count; i++) {
         const unsigned octant = branches[i].octant;
-        const node *child = look_up_child(n, octant);
+        const node *child = branches[i].child;
         if (branches[i].bound > s->cut) {
             meter_record_pruned(&s->meter, address, 1u << octant);
             continue;
         }
-        if (child->octants)
+        if (child->octants && !has_boxes(&s->level->tree->store))
             divide_octant(s->level, h, octant, cell_child(c, octant), &below);
         descend(s, child, cell_child(c, octant), &below, address << 3 | octant);
     }
@@ -299,13 +315,17 @@ static void search_level(ordered_search *s, const level *l)
 {
     cell_halves halves;
     s->level = l;
-    divide_root_cell(l, &halves);
+    s->bounds = s->target ? prepare_squares(l, s->target) : prepare_times(l, &s->cast);
+    if (!has_boxes(&l->tree->store))
+        divide_root_cell(l, &halves);
     descend(s, &l->tree->root, root_cell(), &halves, OCTREE_ROOT);
 }
 
 static void search_in_order(ordered_search *s, size_t *count)
 {
+    key keys[KEPT_KEYS];
     const unsigned begun = begin_set_callbacks(s->set);
+    s->keys = keys;
     set_limit(s, HUGE_VAL);
     for (unsigned i = 0; i < OCTREE_BODY_LEVELS && s->k > 0; i++)
         if (octree_count(s->set->levels[i].tree) > 0)
@@ -345,8 +365,8 @@ octree_status octree_bodies_nearest(const octree_bodies *bodies, const double ta
     if (status != OCTREE_OK)
         return status;
     ordered_search s = {.set = bodies,
-                        .bound = bound_distances,
-                        .bound_bodies = bound_leaf_distances,
+                        .bound = bound_squares_of_octants,
+                        .bound_bodies = bound_squares,
                         .measure = measure_distance,
                         .compare = compare_distances,
                         .finish = finish_distance,
@@ -382,8 +402,8 @@ octree_status octree_bodies_cast(const octree_bodies *bodies, const octree_regio
     if (status != OCTREE_OK)
         return status;
     ordered_search s = {.set = bodies,
-                        .bound = bound_times,
-                        .bound_bodies = bound_leaf_times,
+                        .bound = bound_times_of_octants,
+                        .bound_bodies = bound_times,
                         .measure = measure_time,
                         .compare = compare_first_times,
                         .finish = finish_time,
@@ -396,7 +416,6 @@ octree_status octree_bodies_cast(const octree_bodies *bodies, const octree_regio
                         .meter.how = &search};
     const shape casting = shape_make(ray);
     s.cast = casting.cast;
-    s.cast_bounds = casting.cast_bounds;
     search_in_order(&s, count);
     return OCTREE_OK;
 }

@@ -2,18 +2,18 @@
 /* level.c - the levels of a set: which body belongs to which level, and how far the bodies of a level reach.
  *
  * Problem: a search among positions must be extended by the half extents of the bodies. Extended by the largest body of
- * all, it visits far too many bodies. Half extents kept in each node help only if large bodies are rare: in a scene
- * whose sizes span three decades, each leaf has one.
+ * all, it visits far too many bodies. So each node has a box around its bodies (boxes.c). But in a scene with many
+ * sizes, each leaf may have a large body, which makes its box large.
  *
  * Idea: bodies whose sizes differ by less than a factor of 4 form a level, a tree of its own (Ulrich 2000 calls one
- * tree with a level of cells for each size a loose octree). Wider levels are fewer trees, but in a level of a factor of
- * 16 one body made rays among 5e5 bodies of a sixth of its size cost four times as much. A level extends a search by
- * its own `reach`, an upper bound of its half extents, axis by axis, so that thin plates are extended little across.
- * The bound must not depend on the history of the set, so that costs and traces are reproducible: a level counts its
- * half extents in buckets, and the reach is the upper end of the highest bucket in use.
+ * tree with a level of cells for each size a loose octree). Bodies up to the floor of the set share the last level,
+ * although they differ more: they are not large beside its leaves. A bulk insertion into an empty set chooses the floor
+ * (order.c).
  *
- * Bodies up to the floor of the set share the last level, although they differ more: beside its leaves all of them are
- * small. A bulk insertion into an empty set chooses the floor (order.c).
+ * Nodes without boxes are extended by the `reach` of the level, an upper bound of its half extents, axis by axis, so
+ * that thin plates are extended little across. The reach must not depend on the history of the set, so that costs and
+ * traces are reproducible: a level counts its half extents in buckets, and the reach is the upper end of the highest
+ * bucket in use.
  *
  * Cost: a query descends once in each level in use. A change updates three counters.
  */
@@ -59,7 +59,7 @@ octree_status create_level(octree_bodies *set, unsigned number)
     if (l->tree && octree_count(l->tree) > 0)
         return OCTREE_OK;
     *l->counts = (reach_counts){{{0}}};
-    return l->tree ? OCTREE_OK : octree_create(&set->def, &l->tree);
+    return l->tree ? OCTREE_OK : create_tree(&set->def, number > 0 ? NODE_WITH_BOX : sizeof(node), &l->tree);
 }
 
 /* ---- The reach ---------------------------------------------------------------------------------------------- */

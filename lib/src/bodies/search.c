@@ -18,7 +18,6 @@ typedef struct body_search {
     octree_box box;   /* the box of `around`: the bounds of the region, extended by the reach */
     shape shape;
     const octree_bodies *set;
-    const level *level;
     bool contained;
     bool by_keys;                         /* the keys alone decide about nodes */
     cell_halves halves[OCTREE_MAX_DEPTH]; /* of the current cell at each depth */
@@ -34,18 +33,24 @@ static bool is_match(const body_search *s, const octree_body *body)
 
 /* ---- Nodes -------------------------------------------------------------------------------------------------- */
 
-static octant_masks enter_cell(void *shape, const octree *tree, unsigned depth, unsigned octant)
+static octant_masks enter_node(void *shape, const octree *tree, const node *n, unsigned depth, unsigned octant)
+{
+    (void)tree, (void)depth, (void)octant;
+    return shape_relate_children(&((body_search *)shape)->shape, n);
+}
+
+static octant_masks enter_cell(void *shape, const octree *tree, const node *n, unsigned depth, unsigned octant)
 {
     body_search *s = shape;
-    const octant_masks masks = box_shape_enter(&s->around, tree, depth, octant);
+    const octant_masks masks = box_shape_enter(&s->around, tree, n, depth, octant);
     if (s->by_keys)
         return masks;
     const int32_t *low = s->around.low[depth];
     const cell c = {{(uint32_t)low[0], (uint32_t)low[1], (uint32_t)low[2]}, depth};
     if (depth == 0)
-        divide_root_cell(s->level, &s->halves[0]);
+        divide_root_cell(s->shape.level, &s->halves[0]);
     else
-        divide_octant(s->level, &s->halves[depth - 1], octant, c, &s->halves[depth]);
+        divide_octant(s->shape.level, &s->halves[depth - 1], octant, c, &s->halves[depth]);
     return shape_relate(&s->shape, &s->halves[depth], masks.meets, s->contained);
 }
 
@@ -55,9 +60,7 @@ static uint64_t scan_bodies(const void *shape, const octree_point *points, unsig
 {
     const body_search *s = shape;
     uint64_t found = 0;
-    uint64_t near = box_shape_scan(&s->around, points, count);
-    if (!s->contained)
-        near = shape_filter(&s->shape, s->level, points, near);
+    const uint64_t near = shape_filter(&s->shape, points, count);
     for (uint64_t left = s->set->points ? 0 : near; left; left &= left - 1)
         prefetch_memory(row_at(&s->set->rows, row_of_point(&points[bits_lowest(left)])));
     for (uint64_t left = near; left; left &= left - 1) {
@@ -90,17 +93,30 @@ static octree_box extend_box(const octree_box *box, const double reach[3])
     return extended;
 }
 
-static void search_level(body_search *s, const level *l, const octree_box *bounds)
+/* Search a level whose nodes have no boxes. */
+static void search_cells(body_search *s, region *r, const octree_box *bounds)
 {
-    s->level = l;
+    const level *l = s->shape.level;
     s->box = s->contained ? *bounds : extend_box(bounds, l->reach);
     s->by_keys = s->shape.region->kind == OCTREE_REGION_BOX && !s->contained;
     s->around = box_shape_make(l->tree, &s->box, s->by_keys ? bounds : &s->box);
-    region r = {l->tree, s, enter_cell, scan_bodies, visit_body, s, .meter.how = s->how};
     octant_masks root = box_shape_root(&s->around, l->tree);
     if (!s->by_keys)
         root.inside = 0;
-    region_search(&r, root);
+    r->enter = enter_cell;
+    region_search(r, root);
+}
+
+static void search_level(body_search *s, const level *l, const octree_box *bounds)
+{
+    region r = {l->tree, s, NULL, scan_bodies, visit_body, s, .meter.how = s->how};
+    shape_enter_level(&s->shape, l);
+    if (has_boxes(&l->tree->store)) {
+        r.enter = enter_node;
+        region_search(&r, (octant_masks){1, 0});
+    } else {
+        search_cells(s, &r, bounds);
+    }
 }
 
 octree_status octree_bodies_search(const octree_bodies *bodies, const octree_region *region, const octree_search *how,

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* set.c - creates sets of bodies, and inserts, removes and moves single bodies. */
+#include "boxes.h"
 #include "two_bodies.h"
 #include "../exact/float_mode.h"
 #include "../query/search.h"
@@ -39,7 +40,7 @@ octree_status octree_bodies_create(const octree_def *def, octree_bodies **bodies
     *bodies = NULL;
     if (def && def->full_leaf == OCTREE_REFUSE)
         return OCTREE_BAD_OPTION;
-    octree_status status = octree_create(def, &anchor);
+    octree_status status = def ? create_tree(def, NODE_WITH_BOX, &anchor) : OCTREE_NULL_ARGUMENT;
     if (status != OCTREE_OK)
         return status;
     const octree_def clamped = octree_definition(anchor);
@@ -156,6 +157,12 @@ static octree_status check_change_of_body(const octree_bodies *set, const octree
     return status == OCTREE_OK ? check_body(set, body) : status;
 }
 
+/* Returns the point of a body in a level. */
+static octree_point make_point(const level *l, uint32_t row, const octree_body *body)
+{
+    return (octree_point){{body->position[0], body->position[1], body->position[2]}, make_point_id(l, row, body->half)};
+}
+
 /* The row is written before the tree is changed. If the change of the tree fails, the row is removed again, which needs
  * no memory. */
 octree_status octree_bodies_insert(octree_bodies *bodies, const octree_body *body)
@@ -176,13 +183,14 @@ octree_status octree_bodies_insert(octree_bodies *bodies, const octree_body *bod
     if (row == ROW_NONE)
         return OCTREE_DUPLICATE;
     const unsigned begun = begin_set_callbacks(bodies); /* under OCTREE_AUTO, the executor */
-    const uint64_t id = make_point_id(&bodies->levels[number], row, added.half);
-    status = octree_insert(bodies->levels[number].tree, added.position, id);
+    const octree_point point = make_point(&bodies->levels[number], row, &added);
+    status = octree_insert(bodies->levels[number].tree, point.position, point.id);
     end_callbacks(begun);
     if (status != OCTREE_OK) {
         rows_remove(&bodies->rows, row);
         return status;
     }
+    fit_changes(&bodies->levels[number], &point, 1, true);
     change_reach(bodies, number, added.half, 1);
     rebuild_if_due(bodies);
     return OCTREE_OK;
@@ -199,44 +207,55 @@ octree_status octree_bodies_remove(octree_bodies *bodies, const octree_body *bod
     const uint32_t row = rows_find(&bodies->rows, &removed);
     if (row == ROW_NONE)
         return OCTREE_NOT_FOUND;
-    const uint64_t id = make_point_id(&bodies->levels[number], row, removed.half);
-    status = octree_remove(bodies->levels[number].tree, removed.position, id);
+    const octree_point point = make_point(&bodies->levels[number], row, &removed);
+    status = octree_remove(bodies->levels[number].tree, point.position, point.id);
     if (status == OCTREE_OK) {
+        fit_changes(&bodies->levels[number], &point, 1, false);
         change_reach(bodies, number, removed.half, -1);
         rows_remove(&bodies->rows, row);
     }
     return status;
 }
 
-static octree_status move_within_level(octree *tree, const octree_body *from, uint64_t old_id, const octree_body *to,
-                                       uint64_t id)
+static octree_status move_within_level(octree *tree, const octree_point *from, const octree_point *to)
 {
-    const octree_status status = octree_move(tree, from->position, old_id, to->position);
-    if (status == OCTREE_OK && id != old_id)
-        replace_point_id(tree, to->position, old_id, id);
+    const octree_status status = octree_move(tree, from->position, from->id, to->position);
+    if (status == OCTREE_OK && to->id != from->id)
+        replace_point_id(tree, to->position, from->id, to->id);
     return status;
 }
 
-/* Move the point of a body from one level to another. The memory for the removal is allocated first, so that nothing
- * can fail after the insertion. */
-static octree_status change_level(octree_bodies *set, const octree_body *from, const octree_body *to, uint32_t row)
+/* Move a point from one tree to another. The memory for the removal is allocated first, so that nothing can fail after
+ * the insertion. */
+static octree_status move_to_level(octree *old, const octree_point *from, octree *new, const octree_point *to)
 {
-    level *old = &set->levels[find_level(set, from->half)], *new = &set->levels[find_level(set, to->half)];
-    const uint64_t old_id = make_point_id(old, row, from->half), id = make_point_id(new, row, to->half);
     prepared_removal leaving;
-    if (old == new)
-        return move_within_level(old->tree, from, old_id, to, id);
-    octree_status status = create_level(set, (unsigned)(new - set->levels));
-    if (status == OCTREE_OK)
-        status = prepare_removal(old->tree, from->position, old_id, &leaving);
+    octree_status status = prepare_removal(old, from->position, from->id, &leaving);
     if (status != OCTREE_OK)
         return status;
-    status = octree_insert(new->tree, to->position, id);
+    status = octree_insert(new, to->position, to->id);
     if (status == OCTREE_OK)
-        make_removal(old->tree, &leaving);
+        make_removal(old, &leaving);
     else
-        cancel_removal(old->tree, &leaving);
+        cancel_removal(old, &leaving);
     return status;
+}
+
+/* Move the point of a body, perhaps from one level to another. */
+static octree_status move_point(octree_bodies *set, const octree_body *from, const octree_body *to, uint32_t row)
+{
+    const unsigned number = find_level(set, to->half);
+    level *old = &set->levels[find_level(set, from->half)], *new = &set->levels[number];
+    const octree_point leaving = make_point(old, row, from), arriving = make_point(new, row, to);
+    octree_status status = create_level(set, number);
+    if (status == OCTREE_OK)
+        status = old == new ? move_within_level(old->tree, &leaving, &arriving)
+                            : move_to_level(old->tree, &leaving, new->tree, &arriving);
+    if (status != OCTREE_OK)
+        return status;
+    fit_changes(old, &leaving, 1, false);
+    fit_changes(new, &arriving, 1, true);
+    return OCTREE_OK;
 }
 
 octree_status find_moved_row(const octree_bodies *set, const octree_body *from, const octree_body *to, uint32_t *row)
@@ -264,7 +283,7 @@ octree_status octree_bodies_move(octree_bodies *bodies, const octree_body *from,
         return status;
     const octree_body old = *from, moved = *to;
     const unsigned begun = begin_set_callbacks(bodies);
-    status = change_level(bodies, &old, &moved, row);
+    status = move_point(bodies, &old, &moved, row);
     end_callbacks(begun);
     if (status != OCTREE_OK)
         return status;
@@ -411,6 +430,8 @@ static const char *check_rows(const octree_bodies *set)
             octree_walk(l->tree, check_rows_of_leaf, &s);
         if (!s.violation && !is_reach_right(l, &counted.levels[s.number]))
             s.violation = "the reach of a level is not that of its bodies";
+        if (!s.violation && l->tree && !are_boxes_right(l))
+            s.violation = "the box of a node is not that of its bodies";
     }
     return s.violation                ? s.violation
            : count == set->rows.count ? NULL

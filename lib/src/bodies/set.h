@@ -6,6 +6,8 @@
 #include "rows.h"
 #include "../tree/tree.h"
 
+enum { ROW_SHIFT = 30 }; /* the id of a point of a level has the index of a row in the bits from this one on */
+
 /* A bucket counts the half extents between two values whose ratio is at most 1.25. */
 enum { REACH_BUCKETS = 32 };
 
@@ -114,10 +116,10 @@ octree_bodies show_points_as_bodies(const octree *tree, const double half[3]);
  * axis by axis; the search descends as if all bodies were as large. */
 void set_half_extents(octree_bodies *set, const double reach[3], half_lookup *half_of, const void *context);
 
-/* Returns the index of the row of a point's body. */
+/* Returns the index of the row of a point's body; see two_bodies.h. */
 static inline uint32_t row_of_point(const octree_point *point)
 {
-    return (uint32_t)point->id;
+    return (uint32_t)(point->id >> ROW_SHIFT);
 }
 
 /* Returns the body of a point of a level: its row, or `scratch`, which is filled. */

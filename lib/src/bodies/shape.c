@@ -3,7 +3,7 @@
  *
  * A kind has five functions. Two decide about a body, exactly. One returns a box around the region. One relates the
  * eight octants of a cell to the region, in doubles: it must not exclude an octant, or call it inside, unless this is
- * certain. One excludes bodies of a leaf (filter.c).
+ * certain. One excludes bodies of a leaf. The boxes of nodes are related in relate.c.
  */
 #include "shape.h"
 #include "../exact/float_mode.h"
@@ -64,19 +64,19 @@ static octree_box bounds_of_ball(const shape *s)
     return bounds;
 }
 
-/* Squares are computed without a scale. If the radius is so small or large that they underflow or overflow, no octant
- * is excluded or inside. */
+/* If the radius is so large that its square overflows, no octant is excluded or inside. */
 static octant_masks relate_ball(const shape *s, const cell_halves *h, unsigned octants, bool contained)
 {
     double near[8], far[3][2];
-    const double square = s->region->radius * s->region->radius;
-    const double above = square * (1 + 0x1p-50) + 0x1p-1000, below = square * (1 - 0x1p-40) - 0x1p-900;
+    const double scale = s->level->tree->scale, radius = s->region->radius * scale, square = radius * radius;
+    const double above = metric_above(square), below = square * (1 - 0x1p-40) - 0x1p-900;
     unsigned meets = 0, inside = 0;
-    bound_squares_of_octants(s->region->center, 1, h, near);
+    bound_squares_of_octants(&s->bounds, h, near);
     for (int i = 0; i < 3; i++)
         for (int half = 0; half < 2; half++) {
             const double center = h->center[i][half];
-            far[i][half] = fabs(s->region->center[i] - center) + (contained ? h->outer[i][half] : h->inner[i][half]);
+            const double extent = contained ? h->outer[i][half] : h->inner[i][half];
+            far[i][half] = (fabs(s->region->center[i] - center) + extent) * scale;
         }
     for (unsigned left = octants; left; left &= left - 1) {
         const unsigned o = bits_lowest(left), x = o >> 2, y = o >> 1 & 1, z = o & 1;
@@ -183,7 +183,7 @@ static octant_masks relate_cast(const shape *s, const cell_halves *h, unsigned o
     double bounds[8];
     unsigned meets = 0;
     (void)contained;
-    bound_times_of_octants(&s->cast_bounds, h, bounds);
+    bound_times_of_octants(&s->bounds, h, bounds);
     for (unsigned o = 0; o < 8; o++)
         meets |= mask_if(bounds[o] <= DBL_MAX, 1u << o);
     return (octant_masks){(uint8_t)(meets & octants), 0};
@@ -204,6 +204,37 @@ static octree_box bounds_of_cast(const shape *s)
     return bounds;
 }
 
+/* ---- Bodies of a leaf --------------------------------------------------------------------------------------- */
+
+static uint64_t filter_by_box(const shape *s, const octree_point *points, unsigned count)
+{
+    return test_box(&s->bounds, points, count);
+}
+
+static uint64_t filter_by_ball(const shape *s, const octree_point *points, unsigned count)
+{
+    double bounds[SCAN_POINTS + 1];
+    const double radius = s->region->radius * s->level->tree->scale;
+    return bound_squares(&s->bounds, points, count, metric_above(radius * radius), bounds);
+}
+
+static uint64_t filter_by_cast(const shape *s, const octree_point *points, unsigned count)
+{
+    double bounds[SCAN_POINTS + 1];
+    return bound_times(&s->bounds, points, count, DBL_MAX, bounds);
+}
+
+void shape_enter_level(shape *s, const level *l)
+{
+    s->level = l;
+    if (s->region->kind == OCTREE_REGION_BOX)
+        s->bounds = prepare_box_test(l, &s->region->box);
+    else if (s->region->kind == OCTREE_REGION_BALL)
+        s->bounds = prepare_squares(l, s->region->center);
+    else if (s->region->kind != OCTREE_REGION_HALF_SPACES)
+        s->bounds = prepare_times(l, &s->cast);
+}
+
 /* ---- The table ---------------------------------------------------------------------------------------------- */
 
 typedef struct shape_kind {
@@ -211,7 +242,7 @@ typedef struct shape_kind {
     bool (*contains)(const shape *s, const octree_body *body);
     octree_box (*bounds)(const shape *s);
     octant_masks (*relate)(const shape *s, const cell_halves *h, unsigned octants, bool contained);
-    uint64_t (*filter)(const shape *s, const level *l, const octree_point *points, uint64_t near);
+    uint64_t (*filter)(const shape *s, const octree_point *points, unsigned count);
 } shape_kind;
 
 static const shape_kind kinds[OCTREE_REGION_KINDS] = {
@@ -230,7 +261,6 @@ shape shape_make(const octree_region *region)
         s.cast = cast_make_ray(region->origin, region->direction, region->length, region->half);
     if (region->kind == OCTREE_REGION_SWEPT)
         s.cast = cast_make_sweep(region->from, region->to, region->half);
-    s.cast_bounds = make_cast_bounds(&s.cast);
     return s;
 }
 
@@ -249,9 +279,9 @@ octant_masks shape_relate(const shape *s, const cell_halves *h, unsigned octants
     return kinds[s->region->kind].relate(s, h, octants, contained);
 }
 
-uint64_t shape_filter(const shape *s, const level *l, const octree_point *points, uint64_t near)
+uint64_t shape_filter(const shape *s, const octree_point *points, unsigned count)
 {
-    return kinds[s->region->kind].filter(s, l, points, near);
+    return kinds[s->region->kind].filter(s, points, count);
 }
 
 octree_box shape_bounds(const shape *s)

@@ -8,12 +8,16 @@
 
 typedef struct shape {
     const octree_region *region;
-    cast cast; /* for RAY and SWEPT */
-    cast_bounds cast_bounds;
+    cast cast;           /* for RAY and SWEPT */
+    const level *level;  /* that is searched now */
+    query_bounds bounds; /* for the bodies of this level, unless the region consists of half-spaces */
 } shape;
 
 /* Make the shape of a valid region, which must outlive the shape. */
 shape shape_make(const octree_region *region);
+
+/* Prepare the search of a level. */
+void shape_enter_level(shape *s, const level *l);
 
 /* Returns whether a body has a common point with the region, and whether the body is in the region. The latter is false
  * for rays and moving boxes. */
@@ -25,15 +29,20 @@ bool shape_contains(const shape *s, const octree_body *body);
  * is in the octant, or if `contained` is true only if their whole boxes are in the region. */
 octant_masks shape_relate(const shape *s, const cell_halves *h, unsigned octants, bool contained);
 
-/* Returns `near`, a bit mask of points of a level, without the points whose bodies certainly have no common point with
- * the region. Bit i is for points[i]. */
-uint64_t shape_filter(const shape *s, const level *l, const octree_point *points, uint64_t near);
+/* The same for the children of a node with boxes, which are in a child's octant. A child is `inside` if its box is in
+ * the region. */
+octant_masks shape_relate_children(const shape *s, const node *n);
 
-/* shape_filter() for one kind of region. */
-uint64_t filter_by_box(const shape *s, const level *l, const octree_point *points, uint64_t near);
-uint64_t filter_by_ball(const shape *s, const level *l, const octree_point *points, uint64_t near);
-uint64_t filter_by_half_spaces(const shape *s, const level *l, const octree_point *points, uint64_t near);
-uint64_t filter_by_cast(const shape *s, const level *l, const octree_point *points, uint64_t near);
+/* Returns a bit mask of at most SCAN_POINTS points of the level, without the points whose bodies certainly have no
+ * common point with the region. Bit i is for points[i]. */
+uint64_t shape_filter(const shape *s, const octree_point *points, unsigned count);
+
+/* Returns a bound of the error of any sum of products of a half-space with positions, half extents and boxes of a
+ * level. */
+double bound_half_space_error(const octree_half_space *space, const level *l);
+
+/* shape_filter() for half-spaces. */
+uint64_t filter_by_half_spaces(const shape *s, const octree_point *points, unsigned count);
 
 /* Returns a box that contains the region. Its corners may be infinite. */
 octree_box shape_bounds(const shape *s);

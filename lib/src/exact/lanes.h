@@ -14,6 +14,7 @@
 
 #ifdef OCTREE_SSE2
 typedef __m128d lanes;
+typedef __m128i lane_bits; /* two unsigned integers of 64 bits */
 
 static inline lanes lanes_of(double a, double b)
 {
@@ -72,12 +73,18 @@ static inline lanes lanes_load(const double from[2])
     return _mm_loadu_pd(from);
 }
 
-/* Returns a few bits of two numbers, as doubles: (a >> shift) & mask. The mask is below 2^31. */
-static inline lanes lanes_of_bits(uint64_t a, uint64_t b, unsigned shift, uint64_t mask)
+static inline lane_bits lanes_load_bits(const uint64_t *a, const uint64_t *b)
 {
-    const __m128i both = _mm_unpacklo_epi64(_mm_loadl_epi64((const __m128i *)&a), _mm_loadl_epi64((const __m128i *)&b));
-    const __m128i bits = _mm_and_si128(_mm_srli_epi64(both, (int)shift), _mm_set_epi32(0, (int)mask, 0, (int)mask));
-    return _mm_cvtepi32_pd(_mm_shuffle_epi32(bits, _MM_SHUFFLE(3, 3, 2, 0)));
+    return _mm_unpacklo_epi64(_mm_loadl_epi64((const __m128i *)a), _mm_loadl_epi64((const __m128i *)b));
+}
+
+/* Returns the numbers bits & mask as doubles. The mask is below 2^52: the bits become the mantissa of a double from
+ * 2^52 to 2^53. */
+static inline lanes lanes_of_bits(lane_bits bits, uint64_t mask)
+{
+    const lanes from = _mm_set1_pd(0x1p52);
+    const __m128i kept = _mm_and_si128(bits, _mm_set1_epi64x((long long)mask));
+    return _mm_sub_pd(_mm_or_pd(_mm_castsi128_pd(kept), from), from);
 }
 
 /* Load three coordinates of two positions: to[axis] receives {a[axis], b[axis]}. */
@@ -92,6 +99,10 @@ static inline void lanes_load_positions(lanes to[3], const double a[3], const do
 typedef struct lanes {
     double at[2];
 } lanes;
+
+typedef struct lane_bits {
+    uint64_t at[2];
+} lane_bits;
 
 static inline lanes lanes_of(double a, double b)
 {
@@ -138,9 +149,14 @@ static inline unsigned lanes_less(lanes a, lanes b)
     return (unsigned)(a.at[0] < b.at[0]) | (unsigned)(a.at[1] < b.at[1]) << 1;
 }
 
-static inline lanes lanes_of_bits(uint64_t a, uint64_t b, unsigned shift, uint64_t mask)
+static inline lane_bits lanes_load_bits(const uint64_t *a, const uint64_t *b)
 {
-    return (lanes){{(double)(int64_t)(a >> shift & mask), (double)(int64_t)(b >> shift & mask)}};
+    return (lane_bits){{*a, *b}};
+}
+
+static inline lanes lanes_of_bits(lane_bits bits, uint64_t mask)
+{
+    return (lanes){{(double)(bits.at[0] & mask), (double)(bits.at[1] & mask)}};
 }
 
 static inline void lanes_store(double to[2], lanes a)
@@ -164,6 +180,28 @@ static inline void lanes_load_positions(lanes to[3], const double a[3], const do
 static inline lanes lanes_all(double a)
 {
     return lanes_of(a, a);
+}
+
+/* Returns the index of the first of two items of an array, in a loop over all pairs: i = 0, 2, 4 ... If their number is
+ * odd, the last pair overlaps the one before it. A single item has no pair; it is its own partner. */
+static inline unsigned begin_of_pair(unsigned count, unsigned i)
+{
+    return i + 2 > count && i > 0 ? i - 1 : i;
+}
+
+/* Return the least and the greatest number of the lanes, which are not NaN. */
+static inline double lanes_least(lanes a)
+{
+    double both[2];
+    lanes_store(both, a);
+    return both[0] < both[1] ? both[0] : both[1];
+}
+
+static inline double lanes_greatest(lanes a)
+{
+    double both[2];
+    lanes_store(both, a);
+    return both[0] > both[1] ? both[0] : both[1];
 }
 
 #endif

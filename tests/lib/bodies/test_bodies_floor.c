@@ -17,7 +17,7 @@ enum { BODIES = 600, QUERIES = 60 };
 static void make_decades(octree_body *bodies, size_t count, uint64_t seed)
 {
     for (size_t i = 0; i < count; i++) {
-        const double size = pow(1000, -octree_random_unit(&seed));
+        const double size = 4 * pow(1000, -octree_random_unit(&seed));
         bodies[i] = (octree_body){.id = i};
         for (int k = 0; k < 3; k++) {
             bodies[i].position[k] = 16 * octree_random_unit(&seed) - 8;

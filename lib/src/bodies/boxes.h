@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: MIT */
+/* boxes.h - the boxes of the nodes of a level. Private. */
+#ifndef OCTREE_NODE_BOXES_H
+#define OCTREE_NODE_BOXES_H
+
+#include "../exact/lanes.h"
+#include "set.h"
+
+/* Compute the boxes of all nodes of a level. Nothing is done in a level without boxes. */
+void fit_all(const level *l);
+
+/* Update the boxes after points were added to the tree of a level or removed from it, or were moved. A single point
+ * that was moved can be removed first, then added. */
+void fit_changes(const level *l, const octree_point *points, size_t count, bool adds);
+void fit_moves(const level *l, const octree_point *points, const double (*to)[3], size_t count);
+
+/* Returns whether the known boxes of a level are those of its bodies. */
+bool are_boxes_right(const level *l);
+
+/* The boxes of the children of a node. */
+typedef struct sibling_boxes {
+    const double *columns;
+    unsigned count;
+} sibling_boxes;
+
+static inline sibling_boxes boxes_of_children(const node *n)
+{
+    const unsigned count = bits_count8(n->octants);
+    return (sibling_boxes){box_column(children_of(n), count, 0), count};
+}
+
+/* The boxes of two siblings. */
+typedef struct two_boxes {
+    lanes min[3], max[3];
+} two_boxes;
+
+/* Load the boxes i and i + 1. The box of a node without siblings is loaded twice. */
+static inline two_boxes load_two_boxes(const sibling_boxes *b, unsigned i)
+{
+    two_boxes two;
+    for (unsigned k = 0; k < 3; k++) {
+        const double *min = b->columns + k * b->count + i, *max = min + 3 * b->count;
+        two.min[k] = b->count > 1 ? lanes_load(min) : lanes_all(*min);
+        two.max[k] = b->count > 1 ? lanes_load(max) : lanes_all(*max);
+    }
+    return two;
+}
+
+#endif
