@@ -2,8 +2,8 @@
 /* bounds.h - lower bounds of distances and times for the bodies of a leaf, the boxes of nodes, and the octants of
  * cells. Private.
  *
- * A bound is certain in spite of rounding: no body is nearer, or is touched earlier.  * A query is prepared once for
- * each level. Then a leaf costs some 20 instructions a body. A computation that overflows excludes nothing.
+ * A bound is certain in spite of rounding: no body is nearer, or is touched earlier. A computation that overflows
+ * excludes nothing. A query is prepared once for each level; then a body costs some 30 instructions.
  */
 #ifndef OCTREE_BOUNDS_H
 #define OCTREE_BOUNDS_H
@@ -40,7 +40,7 @@ query_bounds prepare_box_test(const level *l, const octree_box *box);
 uint64_t bound_squares(const query_bounds *b, const octree_point *points, unsigned count, double cut, double *bounds);
 uint64_t bound_times(const query_bounds *b, const octree_point *points, unsigned count, double cut, double *bounds);
 
-/* Returns a bit mask of the bodies that may meet the box. */
+/* Returns a bit mask of the bodies, of at most SCAN_POINTS points, that may meet the box. */
 uint64_t test_box(const query_bounds *b, const octree_point *points, unsigned count);
 
 /* The same for the eight octants of a cell. */

@@ -5,10 +5,10 @@
  * of the node's bodies: most bodies are smaller than the largest, and the bodies of a street fill no cubes.
  *
  * Idea: each node has the box of its bodies, as in a bounding volume hierarchy. The tree stores the boxes of siblings
- * side by side (leaf.h), so that a search tests the children of a node without reading them. The box of a leaf is
- * computed from its points alone, with the bounds of the half extents in their ids (two_bodies.h); that of an inner
- * node is the union of its children's. So boxes are a function of the bodies. Level 0 has no boxes, because its half
- * extents have no bound; its searches use the cells (cell.h).
+ * side by side (leaf.h), so that a search tests the children of a node two at a time, and reads only those that it
+ * visits. The box of a leaf is computed from its points alone, with the bounds of the half extents in their ids
+ * (two_bodies.h); that of an inner node is the union of its children's. So boxes are a function of the bodies. Level 0
+ * has no boxes, because its half extents have no bound; its searches use the cells (cell.h).
  *
  * A change updates the boxes on the path to its leaf. Where the tree has made a new group of siblings, their boxes are
  * unknown, and are computed.
