@@ -95,8 +95,9 @@ void bound_squares_of_octants(const query_bounds *b, const cell_halves *h, doubl
 }
 
 /* The differences have only relative errors, which the factor covers. */
-void bound_squares_of_boxes(const query_bounds *b, const sibling_boxes *boxes, double bounds[8])
+unsigned bound_squares_of_boxes(const query_bounds *b, const sibling_boxes *boxes, double cut, double bounds[8])
 {
+    unsigned far = 0;
     for (unsigned i = 0; i < boxes->count; i += 2) {
         const unsigned at = begin_of_pair(boxes->count, i);
         const two_boxes two = load_two_boxes(boxes, at);
@@ -108,7 +109,9 @@ void bound_squares_of_boxes(const query_bounds *b, const sibling_boxes *boxes, d
             sum = lanes_add(sum, lanes_multiply(gap, gap));
         }
         lanes_store(&bounds[at], sum);
+        far |= lanes_less(lanes_all(cut), sum) << at;
     }
+    return ~far & mask_of_siblings(boxes);
 }
 
 /* ---- Times -------------------------------------------------------------------------------------------------- */
@@ -205,27 +208,29 @@ static inline void narrow_spans_of_boxes(two_spans *known, const axis_bounds *a,
     known->leave = lanes_smaller(lanes_larger(one, other), known->leave);
 }
 
-/* Returns the beginnings of spans, or HUGE_VAL for a span without time: after three roundings of a time on each side.
- */
-static inline lanes begin_of_spans(const two_spans *known)
+/* Returns the spans with room for three roundings of a time on each side. */
+static inline two_spans widen_spans(const two_spans *known)
 {
-    const lanes enter = lanes_subtract(lanes_multiply(known->enter, lanes_all(1 - 0x1p-50)), lanes_all(0x1p-1000));
     const lanes error =
         lanes_add(lanes_multiply(lanes_absolute(known->leave), lanes_all(0x1p-50)), lanes_all(0x1p-1000));
-    const lanes excess = lanes_subtract(enter, lanes_add(known->leave, error));
-    return lanes_larger(lanes_if_positive(excess, HUGE_VAL), enter);
+    const lanes enter = lanes_multiply(known->enter, lanes_all(1 - 0x1p-50));
+    return (two_spans){lanes_subtract(enter, lanes_all(0x1p-1000)), lanes_add(known->leave, error)};
 }
 
-void bound_times_of_boxes(const query_bounds *b, const sibling_boxes *boxes, double bounds[8])
+unsigned bound_times_of_boxes(const query_bounds *b, const sibling_boxes *boxes, double cut, double bounds[8])
 {
+    unsigned far = 0;
     for (unsigned i = 0; i < boxes->count; i += 2) {
         const unsigned at = begin_of_pair(boxes->count, i);
         const two_boxes two = load_two_boxes(boxes, at);
         two_spans known = {lanes_all(0), b->length};
         for (int k = 0; k < 3; k++)
             narrow_spans_of_boxes(&known, &b->axes[k], two.min[k], two.max[k]);
-        lanes_store(&bounds[at], begin_of_spans(&known));
+        const two_spans wide = widen_spans(&known);
+        lanes_store(&bounds[at], wide.enter);
+        far |= lanes_less(lanes_smaller(lanes_all(cut), wide.leave), wide.enter) << at;
     }
+    return ~far & mask_of_siblings(boxes);
 }
 
 /* ---- Boxes -------------------------------------------------------------------------------------------------- */
@@ -279,5 +284,5 @@ unsigned test_boxes(const query_bounds *b, const sibling_boxes *boxes)
         }
         apart |= lanes_less(lanes_all(0), gap) << at;
     }
-    return ~apart & ((1u << boxes->count) - 1);
+    return ~apart & mask_of_siblings(boxes);
 }

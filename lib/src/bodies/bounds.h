@@ -43,14 +43,14 @@ uint64_t bound_times(const query_bounds *b, const octree_point *points, unsigned
 /* Returns a bit mask of the bodies, of at most SCAN_POINTS points, that may meet the box. */
 uint64_t test_box(const query_bounds *b, const octree_point *points, unsigned count);
 
-/* The same for the eight octants of a cell. */
+/* The same for the eight octants of a cell. HUGE_VAL: the cast never touches them. */
 void bound_squares_of_octants(const query_bounds *b, const cell_halves *h, double bounds[8]);
 void bound_times_of_octants(const query_bounds *b, const cell_halves *h, double bounds[8]);
 
-/* The same for the boxes of at most eight siblings: bounds[i] is for the bodies of sibling i. HUGE_VAL: the cast never
- * touches them. */
-void bound_squares_of_boxes(const query_bounds *b, const sibling_boxes *boxes, double bounds[8]);
-void bound_times_of_boxes(const query_bounds *b, const sibling_boxes *boxes, double bounds[8]);
+/* The same for the boxes of at most eight siblings: bounds[i] is for the bodies of sibling i. Returns a bit mask of the
+ * siblings whose bounds are at most `cut`. */
+unsigned bound_squares_of_boxes(const query_bounds *b, const sibling_boxes *boxes, double cut, double bounds[8]);
+unsigned bound_times_of_boxes(const query_bounds *b, const sibling_boxes *boxes, double cut, double bounds[8]);
 unsigned test_boxes(const query_bounds *b, const sibling_boxes *boxes);
 
 #endif

@@ -29,6 +29,22 @@ static inline sibling_boxes boxes_of_children(const node *n)
     return (sibling_boxes){box_column(children_of(n), count, 0), count};
 }
 
+static inline unsigned mask_of_siblings(const sibling_boxes *b)
+{
+    return (1u << b->count) - 1;
+}
+
+/* Returns a mask of octants from a mask of the children of a node. */
+static inline unsigned spread_mask(const node *n, unsigned children)
+{
+    unsigned spread = 0;
+    if (n->octants == 0xff)
+        return children;
+    for (unsigned octants = n->octants; octants; octants &= octants - 1, children >>= 1)
+        spread |= mask_if(children & 1, octants & (0 - octants));
+    return spread;
+}
+
 /* The boxes of two siblings. */
 typedef struct two_boxes {
     lanes min[3], max[3];

@@ -247,18 +247,21 @@ typedef struct branch {
     unsigned octant;
 } branch;
 
-/* Compute lower bounds for the children of a node, indexed by child if they have boxes, or else by octant. */
-static void bound_children(const ordered_search *s, const node *n, const cell_halves *h, double bounds[8])
+/* Compute lower bounds for the children of a node, indexed by child if they have boxes, or else by octant. Returns a
+ * bit mask of the octants of the children whose bounds are at most s->cut. */
+static unsigned bound_children(const ordered_search *s, const node *n, const cell_halves *h, double bounds[8])
 {
-    if (!has_boxes(&s->level->tree->store)) {
-        s->bound(&s->bounds, h, bounds);
-        return;
+    unsigned near = 0;
+    if (has_boxes(&s->level->tree->store)) {
+        const sibling_boxes boxes = boxes_of_children(n);
+        near = s->target ? bound_squares_of_boxes(&s->bounds, &boxes, s->cut, bounds)
+                         : bound_times_of_boxes(&s->bounds, &boxes, s->cut, bounds);
+        return spread_mask(n, near);
     }
-    const sibling_boxes boxes = boxes_of_children(n);
-    if (s->target)
-        bound_squares_of_boxes(&s->bounds, &boxes, bounds);
-    else
-        bound_times_of_boxes(&s->bounds, &boxes, bounds);
+    s->bound(&s->bounds, h, bounds);
+    for (unsigned octant = 0; octant < 8; octant++)
+        near |= mask_if(!(bounds[octant] > s->cut), 1u << octant);
+    return near & n->octants;
 }
 
 /* Store the children whose bodies may count in an array, sorted by their bounds. Returns their number. */
@@ -266,24 +269,20 @@ static unsigned sort_children(ordered_search *s, const node *n, const cell_halve
                               branch branches[8])
 {
     double bounds[8];
-    const node *child = children_of(n);
-    unsigned count = 0, pruned = 0;
+    const unsigned near = bound_children(s, n, h, bounds);
     const bool boxed = has_boxes(&s->level->tree->store);
-    bound_children(s, n, h, bounds);
-    for (unsigned left = n->octants; left; left &= left - 1, child++) {
+    unsigned count = 0;
+    for (unsigned left = near; left; left &= left - 1) {
         const unsigned octant = bits_lowest(left);
+        const node *child = look_up_child(n, octant);
         const double bound = bounds[boxed ? (unsigned)(child - children_of(n)) : octant];
-        if (bound > s->cut) {
-            pruned |= 1u << octant;
-            continue;
-        }
         prefetch_memory(child->below);
         unsigned at = count++;
         for (; at > 0 && branches[at - 1].bound > bound; at--)
             branches[at] = branches[at - 1];
         branches[at] = (branch){bound, child, octant};
     }
-    meter_record_pruned(&s->meter, address, pruned);
+    meter_record_pruned(&s->meter, address, n->octants & ~near);
     return count;
 }
 

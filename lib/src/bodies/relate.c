@@ -8,15 +8,6 @@
 #include "../query/search.h"
 #include "shape.h"
 
-/* Returns a bit mask of the bounds that are at most `cut`. */
-static unsigned find_near(const double bounds[8], unsigned count, double cut)
-{
-    unsigned near = 0;
-    for (unsigned i = 0; i < count; i++)
-        near |= (unsigned)!(bounds[i] > cut) << i;
-    return near;
-}
-
 /* ---- Boxes and balls ---------------------------------------------------------------------------------------- */
 
 static bool is_in_region_box(const octree_box *region, const double *corner, unsigned siblings)
@@ -54,8 +45,7 @@ static octant_masks relate_to_ball(const shape *s, const sibling_boxes *boxes)
     double bounds[8];
     const double scale = s->level->tree->scale, radius = s->region->radius * scale, square = radius * radius;
     unsigned inside = 0;
-    bound_squares_of_boxes(&s->bounds, boxes, bounds);
-    const unsigned meets = find_near(bounds, boxes->count, metric_above(square));
+    const unsigned meets = bound_squares_of_boxes(&s->bounds, boxes, metric_above(square), bounds);
     for (unsigned left = meets; left; left &= left - 1) {
         const unsigned i = bits_lowest(left);
         const double farthest = find_farthest_square(s->region->center, scale, boxes->columns + i, boxes->count);
@@ -114,8 +104,7 @@ static octant_masks relate_to_half_spaces(const shape *s, const sibling_boxes *b
 static octant_masks relate_to_cast(const shape *s, const sibling_boxes *boxes)
 {
     double bounds[8];
-    bound_times_of_boxes(&s->bounds, boxes, bounds);
-    return (octant_masks){(uint8_t)find_near(bounds, boxes->count, DBL_MAX), 0};
+    return (octant_masks){(uint8_t)bound_times_of_boxes(&s->bounds, boxes, DBL_MAX, bounds), 0};
 }
 
 /* ---- The table ---------------------------------------------------------------------------------------------- */
@@ -129,21 +118,9 @@ static octant_masks (*const kinds[OCTREE_REGION_KINDS])(const shape *s, const si
     [OCTREE_REGION_RAY] = relate_to_cast,
 };
 
-/* Returns a mask of octants from a mask of children. */
-static unsigned spread_mask(unsigned octants, unsigned children)
-{
-    unsigned spread = 0;
-    if (octants == 0xff)
-        return children;
-    for (; octants; octants &= octants - 1, children >>= 1)
-        spread |= mask_if(children & 1, octants & (0 - octants));
-    return spread;
-}
-
 octant_masks shape_relate_children(const shape *s, const node *n)
 {
     const sibling_boxes boxes = boxes_of_children(n);
     const octant_masks masks = kinds[s->region->kind](s, &boxes);
-    return (octant_masks){(uint8_t)spread_mask(n->octants, masks.meets),
-                          (uint8_t)spread_mask(n->octants, masks.inside)};
+    return (octant_masks){(uint8_t)spread_mask(n, masks.meets), (uint8_t)spread_mask(n, masks.inside)};
 }
