@@ -9,7 +9,7 @@
 #include "body_scenes.h"
 #include "octree/sample.h"
 
-enum { BODIES = 1500, QUERIES = 40 };
+enum { BODIES = 1500, QUERIES = 100 };
 
 static octree_bodies *make_set(uint32_t capacity)
 {
@@ -36,36 +36,6 @@ static bool count_body(const octree_body *body, void *context)
     return true;
 }
 
-/* ---- Changes ------------------------------------------------------------------------------------------------ */
-
-/* Few bodies beside those of the set, so that their paths are updated, and many, so that all boxes are. */
-static void boxes_follow_bulk_changes_of_all_sizes(void **state)
-{
-    (void)state;
-    static octree_body bodies[BODIES], moved[BODIES];
-    uint64_t seed = 3;
-    for (uint32_t capacity = 1; capacity <= 16; capacity += 5) {
-        octree_bodies *set = make_set(capacity);
-        for (size_t i = 0; i < BODIES; i++)
-            bodies[i] = small_body(&seed, i);
-        assert_int_equal(octree_bodies_insert_many(set, bodies, BODIES, NULL, NULL), OCTREE_OK);
-        for (size_t count = 1; count < 60; count++) {
-            for (size_t i = 0; i < count; i++)
-                moved[i] = small_body(&seed, i);
-            assert_int_equal(octree_bodies_move_many(set, bodies, moved, count, NULL, NULL), OCTREE_OK);
-            memcpy(bodies, moved, count * sizeof *bodies);
-            assert_null(octree_bodies_check(set));
-            assert_int_equal(octree_bodies_remove_many(set, bodies + 100, count, NULL, NULL), OCTREE_OK);
-            assert_null(octree_bodies_check(set));
-            assert_int_equal(octree_bodies_insert_many(set, bodies + 100, count, NULL, NULL), OCTREE_OK);
-            assert_null(octree_bodies_check(set));
-        }
-        octree_bodies_destroy(set);
-    }
-}
-
-/* ---- Costs -------------------------------------------------------------------------------------------------- */
-
 static octree_cost cost_of_queries(const octree_bodies *set)
 {
     uint64_t seed = 8;
@@ -80,9 +50,61 @@ static octree_cost cost_of_queries(const octree_bodies *set)
         const octree_region region = random_region(NUMBERS_SMOOTH, kind, &seed, half_spaces);
         assert_int_equal(octree_bodies_search(set, &region, &how, count_body, &count), OCTREE_OK);
         random_target(NUMBERS_SMOOTH, &seed, target);
+        const octree_body near = small_body(&seed, 0);
+        const octree_region ball = {.kind = OCTREE_REGION_BALL,
+                                    .center = {near.position[0], near.position[1], near.position[2]},
+                                    .radius = 0.2};
+        assert_int_equal(octree_bodies_search(set, &ball, &how, count_body, &count), OCTREE_OK);
         assert_int_equal(octree_bodies_nearest(set, target, 3, 2, &how, NULL, NULL, hits, &count), OCTREE_OK);
     }
     return cost;
+}
+
+static void assert_same_cost(const octree_bodies *one, const octree_bodies *other)
+{
+    const octree_cost a = cost_of_queries(one), b = cost_of_queries(other);
+    assert_true(a.leaves > 0 && a.pruned > 0);
+    assert_int_equal(a.nodes, b.nodes);
+    assert_int_equal(a.leaves, b.leaves);
+    assert_int_equal(a.points, b.points);
+    assert_int_equal(a.pruned, b.pruned);
+    assert_int_equal(a.taken, b.taken);
+}
+
+/* ---- Changes ------------------------------------------------------------------------------------------------ */
+
+/* Few bodies beside those of the set, so that their paths are updated, and many, so that all boxes are. */
+static void boxes_follow_bulk_changes_of_all_sizes(void **state)
+{
+    (void)state;
+    static octree_body bodies[BODIES], moved[BODIES];
+    uint64_t seed = 3;
+    for (uint32_t capacity = 1; capacity <= 16; capacity += 5) {
+        octree_bodies *set = make_set(capacity);
+        for (size_t i = 0; i < BODIES; i++)
+            bodies[i] = small_body(&seed, i);
+        assert_int_equal(octree_bodies_insert_many(set, bodies, BODIES, NULL, NULL), OCTREE_OK);
+        for (size_t round = 0; round < 150; round++) {
+            const size_t count = round < 10 ? 60 - round : 1 + round % 12;
+            for (size_t i = 0; i < count; i++) {
+                moved[i] = small_body(&seed, i);
+                if (i % 4) /* bodies that keep their size are moved in bulk, others one by one */
+                    memcpy(moved[i].half, bodies[i].half, sizeof moved[i].half);
+            }
+            assert_int_equal(octree_bodies_move_many(set, bodies, moved, count, NULL, NULL), OCTREE_OK);
+            memcpy(bodies, moved, count * sizeof *bodies);
+            assert_null(octree_bodies_check(set));
+            assert_int_equal(octree_bodies_remove_many(set, bodies + 100, count, NULL, NULL), OCTREE_OK);
+            assert_null(octree_bodies_check(set));
+            assert_int_equal(octree_bodies_insert_many(set, bodies + 100, count, NULL, NULL), OCTREE_OK);
+            assert_null(octree_bodies_check(set));
+        }
+        octree_bodies *made_anew = make_set(capacity);
+        assert_int_equal(octree_bodies_insert_many(made_anew, bodies, BODIES, NULL, NULL), OCTREE_OK);
+        assert_same_cost(set, made_anew);
+        octree_bodies_destroy(set);
+        octree_bodies_destroy(made_anew);
+    }
 }
 
 /* Bodies that were removed or moved leave no trace. */
@@ -105,13 +127,7 @@ static void cost_depends_on_the_bodies_alone(void **state)
         assert_int_equal(octree_bodies_move(detour, &bodies[i], &elsewhere), OCTREE_OK);
         assert_int_equal(octree_bodies_move(detour, &elsewhere, &bodies[i]), OCTREE_OK);
     }
-    const octree_cost a = cost_of_queries(direct), b = cost_of_queries(detour);
-    assert_true(a.leaves > 0 && a.pruned > 0);
-    assert_int_equal(a.nodes, b.nodes);
-    assert_int_equal(a.leaves, b.leaves);
-    assert_int_equal(a.points, b.points);
-    assert_int_equal(a.pruned, b.pruned);
-    assert_int_equal(a.taken, b.taken);
+    assert_same_cost(direct, detour);
     octree_bodies_destroy(direct);
     octree_bodies_destroy(detour);
 }
