@@ -81,20 +81,19 @@ static unsigned count_children(const node *n)
     return bits_look_up_count8(n->octants);
 }
 
+static octree_box *box_of_child(const node *n, unsigned index)
+{
+    return boxes_of_group(children_of(n), count_children(n)) + index;
+}
+
 /* Returns the box of a node whose children have known boxes. */
 static octree_box box_of_node(const fitting *f, const node *n)
 {
     if (n->octants == 0)
         return box_of_points(f, leaf_points(n), n->count);
     octree_box box = make_empty_box();
-    const unsigned siblings = count_children(n);
-    for (int k = 0; k < 3; k++) {
-        const double *min = box_column(children_of(n), siblings, (unsigned)k), *max = min + 3 * siblings;
-        for (unsigned i = 0; i < siblings; i++) {
-            box.min[k] = min[i] < box.min[k] ? min[i] : box.min[k];
-            box.max[k] = larger(max[i], box.max[k]);
-        }
-    }
+    for (unsigned i = 0; i < count_children(n); i++)
+        include_box(&box, box_of_child(n, i));
     return box;
 }
 
@@ -105,37 +104,13 @@ static unsigned mask_of_children(const node *n)
     return (1u << count_children(n)) - 1;
 }
 
-static octree_box get_box(const node *n, unsigned index)
-{
-    const unsigned siblings = count_children(n);
-    const double *corner = box_column(children_of(n), siblings, 0) + index;
-    octree_box box;
-    for (unsigned k = 0; k < 3; k++) {
-        box.min[k] = corner[k * siblings];
-        box.max[k] = corner[(k + 3) * siblings];
-    }
-    return box;
-}
-
-static void set_box(const node *n, unsigned index, const octree_box *box)
-{
-    const unsigned siblings = count_children(n);
-    double *corner = box_column(children_of(n), siblings, 0) + index;
-    for (unsigned k = 0; k < 3; k++) {
-        corner[k * siblings] = box->min[k];
-        corner[(k + 3) * siblings] = box->max[k];
-    }
-}
-
 /* Returns a bit mask of the children whose boxes are unknown. Below a child with a known box, all boxes are known, but
  * for those that the current change has made. */
 static unsigned find_unknown_boxes(const node *n)
 {
-    const unsigned siblings = count_children(n);
-    const double *column = box_column(children_of(n), siblings, 0);
     unsigned unknown = 0;
-    for (unsigned i = 0; i < siblings; i++)
-        unknown |= (unsigned)(column[i] == -HUGE_VAL) << i;
+    for (unsigned i = 0; i < count_children(n); i++)
+        unknown |= (unsigned)(box_of_child(n, i)->min[0] == -HUGE_VAL) << i;
     return unknown;
 }
 
@@ -147,8 +122,7 @@ static void fit_children(const fitting *f, const node *n, unsigned children, boo
         const node *child = &children_of(n)[i];
         if (child->octants)
             fit_children(f, child, all ? mask_of_children(child) : find_unknown_boxes(child), all);
-        const octree_box box = box_of_node(f, child);
-        set_box(n, i, &box);
+        *box_of_child(n, i) = box_of_node(f, child);
     }
 }
 
@@ -207,11 +181,10 @@ static octree_box change_box_of_leaf(const fitting *f, const node *leaf, const o
 /* Update the box of a child whose contents changed. Returns whether the box has changed. */
 static bool update_box(const fitting *f, const node *parent, const node *child, const box_change *change)
 {
-    const unsigned index = (unsigned)(child - children_of(parent));
-    const octree_box old = get_box(parent, index);
-    const octree_box box = child->octants ? box_of_node(f, child) : change_box_of_leaf(f, child, &old, change);
-    set_box(parent, index, &box);
-    return !is_same_box(&old, &box);
+    octree_box *box = box_of_child(parent, (unsigned)(child - children_of(parent)));
+    const octree_box old = *box;
+    *box = child->octants ? box_of_node(f, child) : change_box_of_leaf(f, child, &old, change);
+    return !is_same_box(&old, box);
 }
 
 /* Returns whether a path ends at a leaf whose box is known and stays the same. Most changes need no more than this. */
@@ -220,9 +193,9 @@ static bool keeps_known_box(const path *p, const box_change *change)
     if (p->depth == 0 || path_end(p)->octants)
         return false;
     const node *parent = p->nodes[p->depth - 1];
-    const octree_box box = get_box(parent, (unsigned)(path_end(p) - children_of(parent)));
-    return box.min[0] > -HUGE_VAL &&
-           (change->adds ? contains_box(&box, &change->box) : !touches_face(&box, &change->box));
+    const octree_box *box = box_of_child(parent, (unsigned)(path_end(p) - children_of(parent)));
+    return box->min[0] > -HUGE_VAL &&
+           (change->adds ? contains_box(box, &change->box) : !touches_face(box, &change->box));
 }
 
 /* Update the boxes on a path from its end towards the root, up to the first box that stays the same. New nodes that a
@@ -294,7 +267,7 @@ static bool are_child_boxes_right(const fitting *f, const node *n)
 {
     bool right = true;
     for (unsigned i = 0; right && i < count_children(n); i++) {
-        const octree_box stored = get_box(n, i), computed = box_of_node(f, &children_of(n)[i]);
+        const octree_box stored = *box_of_child(n, i), computed = box_of_node(f, &children_of(n)[i]);
         right = (find_unknown_boxes(n) >> i & 1) || is_right_box(&stored, &computed, &children_of(n)[i]);
         right &= are_child_boxes_right(f, &children_of(n)[i]);
     }

@@ -19,14 +19,14 @@ bool are_boxes_right(const level *l);
 
 /* The boxes of the children of a node. */
 typedef struct sibling_boxes {
-    const double *columns;
+    const octree_box *items;
     unsigned count;
 } sibling_boxes;
 
 static inline sibling_boxes boxes_of_children(const node *n)
 {
     const unsigned count = bits_count8(n->octants);
-    return (sibling_boxes){box_column(children_of(n), count, 0), count};
+    return (sibling_boxes){boxes_of_group(children_of(n), count), count};
 }
 
 static inline unsigned mask_of_siblings(const sibling_boxes *b)
@@ -54,11 +54,9 @@ typedef struct two_boxes {
 static inline two_boxes load_two_boxes(const sibling_boxes *b, unsigned i)
 {
     two_boxes two;
-    for (unsigned k = 0; k < 3; k++) {
-        const double *min = b->columns + k * b->count + i, *max = min + 3 * b->count;
-        two.min[k] = b->count > 1 ? lanes_load(min) : lanes_all(*min);
-        two.max[k] = b->count > 1 ? lanes_load(max) : lanes_all(*max);
-    }
+    const octree_box *one = &b->items[i], *other = one + (b->count > 1);
+    lanes_load_positions(two.min, one->min, other->min);
+    lanes_load_positions(two.max, one->max, other->max);
     return two;
 }
 

@@ -10,11 +10,11 @@
 
 /* ---- Boxes and balls ---------------------------------------------------------------------------------------- */
 
-static bool is_in_region_box(const octree_box *region, const double *corner, unsigned siblings)
+static bool is_box_inside(const octree_box *region, const octree_box *box)
 {
     bool inside = true;
-    for (unsigned k = 0; k < 3; k++)
-        inside &= (region->min[k] <= corner[k * siblings]) & (corner[(k + 3) * siblings] <= region->max[k]);
+    for (int k = 0; k < 3; k++)
+        inside &= (region->min[k] <= box->min[k]) & (box->max[k] <= region->max[k]);
     return inside;
 }
 
@@ -24,17 +24,17 @@ static octant_masks relate_to_box(const shape *s, const sibling_boxes *boxes)
     unsigned inside = 0;
     for (unsigned left = meets; left; left &= left - 1) {
         const unsigned i = bits_lowest(left);
-        inside |= (unsigned)is_in_region_box(&s->region->box, boxes->columns + i, boxes->count) << i;
+        inside |= (unsigned)is_box_inside(&s->region->box, &boxes->items[i]) << i;
     }
     return (octant_masks){(uint8_t)meets, (uint8_t)inside};
 }
 
 /* Returns the square of the distance from a target to the farthest corner of a box, multiplied by that of a scale. */
-static double find_farthest_square(const double target[3], double scale, const double *corner, unsigned siblings)
+static double find_farthest_square(const double target[3], double scale, const octree_box *box)
 {
     double sum = 0;
-    for (unsigned k = 0; k < 3; k++) {
-        const double way = larger(target[k] - corner[k * siblings], corner[(k + 3) * siblings] - target[k]) * scale;
+    for (int k = 0; k < 3; k++) {
+        const double way = larger(target[k] - box->min[k], box->max[k] - target[k]) * scale;
         sum += way * way;
     }
     return sum;
@@ -48,7 +48,7 @@ static octant_masks relate_to_ball(const shape *s, const sibling_boxes *boxes)
     const unsigned meets = bound_squares_of_boxes(&s->bounds, boxes, metric_above(square), bounds);
     for (unsigned left = meets; left; left &= left - 1) {
         const unsigned i = bits_lowest(left);
-        const double farthest = find_farthest_square(s->region->center, scale, boxes->columns + i, boxes->count);
+        const double farthest = find_farthest_square(s->region->center, scale, &boxes->items[i]);
         inside |= (unsigned)(farthest < metric_below(square)) << i;
     }
     return (octant_masks){(uint8_t)meets, (uint8_t)inside};

@@ -112,11 +112,9 @@ static void remove_from_hashed_leaf(octree_point *points, uint32_t count, uint32
 
 static void forget_boxes(const store *s, const node *group, unsigned siblings)
 {
-    if (!has_boxes(s))
-        return;
-    for (unsigned column = 0; column < BOX_COLUMNS; column++)
-        for (unsigned i = 0; i < siblings; i++)
-            box_column(group, siblings, column)[i] = column < BOX_COLUMNS / 2 ? -HUGE_VAL : HUGE_VAL;
+    static const octree_box unknown = {{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, {HUGE_VAL, HUGE_VAL, HUGE_VAL}};
+    for (unsigned i = 0; has_boxes(s) && i < siblings; i++)
+        boxes_of_group(group, siblings)[i] = unknown;
 }
 
 node *group_allocate(store *s, unsigned siblings)
@@ -139,23 +137,21 @@ node *group_copy_with_gap(store *s, const node *group, unsigned siblings, unsign
         return NULL;
     memcpy(copy, group, index * sizeof(node));
     memcpy(copy + index + 1, group + index, (siblings - index) * sizeof(node));
-    for (unsigned column = 0; has_boxes(s) && column < BOX_COLUMNS; column++) {
-        const double *from = box_column(group, siblings, column);
-        double *to = box_column(copy, siblings + 1, column);
+    if (has_boxes(s)) {
+        const octree_box *from = boxes_of_group(group, siblings);
+        octree_box *to = boxes_of_group(copy, siblings + 1);
         memcpy(to, from, index * sizeof *to);
         memcpy(to + index + 1, from + index, (siblings - index) * sizeof *to);
     }
     return copy;
 }
 
-/* The columns move towards the beginning of the block, so they are moved in their order. */
 void group_remove(store *s, node *group, unsigned siblings, unsigned index)
 {
-    const double *columns = box_column(group, siblings, 0);
+    const octree_box *from = boxes_of_group(group, siblings);
+    octree_box *to = boxes_of_group(group, siblings - 1);
     memmove(group + index, group + index + 1, (siblings - index - 1) * sizeof(node));
-    for (unsigned column = 0; has_boxes(s) && column < BOX_COLUMNS; column++) {
-        const double *from = columns + column * siblings;
-        double *to = box_column(group, siblings - 1, column);
+    if (has_boxes(s)) {
         memmove(to, from, index * sizeof *to);
         memmove(to + index, from + index + 1, (siblings - index - 1) * sizeof *to);
     }

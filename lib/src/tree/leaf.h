@@ -45,9 +45,8 @@ void store_release(store *s, const node *root);
 /* A group of siblings is a block of the pool `nodes`: the array of the nodes, and in trees of bodies a box for each
  * node. The tree only marks the boxes of new nodes as unknown; bodies/boxes.c computes them.
  *
- * The boxes are six columns, one after the other: column[i] is a number of the box of sibling i. The first three
- * columns are the lower corners, the others the upper corners. The box of an unknown node is infinite. */
-enum { BOX_COLUMNS = 6, NODE_WITH_BOX = sizeof(node) + BOX_COLUMNS * sizeof(double) };
+ * The box of an unknown node is infinite. */
+enum { NODE_WITH_BOX = sizeof(node) + sizeof(octree_box) };
 
 /* Returns whether the nodes of a tree have boxes. With OCTREE_WITHOUT_NODE_BOXES, no tree has them: the pages of
  * recordings fill no sets of bodies, and are smaller without the code for boxes. */
@@ -61,9 +60,10 @@ static inline bool has_boxes(const store *s)
 #endif
 }
 
-static inline double *box_column(const node *group, unsigned siblings, unsigned column)
+/* Returns the boxes of a group whose nodes have boxes. */
+static inline octree_box *boxes_of_group(const node *group, unsigned siblings)
 {
-    return (double *)(uintptr_t)(group + siblings) + column * siblings;
+    return (octree_box *)(uintptr_t)(group + siblings);
 }
 
 /* Allocate a group for `siblings` nodes. Returns null if memory runs out. The nodes are not initialized. */
