@@ -13,12 +13,6 @@
 #include "../query/search.h"
 #include "two_bodies.h"
 
-/* Returns an upper bound, but for rounding, of the distances from a coordinate to the positions of a level. */
-static double find_farthest(const level *l, int axis, double origin)
-{
-    return larger(fabs(l->tree->axes[axis].min - origin), fabs(l->tree->axes[axis].max - origin));
-}
-
 static inline lanes reach_of_bodies(const axis_bounds *a, lanes steps)
 {
     return lanes_add(lanes_multiply(steps, a->step), a->rest);

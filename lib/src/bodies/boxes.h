@@ -4,6 +4,7 @@
 #define OCTREE_NODE_BOXES_H
 
 #include "../exact/lanes.h"
+#include "../query/search.h"
 #include "set.h"
 
 /* Compute the boxes of all nodes of a level. Nothing is done in a level without boxes. */
@@ -17,7 +18,34 @@ void fit_moves(const level *l, const octree_point *points, const double (*to)[3]
 /* Returns whether the known boxes of a level are those of its bodies. */
 bool are_boxes_right(const level *l);
 
-/* The boxes of the children of a node. */
+/* Returns an upper bound, but for rounding, of the distances from a coordinate to the positions of a level. */
+static inline double find_farthest(const level *l, int axis, double origin)
+{
+    return larger(fabs(l->tree->axes[axis].min - origin), fabs(l->tree->axes[axis].max - origin));
+}
+
+static inline octree_box make_empty_box(void)
+{
+    return (octree_box){{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
+}
+
+static inline void include_box(octree_box *around, const octree_box *box)
+{
+    for (int k = 0; k < 3; k++) {
+        around->min[k] = box->min[k] < around->min[k] ? box->min[k] : around->min[k];
+        around->max[k] = larger(box->max[k], around->max[k]);
+    }
+}
+
+static inline bool contains_box(const octree_box *around, const octree_box *box)
+{
+    bool contains = true;
+    for (int k = 0; k < 3; k++)
+        contains &= (around->min[k] <= box->min[k]) & (box->max[k] <= around->max[k]);
+    return contains;
+}
+
+/* The boxes of the children of a node, for queries. */
 typedef struct sibling_boxes {
     const octree_box *items;
     unsigned count;
@@ -25,7 +53,7 @@ typedef struct sibling_boxes {
 
 static inline sibling_boxes boxes_of_children(const node *n)
 {
-    const unsigned count = bits_count8(n->octants);
+    const unsigned count = bits_look_up_count8(n->octants);
     return (sibling_boxes){boxes_of_group(children_of(n), count), count};
 }
 

@@ -33,22 +33,16 @@ static void load_pairs(leaf_pairs *leaf, const octree_point *points, unsigned co
         }
     }
     for (int k = 0; k < 3; k++) {
-        double both[2][2];
-        lanes_store(both[0], low[k]);
-        lanes_store(both[1], high[k]);
-        leaf->low[k] = both[0][0] < both[0][1] ? both[0][0] : both[0][1];
-        leaf->high[k] = larger(both[1][0], both[1][1]);
+        leaf->low[k] = lanes_least(low[k]);
+        leaf->high[k] = lanes_greatest(high[k]);
     }
 }
 
 double bound_half_space_error(const octree_half_space *space, const level *l)
 {
     double size = fabs(space->offset);
-    for (int k = 0; k < 3; k++) {
-        const axis *world = &l->tree->axes[k];
-        size += fabs(space->normal[k]) *
-                (larger(fabs(world->min), fabs(world->max)) + l->reach[k] + l->unit * (MAX_STEPS + 2));
-    }
+    for (int k = 0; k < 3; k++)
+        size += fabs(space->normal[k]) * (find_farthest(l, k, 0) + l->reach[k] + l->unit * (MAX_STEPS + 2));
     return size * 0x1p-48 + 0x1p-1000;
 }
 

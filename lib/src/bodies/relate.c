@@ -10,21 +10,13 @@
 
 /* ---- Boxes and balls ---------------------------------------------------------------------------------------- */
 
-static bool is_box_inside(const octree_box *region, const octree_box *box)
-{
-    bool inside = true;
-    for (int k = 0; k < 3; k++)
-        inside &= (region->min[k] <= box->min[k]) & (box->max[k] <= region->max[k]);
-    return inside;
-}
-
 static octant_masks relate_to_box(const shape *s, const sibling_boxes *boxes)
 {
     const unsigned meets = test_boxes(&s->bounds, boxes);
     unsigned inside = 0;
     for (unsigned left = meets; left; left &= left - 1) {
         const unsigned i = bits_lowest(left);
-        inside |= (unsigned)is_box_inside(&s->region->box, &boxes->items[i]) << i;
+        inside |= (unsigned)contains_box(&s->region->box, &boxes->items[i]) << i;
     }
     return (octant_masks){(uint8_t)meets, (uint8_t)inside};
 }
@@ -90,7 +82,7 @@ static octant_masks relate_to_one_half_space(const octree_half_space *space, con
 
 static octant_masks relate_to_half_spaces(const shape *s, const sibling_boxes *boxes)
 {
-    octant_masks all = {(uint8_t)((1u << boxes->count) - 1), 0xff};
+    octant_masks all = {(uint8_t)mask_of_siblings(boxes), 0xff};
     for (size_t i = 0; i < s->region->half_space_count && all.meets; i++) {
         const octant_masks masks = relate_to_one_half_space(&s->region->half_spaces[i], s->level, boxes);
         all.meets &= masks.meets;

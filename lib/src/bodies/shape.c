@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* shape.c - the tests of bodies and cells against a region: one row of functions for each kind of region.
  *
- * A kind has five functions. Two decide about a body, exactly. One returns a box around the region. One relates the
+ * A kind has six functions. Two decide about a body, exactly. One returns a box around the region. One relates the
  * eight octants of a cell to the region, in doubles: it must not exclude an octant, or call it inside, unless this is
- * certain. One excludes bodies of a leaf. The boxes of nodes are related in relate.c.
+ * certain. One prepares bounds for the bodies of a level, and one excludes bodies of a leaf. The boxes of nodes are
+ * related in relate.c.
  */
 #include "shape.h"
 #include "../exact/float_mode.h"
@@ -224,15 +225,26 @@ static uint64_t filter_by_cast(const shape *s, const octree_point *points, unsig
     return bound_times(&s->bounds, points, count, DBL_MAX, bounds);
 }
 
-void shape_enter_level(shape *s, const level *l)
+static query_bounds prepare_for_box(const shape *s, const level *l)
 {
-    s->level = l;
-    if (s->region->kind == OCTREE_REGION_BOX)
-        s->bounds = prepare_box_test(l, &s->region->box);
-    else if (s->region->kind == OCTREE_REGION_BALL)
-        s->bounds = prepare_squares(l, s->region->center);
-    else if (s->region->kind != OCTREE_REGION_HALF_SPACES)
-        s->bounds = prepare_times(l, &s->cast);
+    return prepare_box_test(l, &s->region->box);
+}
+
+static query_bounds prepare_for_ball(const shape *s, const level *l)
+{
+    return prepare_squares(l, s->region->center);
+}
+
+/* Half-spaces need no bounds. */
+static query_bounds prepare_for_half_spaces(const shape *s, const level *l)
+{
+    (void)l;
+    return s->bounds;
+}
+
+static query_bounds prepare_for_cast(const shape *s, const level *l)
+{
+    return prepare_times(l, &s->cast);
 }
 
 /* ---- The table ---------------------------------------------------------------------------------------------- */
@@ -242,16 +254,17 @@ typedef struct shape_kind {
     bool (*contains)(const shape *s, const octree_body *body);
     octree_box (*bounds)(const shape *s);
     octant_masks (*relate)(const shape *s, const cell_halves *h, unsigned octants, bool contained);
+    query_bounds (*prepare)(const shape *s, const level *l);
     uint64_t (*filter)(const shape *s, const octree_point *points, unsigned count);
 } shape_kind;
 
 static const shape_kind kinds[OCTREE_REGION_KINDS] = {
-    [OCTREE_REGION_BOX] = {meets_box, is_in_box, bounds_of_box, relate_box, filter_by_box},
-    [OCTREE_REGION_BALL] = {meets_ball, is_in_ball, bounds_of_ball, relate_ball, filter_by_ball},
+    [OCTREE_REGION_BOX] = {meets_box, is_in_box, bounds_of_box, relate_box, prepare_for_box, filter_by_box},
+    [OCTREE_REGION_BALL] = {meets_ball, is_in_ball, bounds_of_ball, relate_ball, prepare_for_ball, filter_by_ball},
     [OCTREE_REGION_HALF_SPACES] = {meets_half_spaces, is_in_half_spaces, bounds_of_half_spaces, relate_half_spaces,
-                                   filter_by_half_spaces},
-    [OCTREE_REGION_SWEPT] = {meets_cast, is_in_cast, bounds_of_cast, relate_cast, filter_by_cast},
-    [OCTREE_REGION_RAY] = {meets_cast, is_in_cast, bounds_of_cast, relate_cast, filter_by_cast},
+                                   prepare_for_half_spaces, filter_by_half_spaces},
+    [OCTREE_REGION_SWEPT] = {meets_cast, is_in_cast, bounds_of_cast, relate_cast, prepare_for_cast, filter_by_cast},
+    [OCTREE_REGION_RAY] = {meets_cast, is_in_cast, bounds_of_cast, relate_cast, prepare_for_cast, filter_by_cast},
 };
 
 shape shape_make(const octree_region *region)
@@ -262,6 +275,12 @@ shape shape_make(const octree_region *region)
     if (region->kind == OCTREE_REGION_SWEPT)
         s.cast = cast_make_sweep(region->from, region->to, region->half);
     return s;
+}
+
+void shape_enter_level(shape *s, const level *l)
+{
+    s->level = l;
+    s->bounds = kinds[s->region->kind].prepare(s, l);
 }
 
 bool shape_meets(const shape *s, const octree_body *body)

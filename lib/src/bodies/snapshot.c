@@ -10,6 +10,7 @@
  */
 #include "snapshot.h"
 #include "../tree/leaf.h"
+#include "boxes.h"
 
 #include <stdlib.h>
 
@@ -78,14 +79,6 @@ static void sort_bodies(octree_body *bodies, size_t count)
     }
 }
 
-static void include_box(octree_box *around, const octree_box *box)
-{
-    for (int k = 0; k < 3; k++) {
-        around->min[k] = box->min[k] < around->min[k] ? box->min[k] : around->min[k];
-        around->max[k] = box->max[k] > around->max[k] ? box->max[k] : around->max[k];
-    }
-}
-
 static void store_box(snapshot *s, size_t index, octree_box *around)
 {
     const octree_body *body = &s->bodies[index];
@@ -118,11 +111,7 @@ static void copy_leaf(snapshot *s, const octree_bodies *set, const node *leaf, g
 static bool copy_node(snapshot *s, const octree_bodies *set, const node *n, size_t first, size_t at)
 {
     const unsigned children = bits_count8(n->octants);
-    group made = {{{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}},
-                  first,
-                  n->count,
-                  s->groups.count,
-                  children};
+    group made = {make_empty_box(), first, n->count, s->groups.count, children};
     for (unsigned i = 0; i < children; i++)
         if (!list_append(s->memory, &s->groups, sizeof(group)))
             return false;
