@@ -8,8 +8,8 @@
  * found once: pairs of two children of a node are visited for i < j only.
  *
  * Two neighbouring leaves have few bodies that can meet: those that meet the common box of both leaves. These are
- * gathered from one leaf, and compared with those of the other. Boxes with rounded faces are a quick test before
- * the exact test.
+ * gathered from one leaf, and compared with those of the other. Boxes of floats are a quick test before the exact
+ * test.
  *
  * The descent runs over copies of the levels (snapshot.c), in which the order of groups and bodies is a function of the
  * bodies alone. So is the order of the pairs.
@@ -21,7 +21,7 @@
 /* Some of the bodies of one leaf, with a copy of their boxes. */
 typedef struct candidates {
     const octree_body *bodies[BOXES_AT_ONCE];
-    double faces[6][BOXES_AT_ONCE + 1];
+    float faces[6][BOXES_AT_ONCE + BOX_PADDING];
     box_columns boxes;
     size_t count;
 } candidates;
@@ -53,7 +53,7 @@ static size_t size_of_chunk(size_t first, size_t end)
 /* Visit the pairs of a body with the bodies first .. end - 1 of its snapshot. */
 static void pair_with_rest(pairing *p, const snapshot *s, size_t body, size_t first, size_t end)
 {
-    const octree_box box = box_in_columns(&s->boxes, body);
+    const float_box box = box_in_columns(&s->boxes, body);
     for (; first < end; first += BOXES_AT_ONCE) {
         uint64_t left = find_meeting_boxes(&s->boxes, first, size_of_chunk(first, end), &box);
         for (; left; left &= left - 1)
@@ -74,28 +74,29 @@ static void add_candidate(candidates *c, const snapshot *s, size_t index)
         c->boxes.min[k][c->count] = s->boxes.min[k][index];
         c->boxes.max[k][c->count] = s->boxes.max[k][index];
     }
+    prefetch_memory(&s->bodies[index]);
     c->bodies[c->count++] = &s->bodies[index];
 }
 
 /* Gather the bodies first .. first + count - 1 that meet a box. */
-static void gather_candidates(candidates *c, const snapshot *s, size_t first, size_t count, const octree_box *box)
+static void gather_candidates(candidates *c, const snapshot *s, size_t first, size_t count, const float_box *box)
 {
     c->count = 0;
     for (uint64_t left = find_meeting_boxes(&s->boxes, first, count, box); left; left &= left - 1)
         add_candidate(c, s, first + bits_lowest(left));
     for (int face = 0; face < 6; face++)
-        c->faces[face][c->count] = 0; /* is read, but does not matter */
+        memset(&c->faces[face][c->count], 0, BOX_PADDING * sizeof(float)); /* is read, but does not matter */
 }
 
-static void pair_with_candidates(pairing *p, const octree_body *body, const octree_box *box, const candidates *c)
+static void pair_with_candidates(pairing *p, const octree_body *body, const float_box *box, const candidates *c)
 {
     for (uint64_t left = find_meeting_boxes(&c->boxes, 0, c->count, box); left; left &= left - 1)
         visit_if_pair(p, body, c->bodies[bits_lowest(left)]);
 }
 
-static octree_box intersect_boxes(const octree_box *a, const octree_box *b)
+static float_box intersect_boxes(const float_box *a, const float_box *b)
 {
-    octree_box both;
+    float_box both;
     for (int k = 0; k < 3; k++) {
         both.min[k] = a->min[k] > b->min[k] ? a->min[k] : b->min[k];
         both.max[k] = a->max[k] < b->max[k] ? a->max[k] : b->max[k];
@@ -105,7 +106,7 @@ static octree_box intersect_boxes(const octree_box *a, const octree_box *b)
 
 static void pair_leaves(pairing *p, const snapshot *x, const group *a, const snapshot *y, const group *b)
 {
-    const octree_box common = intersect_boxes(&a->box, &b->box);
+    const float_box common = intersect_boxes(&a->box, &b->box);
     const size_t end_a = a->first + a->count, end_b = b->first + b->count;
     candidates of_b;
     for (int k = 0; k < 3; k++) {
@@ -118,7 +119,7 @@ static void pair_leaves(pairing *p, const snapshot *x, const group *a, const sna
             uint64_t left = find_meeting_boxes(&x->boxes, i, size_of_chunk(i, end_a), &common);
             for (; left; left &= left - 1) {
                 const size_t body = i + bits_lowest(left);
-                const octree_box box = box_in_columns(&x->boxes, body);
+                const float_box box = box_in_columns(&x->boxes, body);
                 pair_with_candidates(p, &x->bodies[body], &box, &of_b);
             }
         }
@@ -128,7 +129,7 @@ static void pair_leaves(pairing *p, const snapshot *x, const group *a, const sna
 /* ---- Nodes -------------------------------------------------------------------------------------------------- */
 
 /* Without branches, because they would be unpredictable. */
-static inline bool boxes_meet(const octree_box *a, const octree_box *b)
+static inline bool boxes_meet(const float_box *a, const float_box *b)
 {
     bool meet = true;
     for (int k = 0; k < 3; k++)
@@ -172,12 +173,12 @@ typedef struct snapshots {
     unsigned count;
 } snapshots;
 
-static bool make_snapshots(snapshots *s, const octree_bodies *set, arena *memory)
+static bool make_snapshots(snapshots *s, const octree_bodies *set, const float_frame *frame, arena *memory)
 {
     bool made = true;
     for (unsigned i = 0; i < OCTREE_BODY_LEVELS && made; i++)
         if (octree_count(set->levels[i].tree) > 0)
-            made = snapshot_make(&s->levels[s->count++], set, &set->levels[i], memory);
+            made = snapshot_make(&s->levels[s->count++], set, &set->levels[i], frame, memory);
     return made;
 }
 
@@ -212,7 +213,9 @@ octree_status octree_bodies_pairs(const octree_bodies *bodies, const octree_bodi
     arena memory = {.allocator = bodies->memory.allocator};
     pairing p = {.within = !other, .visit = visit, .context = context};
     snapshots a = {.count = 0}, b = {.count = 0};
-    const bool made = make_snapshots(&a, bodies, &memory) && (!other || make_snapshots(&b, other, &memory));
+    const float_frame frame = make_float_frame(&bodies->def.world);
+    const bool made =
+        make_snapshots(&a, bodies, &frame, &memory) && (!other || make_snapshots(&b, other, &frame, &memory));
     const unsigned begun = begin_set_callbacks(bodies), begun_other = begin_set_callbacks(other ? other : bodies);
     if (made && other)
         pair_sets(&p, &a, &b);

@@ -96,9 +96,13 @@ static void check_order(body_scene *s)
 static void check_pairs(body_scene *s)
 {
     body_scene other = make_scene(s->numbers, s->seed | 1);
+    body_scene in_another_world = make_scene((scene_numbers)((s->numbers + 1) % NUMBERS_KINDS), s->seed | 1);
     body_scene_assert_pairs(s);
     body_scene_assert_pairs_between(s, &other);
+    body_scene_assert_pairs_between(s, &in_another_world);
+    body_scene_assert_pairs_between(&in_another_world, s);
     assert_order_of_pairs(s);
+    destroy_scene(&in_another_world);
     destroy_scene(&other);
 }
 
