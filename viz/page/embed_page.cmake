@@ -4,7 +4,7 @@
 #   cmake -D SOURCE=page/index.html -D OUTPUT=page_html.c [-D MODULE=octreel.wasm.letters] -P embed_page.cmake
 # the arrays are page_html_head and page_html_tail. A page with @MODULE@ in it also gets page_html_plays: whether there is
 # a module. With a module the styles and scripts marked data-packed are compressed, too: that makes them three times
-# smaller. Without one they are plain, since packing needs tools that only a build with a module needs.
+# smaller. page.c then compresses the facts. Without one they are plain, since packing needs tools that only a build with a module needs.
 cmake_minimum_required(VERSION 3.22)
 get_filename_component(name ${OUTPUT} NAME_WE)
 get_filename_component(folder ${SOURCE} DIRECTORY)
@@ -93,6 +93,7 @@ endif()
 if(MODULE)
   inline(style "<link data-packed rel=\"stylesheet\" href=\"([^\"]*)\">" " type=\"application/gzip;z85\" id=\"styles\"")
   inline(script "<script data-packed src=\"([^\"]*)\"></script>" " type=\"application/gzip;z85\" id=\"scripts\"")
+  string(REPLACE "application/x-ndjson\" id=\"facts" "application/gzip;z85\" id=\"facts" page "${page}")
 else()
   string(REPLACE "<script src=\"unpack.js\"></script>\n" "" page "${page}")
   string(REPLACE "<script data-packed src=" "<script src=" page "${page}")

@@ -30,14 +30,14 @@ function(compile_wasm source objects)
   file(RELATIVE_PATH name ${PROJECT_SOURCE_DIR} ${source})
   # Optimize for size, to keep pages small; for speed only the loops over nodes, points, lines and pixels.
   set(optimized -Oz)
-  if(name MATCHES "/src/(tree/walk|query/region)[.]c$" OR
+  if(name MATCHES "/src/(tree/(leaf|walk)|query/region)[.]c$" OR
      name MATCHES "^viz/([a-z]+/)+(camera|filter|scene|velocity_layer|node_layers|node_boxes|fill|edges|box_lines|quads|paint|stroke|project|splats|splat_buffer|canvas|image|rgba)[.]c$")
     set(optimized -O2 -fno-unroll-loops)
   endif()
   string(REPLACE "/" "_" name ${name})
   set(object ${wasm_folder}/${name}.o)
   add_custom_command(OUTPUT ${object} DEPENDS ${source} DEPFILE ${object}.d VERBATIM
-                     COMMAND ${WASM_CLANG} ${wasm_target} ${optimized} -std=c17 -D_POSIX_C_SOURCE=200809L -ffp-contract=off -DOCTREE_WITHOUT_NODE_BOXES
+                     COMMAND ${WASM_CLANG} ${wasm_target} ${optimized} -std=c17 -D_POSIX_C_SOURCE=200809L -ffp-contract=off
                              -Wall -Wextra -Wpedantic -Werror=implicit-function-declaration ${wasm_includes} -MD -MF ${object}.d -c ${source} -o ${object})
   set(${objects} ${${objects}} ${object} PARENT_SCOPE)
 endfunction()

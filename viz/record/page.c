@@ -107,26 +107,35 @@ static void write_escaped_json(FILE *page, const char *text, size_t size)
     fwrite(text, 1, (size_t)(end - text), page);
 }
 
-/* Write a JSON object as one line of ASCII text. Returns false if memory runs out. */
-static bool write_object(const json_t *object, FILE *page)
+/* Add text to the facts of the page. If the page plays, it has a script that unpacks them. */
+static void add_facts(page_writer *w, const char *text, size_t size)
+{
+    if (page_html_plays)
+        packer_add(&w->facts, text, size);
+    else
+        write_escaped_json(w->out, text, size);
+}
+
+/* Add a JSON object as one line of ASCII text. Returns false if memory runs out. */
+static bool add_object(page_writer *w, const json_t *object)
 {
     char *text = json_dumps(object, JSON_COMPACT | JSON_ENSURE_ASCII);
     if (text)
-        write_escaped_json(page, text, strlen(text));
-    putc('\n', page);
+        add_facts(w, text, strlen(text));
+    add_facts(w, "\n", 1);
     free(text);
     return text != NULL;
 }
 
-/* Write a JSON object into the page. `path` and `line` are the source of the text in error messages. */
-static bool write_json_text(const char *text, size_t size, FILE *page, const char *path, uintmax_t line,
-                            octreel_error *error)
+/* Add a JSON object to the page. `path` and `line` are the source of the text in error messages. */
+static bool add_json_text(page_writer *w, const char *text, size_t size, const char *path, uintmax_t line,
+                          octreel_error *error)
 {
     size_t left;
     char *cut = shorten_lists(text, size, &left);
     json_error_t why;
     json_t *object = cut ? json_parse(cut, left, 0, &why) : NULL;
-    const bool ok = json_is_object(object) && write_object(object, page);
+    const bool ok = json_is_object(object) && add_object(w, object);
     json_decref(object);
     free(cut);
     return ok || error_set(error, "%s:%ju: not a JSON object; index.html cannot be written", path, line);
@@ -164,24 +173,25 @@ static bool find_repeatable_part(const char *line, size_t size, uint64_t tick, t
     return true;
 }
 
-static void write_repetition_count(page_writer *w)
+static void add_repetition_count(page_writer *w)
 {
+    char text[24];
     if (w->repeated > 0)
-        fprintf(w->out, "%" PRIu64 "\n", w->repeated);
+        add_facts(w, text, (size_t)snprintf(text, sizeof text, "%" PRIu64 "\n", w->repeated));
     w->repeated = 0;
 }
 
-/* If a tick repeats the last tick, write it as a repetition and return true. */
-static bool write_tick_as_repetition(page_writer *w, const tick_rest *rest)
+/* If a tick repeats the last tick, add it as a repetition and return true. */
+static bool add_tick_as_repetition(page_writer *w, const tick_rest *rest)
 {
-    char digest[DIGEST_TEXT];
+    char digest[DIGEST_TEXT], text[DIGEST_TEXT + 4];
     if (!w->rest || rest->size != w->rest_size || memcmp(rest->text, w->rest, rest->size) != 0)
         return false;
     w->repeated += !rest->has_frame;
     if (!rest->has_frame)
         return true;
-    write_repetition_count(w);
-    fprintf(w->out, "\"%s\"\n", digest_print(rest->scene, digest));
+    add_repetition_count(w);
+    add_facts(w, text, (size_t)snprintf(text, sizeof text, "\"%s\"\n", digest_print(rest->scene, digest)));
     return true;
 }
 
@@ -197,11 +207,11 @@ static bool store_repeatable_part(page_writer *w, const tick_rest *rest)
     return w->rest || !rest;
 }
 
-static bool write_tick(page_writer *w, const char *path, const char *line, size_t size, const tick_rest *rest,
-                       octreel_error *error)
+static bool add_tick(page_writer *w, const char *path, const char *line, size_t size, const tick_rest *rest,
+                     octreel_error *error)
 {
-    write_repetition_count(w);
-    return write_json_text(line, size, w->out, path, w->ticks + 1, error) &&
+    add_repetition_count(w);
+    return add_json_text(w, line, size, path, w->ticks + 1, error) &&
            (store_repeatable_part(w, rest) || error_no_memory(error));
 }
 
@@ -215,24 +225,34 @@ bool page_can_play(void)
 bool page_begin(page_writer *w, FILE *page, const char *path, const char *recording, size_t size, octreel_error *error)
 {
     *w = (page_writer){.out = page};
+    if (page_html_plays)
+        packer_begin(&w->facts);
     fwrite(page_html_head, 1, page_html_head_size, page);
-    return write_json_text(recording, size, page, path, 1, error);
+    return add_json_text(w, recording, size, path, 1, error);
 }
 
 bool page_add_tick(page_writer *w, const char *path, const char *line, size_t size, octreel_error *error)
 {
     tick_rest rest;
     const bool repeatable = find_repeatable_part(line, size, w->ticks, &rest);
-    const bool ok = (repeatable && write_tick_as_repetition(w, &rest)) ||
-                    write_tick(w, path, line, size, repeatable ? &rest : NULL, error);
+    const bool ok = (repeatable && add_tick_as_repetition(w, &rest)) ||
+                    add_tick(w, path, line, size, repeatable ? &rest : NULL, error);
     w->ticks++;
     return ok;
 }
 
-static void begin_session_element(page_writer *w)
+static bool begin_session_element(page_writer *w, octreel_error *error)
 {
-    write_repetition_count(w);
+    size_t size = 0;
+    add_repetition_count(w);
+    unsigned char *facts = page_html_plays ? packer_end(&w->facts, &size) : NULL;
+    if (page_html_plays && !facts)
+        return error_no_memory(error);
+    if (facts)
+        write_letters(w->out, facts, size);
+    free(facts);
     fputs("</script>\n<script type=\"application/json\" id=\"session\">", w->out);
+    return true;
 }
 
 static void write_page_tail(page_writer *w)
@@ -240,41 +260,26 @@ static void write_page_tail(page_writer *w)
     fwrite(page_html_tail, 1, page_html_tail_size, w->out);
 }
 
-void page_end(page_writer *w, const char *session, size_t size)
+bool page_end(page_writer *w, const char *session, size_t size, octreel_error *error)
 {
-    begin_session_element(w);
+    if (!begin_session_element(w, error))
+        return false;
     if (size <= PAGE_MOST_SESSION)
         write_escaped_json(w->out, session, size);
     write_page_tail(w);
+    return true;
 }
 
-/* Write bytes as text in a variant of Z85, which encodes four bytes as five characters. To suit HTML, this variant has
- * , _ ~ in place of & < @. The first character is the number of zero bytes that pad the last group of four.
- * unpackLetters() in unpack.js decodes the text. */
-static void write_z85(FILE *page, const unsigned char *bytes, size_t size)
+bool page_end_with_points(page_writer *w, const char *session, size_t size, const unsigned char *points,
+                          size_t points_size, bool cloud, octreel_error *error)
 {
-    static const char digits[] =
-        "0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ.-:+=^!/*?,_>()[]{}~%$#";
-    putc((int)('0' + (4 - size % 4) % 4), page);
-    for (size_t at = 0; at < size; at += 4) {
-        uint32_t word = 0;
-        char letters[5];
-        for (size_t i = at; i < at + 4; i++)
-            word = word << 8 | (i < size ? bytes[i] : 0u);
-        for (int i = 4; i >= 0; i--, word /= 85)
-            letters[i] = digits[word % 85];
-        fwrite(letters, 1, sizeof letters, page);
-    }
-}
-
-void page_end_with_points(page_writer *w, const char *session, size_t size, const unsigned char *points,
-                          size_t points_size, bool cloud)
-{
-    begin_session_element(w);
+    if (!begin_session_element(w, error))
+        return false;
     write_escaped_json(w->out, session, size);
     fprintf(w->out, "</script>\n<script type=\"application/gzip;z85\" id=\"points\"%s>", cloud ? " data-cloud" : "");
-    write_z85(w->out, points, points_size);
+    write_letters(w->out, points, points_size);
     write_page_tail(w);
+    return true;
 }
 
 bool page_end_with_packed_session(page_writer *w, const octree_session *session, const point_values *values,
@@ -286,9 +291,9 @@ bool page_end_with_packed_session(page_writer *w, const octree_session *session,
     rest.bodies = NULL;
     rest.body_count = 0;
     unsigned char *points = pack_points_of_session(session, values, &size);
-    const bool ok = points ? make_session_bytes(&rest, NULL, &text, error) : error_no_memory(error);
-    if (ok)
-        page_end_with_points(w, text.bytes, text.size, points, size, false);
+    const bool ok = points ? make_session_bytes(&rest, NULL, &text, error) &&
+                                 page_end_with_points(w, text.bytes, text.size, points, size, false, error)
+                           : error_no_memory(error);
     free(text.bytes);
     free(points);
     return ok;
@@ -296,6 +301,7 @@ bool page_end_with_packed_session(page_writer *w, const octree_session *session,
 
 void page_release(page_writer *w)
 {
+    packer_release(&w->facts);
     free(w->rest);
     *w = (page_writer){0};
 }
@@ -315,7 +321,7 @@ static bool begin_folder_page(page_writer *w, FILE *page, const char *path, octr
 
 /* Add each line of ticks.jsonl to the page. A last line without a newline is ignored, because its writer was
  * interrupted. */
-static bool add_ticks(page_writer *w, const char *path, octreel_error *error)
+static bool add_ticks_of_file(page_writer *w, const char *path, octreel_error *error)
 {
     char *line = NULL;
     size_t room = 0;
@@ -352,7 +358,8 @@ static bool copy_session(FILE *page, const char *path, octreel_error *error)
 static bool end_folder_page(page_writer *w, const char *path, octreel_error *error)
 {
     struct stat status;
-    begin_session_element(w);
+    if (!begin_session_element(w, error))
+        return false;
     const bool has = stat(path, &status) == 0 && (uintmax_t)status.st_size <= PAGE_MOST_SESSION;
     const bool ok = !has || copy_session(w->out, path, error);
     write_page_tail(w);
@@ -366,7 +373,7 @@ static bool write_page(const char *folder, const octree_session *points, const p
          *session = path_join(folder, "session.json");
     page_writer w = {0};
     const bool ok = recording && ticks && session
-                        ? begin_folder_page(&w, page, recording, error) && add_ticks(&w, ticks, error) &&
+                        ? begin_folder_page(&w, page, recording, error) && add_ticks_of_file(&w, ticks, error) &&
                               (points ? page_end_with_packed_session(&w, points, values, error)
                                       : end_folder_page(&w, session, error))
                         : error_no_memory(error);

@@ -6,6 +6,7 @@
 
 #include "error.h"
 #include "octree/game.h"
+#include "packer.h"
 #include "point_values.h"
 
 #include <stdbool.h>
@@ -27,6 +28,7 @@ bool page_can_play(void);
 
 typedef struct page_writer {
     FILE *out;
+    packer facts;   /* the text of recording.json and of the ticks, in a page that can play */
     uint64_t ticks; /* number of ticks added so far */
     char *rest;     /* the part of the last completely written line that a repetition shares; null: no tick can repeat
                      * this line; owned */
@@ -35,18 +37,18 @@ typedef struct page_writer {
 } page_writer;
 
 /* Write a page. Call page_begin() with the text of recording.json, then page_add_tick() for each line of ticks.jsonl,
- * then page_end() with the text of session.json, and page_release() after a failure too. In error messages `path` is
- * the source of the text. Returns false with an error if the text is not JSON. Write errors are left to the caller, who
- * checks the stream. A tick that repeats the tick before it takes 20 bytes of the page, or no bytes if the tick has no
- * frame. */
+ * then page_end() with the text of session.json, and page_release() after a failure too. The writer must keep its
+ * address. In error messages `path` is the source of the text. Returns false with an error if the text is not JSON, or
+ * if memory runs out. Write errors are left to the caller, who checks the stream. A tick that repeats the tick before
+ * it takes 20 bytes of the page before they are packed, or no bytes if the tick has no frame. */
 bool page_begin(page_writer *w, FILE *page, const char *path, const char *recording, size_t size, octreel_error *error);
 bool page_add_tick(page_writer *w, const char *path, const char *line, size_t size, octreel_error *error);
-void page_end(page_writer *w, const char *session, size_t size);
+bool page_end(page_writer *w, const char *session, size_t size, octreel_error *error);
 
 /* End a page whose points are not in its session.json, but in a block that pack_points() made. `cloud`: the page shows
  * a cloud and not a game. */
-void page_end_with_points(page_writer *w, const char *session, size_t size, const unsigned char *points,
-                          size_t points_size, bool cloud);
+bool page_end_with_points(page_writer *w, const char *session, size_t size, const unsigned char *points,
+                          size_t points_size, bool cloud, octreel_error *error);
 
 /* End a page with the points of a session in a block. are_points_packed() must be true. */
 bool page_end_with_packed_session(page_writer *w, const octree_session *session, const point_values *values,

@@ -92,7 +92,7 @@ bool write_played_page(const octree_session *session, const film_options *option
     if (ok && are_points_packed(session, options->values))
         ok = page_end_with_packed_session(&p.page, session, options->values, error);
     else if (ok)
-        page_end(&p.page, written.bytes, written.size);
+        ok = page_end(&p.page, written.bytes, written.size, error);
     page_release(&p.page);
     free(written.bytes);
     return ok;

@@ -106,11 +106,10 @@ static bool end_page(const cloud_page *c, page_writer *w, octreel_error *error)
         session_write(&session, NULL, s.stream);
     const bool written = text_stream_end(&s, &text);
     unsigned char *points = written ? make_packed_points(c, &size) : NULL;
-    if (points)
-        page_end_with_points(w, text, s.size, points, size, true);
+    const bool ok = points ? page_end_with_points(w, text, s.size, points, size, true, error) : error_no_memory(error);
     free(text);
     free(points);
-    return points || error_no_memory(error);
+    return ok;
 }
 
 bool cloud_page_write(const cloud_page *c, FILE *page, octreel_error *error)

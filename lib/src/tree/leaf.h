@@ -48,16 +48,9 @@ void store_release(store *s, const node *root);
  * The box of an unknown node is infinite. */
 enum { NODE_WITH_BOX = sizeof(node) + sizeof(octree_box) };
 
-/* Returns whether the nodes of a tree have boxes. With OCTREE_WITHOUT_NODE_BOXES, no tree has them: the pages of
- * recordings fill no sets of bodies, and are smaller without the code for boxes. */
 static inline bool has_boxes(const store *s)
 {
-#ifdef OCTREE_WITHOUT_NODE_BOXES
-    (void)s;
-    return false;
-#else
     return s->nodes.unit == NODE_WITH_BOX;
-#endif
 }
 
 /* Returns the boxes of a group whose nodes have boxes. */

@@ -333,7 +333,7 @@ static void page_of_the_default_session_is_small(void **state)
     const driven *d = need_page(state);
     struct stat about;
     assert_int_equal(stat(place_below(place_in(d->folder, "film").path, "index.html").path, &about), 0);
-    assert_true(about.st_size < 420000);
+    assert_true(about.st_size < 340000);
 }
 
 int main(void)

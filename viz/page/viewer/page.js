@@ -402,7 +402,7 @@ function fillControls()
 
 function openRecording()
 {
-    const recording = Recording.parse(byId("facts").textContent);
+    const recording = Recording.parse(typeof unpackedFacts === "string" ? unpackedFacts : byId("facts").textContent);
     if (recording.length === 0) {
         byId("message").textContent = "This recording has no ticks.";
         byId("message").hidden = false;

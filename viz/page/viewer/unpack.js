@@ -36,8 +36,9 @@ async function compileText(text)
     return WebAssembly.compile(await unpack(text).arrayBuffer());
 }
 
-/* Promises of the compiled module, and of the bytes of the page's block of points if there is one. */
-let compiled, unpackedPoints;
+/* The text of the facts, and promises of the compiled module and of the bytes of the page's block of points if there is
+ * one. */
+let unpackedFacts, compiled, unpackedPoints;
 
 async function addParts()
 {
@@ -48,10 +49,12 @@ async function addParts()
         return;
     }
     const parts = [["styles", "style"], ["scripts", "script"]].map(([id, name]) => [name, unpack(lettersOf(id)).text()]);
+    const facts = unpack(lettersOf("facts")).text();
     if (typeof WebAssembly === "object")
         (compiled = compileText(lettersOf("module"))).catch(() => {}); /* the awaiting code gets the error */
     if (lettersOf("points"))
         (unpackedPoints = unpack(lettersOf("points")).arrayBuffer()).catch(() => {});
+    unpackedFacts = await facts;
     for (const [name, text] of parts) {
         const part = document.createElement(name);
         part.textContent = await text;
