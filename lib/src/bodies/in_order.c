@@ -413,8 +413,7 @@ octree_status octree_bodies_cast(const octree_bodies *bodies, const octree_regio
                         .farthest = HUGE_VAL,
                         .shrink = 1,
                         .meter.how = &search};
-    const shape casting = shape_make(ray);
-    s.cast = casting.cast;
+    s.cast = make_cast_of_region(ray);
     search_in_order(&s, count);
     return OCTREE_OK;
 }

@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /* search.c - the bodies that match a region: octree_bodies_search().
  *
- * Each level is searched by the traversal of region.h. Three tests decide, from cheap to exact. By integer keys: cells
- * that do not meet the box around the region, extended by the level's reach, are pruned. By the region's own bounds:
- * octants whose bodies cannot meet the region are pruned, and nodes whose bodies certainly match are taken whole. The
- * bodies of the remaining leaves are filtered (filter.c), and the rest is tested exactly.
+ * Each level is searched by the traversal of region.h. Nodes whose boxes cannot meet the region are pruned, and nodes
+ * whose boxes are certainly in it are taken whole. The bodies of the remaining leaves are filtered, and the rest is
+ * tested exactly.
  *
- * A node can be taken whole if the region contains its cell: each body contains its own position. If only contained
- * bodies match, the region must contain the box around all bodies of the cell instead.
+ * A level without boxes has two tests instead. By integer keys: cells that do not meet the box around the region,
+ * extended by the level's reach, are pruned. By the region's own bounds: octants whose bodies cannot meet the region
+ * are pruned, and nodes whose bodies certainly match are taken whole. A body contains its own position; so its node can
+ * be taken whole if the region contains its cell. If only contained bodies match, the region must contain the box
+ * around all bodies of the cell instead.
  */
 #include "../exact/exact.h"
 #include "shape.h"
@@ -28,15 +30,19 @@ typedef struct body_search {
 
 static bool is_match(const body_search *s, const octree_body *body)
 {
-    return s->contained ? shape_contains(&s->shape, body) : shape_meets(&s->shape, body);
+    const shape_kind *kind = s->shape.kind;
+    return s->contained ? kind->contains(&s->shape, body) : kind->meets(&s->shape, body);
 }
 
 /* ---- Nodes -------------------------------------------------------------------------------------------------- */
 
 static octant_masks enter_node(void *shape, const octree *tree, const node *n, unsigned depth, unsigned octant)
 {
+    const body_search *s = shape;
+    const sibling_boxes boxes = boxes_of_children(n);
+    const octant_masks masks = s->shape.kind->relate_siblings(&s->shape, &boxes);
     (void)tree, (void)depth, (void)octant;
-    return shape_relate_children(&((body_search *)shape)->shape, n);
+    return (octant_masks){(uint8_t)spread_mask(n, masks.meets), (uint8_t)spread_mask(n, masks.inside)};
 }
 
 static octant_masks enter_cell(void *shape, const octree *tree, const node *n, unsigned depth, unsigned octant)
@@ -51,7 +57,7 @@ static octant_masks enter_cell(void *shape, const octree *tree, const node *n, u
         divide_root_cell(s->shape.level, &s->halves[0]);
     else
         divide_octant(s->shape.level, &s->halves[depth - 1], octant, c, &s->halves[depth]);
-    return shape_relate(&s->shape, &s->halves[depth], masks.meets, s->contained);
+    return s->shape.kind->relate_octants(&s->shape, &s->halves[depth], masks.meets, s->contained);
 }
 
 /* ---- Leaves ------------------------------------------------------------------------------------------------- */
@@ -60,7 +66,7 @@ static uint64_t scan_bodies(const void *shape, const octree_point *points, unsig
 {
     const body_search *s = shape;
     uint64_t found = 0;
-    const uint64_t near = shape_filter(&s->shape, points, count);
+    const uint64_t near = s->shape.kind->filter(&s->shape, points, count);
     for (uint64_t left = s->set->points ? 0 : near; left; left &= left - 1)
         prefetch_memory(row_at(&s->set->rows, row_of_point(&points[bits_lowest(left)])));
     for (uint64_t left = near; left; left &= left - 1) {
@@ -110,7 +116,8 @@ static void search_cells(body_search *s, region *r, const octree_box *bounds)
 static void search_level(body_search *s, const level *l, const octree_box *bounds)
 {
     region r = {l->tree, s, NULL, scan_bodies, visit_body, s, .meter.how = s->how};
-    shape_enter_level(&s->shape, l);
+    s->shape.level = l;
+    s->shape.kind->prepare(&s->shape);
     if (has_boxes(&l->tree->store)) {
         r.enter = enter_node;
         region_search(&r, (octant_masks){1, 0});
@@ -133,12 +140,12 @@ octree_status octree_bodies_search(const octree_bodies *bodies, const octree_reg
         return status;
     body_search s;
     s.set = bodies;
-    s.shape = shape_make(region);
+    shape_make(&s.shape, region);
     s.contained = region->contained && region->kind <= OCTREE_REGION_HALF_SPACES;
     s.how = &search;
     s.call = (body_call){visit, context};
     s.stopped = false;
-    const octree_box bounds = shape_bounds(&s.shape);
+    const octree_box bounds = s.shape.kind->bounds(&s.shape);
     const unsigned begun = begin_set_callbacks(bodies);
     for (unsigned i = 0; i < OCTREE_BODY_LEVELS && !s.stopped; i++)
         if (octree_count(bodies->levels[i].tree) > 0)

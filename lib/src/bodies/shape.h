@@ -1,50 +1,63 @@
 /* SPDX-License-Identifier: MIT */
-/* shape.h - the tests of a body against a region. Private. */
+/* shape.h - how a search treats a region: one row of functions for each kind of region. Private. */
 #ifndef OCTREE_SHAPE_H
 #define OCTREE_SHAPE_H
 
 #include "../query/region.h"
 #include "bounds.h"
 
+/* A half-space, prepared for the bodies of a level. On an axis, a body reaches farther outwards than its position by at
+ * most steps * slope; `steps` is in the id of its point (two_bodies.h). The rest of its half extents is in `limit`. */
+typedef struct half_space_bounds {
+    double error; /* of any sum of products of the half-space with positions, half extents and boxes of the level */
+    double limit;
+    double slope[3];
+} half_space_bounds;
+
 typedef struct shape {
+    const struct shape_kind *kind;
     const octree_region *region;
-    cast cast;           /* for RAY and SWEPT */
-    const level *level;  /* that is searched now */
-    query_bounds bounds; /* for the bodies of this level, unless the region consists of half-spaces */
+    cast cast;          /* for RAY and SWEPT */
+    const level *level; /* that is searched now */
+    union {             /* for the bodies of this level */
+        query_bounds bounds;
+        half_space_bounds half_spaces[OCTREE_MAX_HALF_SPACES];
+    };
 } shape;
 
+/* What a kind of region consists of. Each kind has a file of its own, shape_KIND.c. */
+typedef struct shape_kind {
+    /* Check a region. Returns OK, NULL_ARGUMENT, NOT_FINITE or BAD_SIZE. */
+    octree_status (*check)(const octree_region *region);
+    /* Complete the shape of a valid region. Null: it is complete. */
+    void (*begin)(shape *s);
+    /* Returns a box that contains the region. Its corners may be infinite. */
+    octree_box (*bounds)(const shape *s);
+    /* Return, exactly, whether a body has a common point with the region, and whether the body is in the region. The
+     * latter is false for rays and moving boxes. */
+    bool (*meets)(const shape *s, const octree_body *body);
+    bool (*contains)(const shape *s, const octree_body *body);
+    /* Prepare the search of s->level. */
+    void (*prepare)(shape *s);
+    /* Relate a region to the eight octants of a cell, in doubles. `meets`: the box around the octant's bodies may meet
+     * the region; an octant that is not in `octants` may be left out. `inside`: the octant's bodies certainly match -
+     * those whose position is in the octant, or if `contained` is true only if their whole boxes are in the region. */
+    octant_masks (*relate_octants)(const shape *s, const cell_halves *h, unsigned octants, bool contained);
+    /* Relate a region to the boxes of siblings, in doubles; bit i is for sibling i. `meets`: the box may meet the
+     * region. `inside`: the box is certainly in the region, and so are all of its bodies. A box that is unknown is
+     * infinite: it meets every region, and is in none, because a sum that is NaN decides nothing. */
+    octant_masks (*relate_siblings)(const shape *s, const sibling_boxes *boxes);
+    /* Returns a bit mask of at most SCAN_POINTS points of the level, without those whose bodies certainly have no
+     * common point with the region. Bit i is for points[i]. */
+    uint64_t (*filter)(const shape *s, const octree_point *points, unsigned count);
+} shape_kind;
+
+extern const shape_kind shape_of_box, shape_of_ball, shape_of_half_spaces, shape_of_cast;
+
 /* Make the shape of a valid region, which must outlive the shape. */
-shape shape_make(const octree_region *region);
+void shape_make(shape *s, const octree_region *region);
 
-/* Prepare the search of a level. */
-void shape_enter_level(shape *s, const level *l);
-
-/* Returns whether a body has a common point with the region, and whether the body is in the region. The latter is false
- * for rays and moving boxes. */
-bool shape_meets(const shape *s, const octree_body *body);
-bool shape_contains(const shape *s, const octree_body *body);
-
-/* Returns the masks of the octants of a cell. `meets`: the box around the octant's bodies may meet the region; an
- * octant that is not in `octants` may be left out. `inside`: the octant's bodies certainly match - those whose position
- * is in the octant, or if `contained` is true only if their whole boxes are in the region. */
-octant_masks shape_relate(const shape *s, const cell_halves *h, unsigned octants, bool contained);
-
-/* The same for the children of a node with boxes, which are in a child's octant. A child is `inside` if its box is in
- * the region. */
-octant_masks shape_relate_children(const shape *s, const node *n);
-
-/* Returns a bit mask of at most SCAN_POINTS points of the level, without the points whose bodies certainly have no
- * common point with the region. Bit i is for points[i]. */
-uint64_t shape_filter(const shape *s, const octree_point *points, unsigned count);
-
-/* Returns a bound of the error of any sum of products of a half-space with positions, half extents and boxes of a
- * level. */
-double bound_half_space_error(const octree_half_space *space, const level *l);
-
-/* shape_filter() for half-spaces. */
-uint64_t filter_by_half_spaces(const shape *s, const octree_point *points, unsigned count);
-
-/* Returns a box that contains the region. Its corners may be infinite. */
-octree_box shape_bounds(const shape *s);
+/* Make the cast of a ray or of a moving box. */
+cast make_cast_of_region(const octree_region *region);
 
 #endif

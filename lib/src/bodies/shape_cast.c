@@ -1,0 +1,105 @@
+/* SPDX-License-Identifier: MIT */
+/* shape_cast.c - the bodies that a ray hits, and those that a moving box touches; see shape_kind. No body is contained.
+ */
+#include "shape.h"
+
+static octree_status check_ray(const octree_region *region)
+{
+    octree_status status = check_finite_position(region->origin);
+    if (status == OCTREE_OK)
+        status = check_direction(region->direction);
+    if (status == OCTREE_OK)
+        status = isnan(region->length) ? OCTREE_NOT_FINITE : region->length < 0 ? OCTREE_BAD_SIZE : OCTREE_OK;
+    return status == OCTREE_OK ? check_half_extents(region->half) : status;
+}
+
+static octree_status check_swept(const octree_region *region)
+{
+    if (!is_finite_position(region->from) || !is_finite_position(region->to))
+        return OCTREE_NOT_FINITE;
+    return check_half_extents(region->half);
+}
+
+static octree_status check(const octree_region *region)
+{
+    return region->kind == OCTREE_REGION_RAY ? check_ray(region) : check_swept(region);
+}
+
+cast make_cast_of_region(const octree_region *region)
+{
+    if (region->kind == OCTREE_REGION_RAY)
+        return cast_make_ray(region->origin, region->direction, region->length, region->half);
+    return cast_make_sweep(region->from, region->to, region->half);
+}
+
+static void begin(shape *s)
+{
+    s->cast = make_cast_of_region(s->region);
+}
+
+/* The end of the motion is rounded outwards: its error is below 4 * 2^-53 of the terms. */
+static octree_box bounds_of_region(const shape *s)
+{
+    const cast *c = &s->cast;
+    octree_box bounds;
+    for (int i = 0; i < 3; i++) {
+        const double way = c->sign[i] == 0 ? 0 : c->sign[i] * (c->speed[i] * c->length);
+        const double end = c->origin[i] + way, error = (fabs(c->origin[i]) + fabs(way)) * 0x1p-50 + 0x1p-1000;
+        const double low = way < 0 ? end - error : c->origin[i], high = way > 0 ? end + error : c->origin[i];
+        bounds.min[i] = low < -DBL_MAX ? low : exact_add_down(low, -c->half[i]);
+        bounds.max[i] = high > DBL_MAX ? high : exact_add_up(high, c->half[i]);
+    }
+    return bounds;
+}
+
+static bool meets(const shape *s, const octree_body *body)
+{
+    cast_time first;
+    return cast_touches(&s->cast, body, &first);
+}
+
+static bool contains(const shape *s, const octree_body *body)
+{
+    (void)s, (void)body;
+    return false;
+}
+
+static void prepare(shape *s)
+{
+    s->bounds = prepare_times(s->level, &s->cast);
+}
+
+static octant_masks relate_octants(const shape *s, const cell_halves *h, unsigned octants, bool contained)
+{
+    double bounds[8];
+    unsigned meets = 0;
+    (void)contained;
+    bound_times_of_octants(&s->bounds, h, bounds);
+    for (unsigned o = 0; o < 8; o++)
+        meets |= mask_if(bounds[o] <= DBL_MAX, 1u << o);
+    return (octant_masks){(uint8_t)(meets & octants), 0};
+}
+
+static octant_masks relate_siblings(const shape *s, const sibling_boxes *boxes)
+{
+    double bounds[8];
+    return (octant_masks){(uint8_t)bound_times_of_boxes(&s->bounds, boxes, DBL_MAX, bounds), 0};
+}
+
+static uint64_t filter(const shape *s, const octree_point *points, unsigned count)
+{
+    double bounds[SCAN_POINTS + 1];
+    return bound_times(&s->bounds, points, count, DBL_MAX, bounds);
+}
+
+const shape_kind shape_of_cast = {
+    .check = check,
+    .begin = begin,
+    .bounds = bounds_of_region,
+    .meets = meets,
+    .contains = contains,
+    .prepare = prepare,
+    .relate_octants = relate_octants,
+    .relate_siblings = relate_siblings,
+    .filter = filter,
+};

@@ -1,0 +1,247 @@
+/* SPDX-License-Identifier: MIT */
+/* shape_half_spaces.c - the bodies that no half-space of a region excludes; see shape_kind.
+ *
+ * A body is excluded if the sum normal . x - offset is certainly positive in its corner that is farthest against the
+ * normal. Every sum has a bound of its error. A sum that overflows excludes nothing.
+ *
+ * The exact test of a body reads its row, which often is a cache miss. The filter reads only the points of a leaf,
+ * which have the positions and upper bounds of the half extents (two_bodies.h).
+ */
+#include "shape.h"
+#include "two_bodies.h"
+
+static octree_status check(const octree_region *region)
+{
+    const octree_half_space *half_spaces = region->half_spaces;
+    const size_t count = region->half_space_count;
+    if (count == 0 || count > OCTREE_MAX_HALF_SPACES)
+        return OCTREE_BAD_SIZE;
+    if (!half_spaces)
+        return OCTREE_NULL_ARGUMENT;
+    octree_status status = OCTREE_OK;
+    for (size_t i = 0; i < count && status == OCTREE_OK; i++)
+        status = isfinite(half_spaces[i].offset) ? check_direction(half_spaces[i].normal) : OCTREE_NOT_FINITE;
+    return status;
+}
+
+static octree_box bounds_of_region(const shape *s)
+{
+    (void)s;
+    return (octree_box){{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, {HUGE_VAL, HUGE_VAL, HUGE_VAL}};
+}
+
+static bool meets(const shape *s, const octree_body *body)
+{
+    for (size_t i = 0; i < s->region->half_space_count; i++)
+        if (!body_meets_half_space(body, s->region->half_spaces[i].normal, s->region->half_spaces[i].offset))
+            return false;
+    return true;
+}
+
+static bool contains(const shape *s, const octree_body *body)
+{
+    for (size_t i = 0; i < s->region->half_space_count; i++)
+        if (!body_is_in_half_space(body, s->region->half_spaces[i].normal, s->region->half_spaces[i].offset))
+            return false;
+    return true;
+}
+
+static double bound_error(const octree_half_space *space, const level *l)
+{
+    double size = fabs(space->offset);
+    for (int k = 0; k < 3; k++)
+        size += fabs(space->normal[k]) * (find_farthest(l, k, 0) + l->reach[k] + l->unit * (MAX_STEPS + 2));
+    return size * 0x1p-48 + 0x1p-1000;
+}
+
+static void prepare(shape *s)
+{
+    const level *l = s->level;
+    for (size_t i = 0; i < s->region->half_space_count; i++) {
+        const octree_half_space *space = &s->region->half_spaces[i];
+        half_space_bounds *b = &s->half_spaces[i];
+        b->error = bound_error(space, l);
+        b->limit = space->offset + b->error;
+        for (int k = 0; k < 3; k++) {
+            const half_steps half = half_steps_of(l, k);
+            b->slope[k] = fabs(space->normal[k]) * half.step;
+            b->limit += fabs(space->normal[k]) * half.rest;
+        }
+    }
+}
+
+/* ---- Octants and siblings ---------------------------------------------------------------------------------------- */
+
+/* The products of a half-space with the halves of a cell on one axis. */
+typedef struct half_products {
+    double middle[2]; /* normal * center */
+    double inner[2];  /* |normal| * the half extent whose points must be inside */
+    double outer[2];
+} half_products;
+
+/* Returns more than the error of any sum of these products and the offset. */
+static double multiply_halves(const octree_half_space *space, const cell_halves *h, bool contained,
+                              half_products products[3])
+{
+    double size = fabs(space->offset);
+    for (int i = 0; i < 3; i++) {
+        half_products *p = &products[i];
+        const lanes normal = lanes_all(space->normal[i]), steep = lanes_absolute(normal);
+        lanes_store(p->middle, lanes_multiply(normal, lanes_load(h->center[i])));
+        lanes_store(p->outer, lanes_multiply(steep, lanes_load(h->outer[i])));
+        lanes_store(p->inner, lanes_multiply(steep, lanes_load(contained ? h->outer[i] : h->inner[i])));
+        size += larger(fabs(p->middle[0]) + p->outer[0], fabs(p->middle[1]) + p->outer[1]);
+    }
+    return size * 0x1p-48 + 0x1p-1000;
+}
+
+/* Sums that are NaN or infinite exclude nothing: then the error is infinite or NaN, too. */
+static octant_masks relate_octants_to_one(const octree_half_space *space, const cell_halves *h, bool contained)
+{
+    half_products p[3];
+    const double error = multiply_halves(space, h, contained, p);
+    const lanes middle_z = lanes_load(p[2].middle), outer_z = lanes_load(p[2].outer), inner_z = lanes_load(p[2].inner);
+    const lanes limit = lanes_all(error), inner_limit = lanes_all(-error);
+    unsigned misses = 0, inside = 0;
+    for (unsigned o = 0; o < 8; o += 2) {
+        const unsigned x = o >> 2, y = o >> 1 & 1;
+        const lanes middle = lanes_add(lanes_all(p[0].middle[x] + p[1].middle[y] - space->offset), middle_z);
+        const lanes outer = lanes_add(lanes_all(p[0].outer[x] + p[1].outer[y]), outer_z);
+        const lanes inner = lanes_add(lanes_all(p[0].inner[x] + p[1].inner[y]), inner_z);
+        misses |= lanes_less(limit, lanes_subtract(middle, outer)) << o;
+        inside |= lanes_less(lanes_add(middle, inner), inner_limit) << o;
+    }
+    return (octant_masks){(uint8_t)~misses, (uint8_t)inside};
+}
+
+static octant_masks relate_octants(const shape *s, const cell_halves *h, unsigned octants, bool contained)
+{
+    octant_masks all = {(uint8_t)octants, 0xff};
+    for (size_t i = 0; i < s->region->half_space_count && all.meets; i++) {
+        const octant_masks masks = relate_octants_to_one(&s->region->half_spaces[i], h, contained);
+        all.meets &= masks.meets;
+        all.inside &= masks.inside;
+    }
+    return all;
+}
+
+/* The least and the greatest values of normal . x in two boxes. */
+typedef struct two_ranges {
+    lanes least, greatest;
+} two_ranges;
+
+static inline two_ranges find_ranges(const octree_half_space *space, const two_boxes *two)
+{
+    two_ranges r = {lanes_all(0), lanes_all(0)};
+    for (int k = 0; k < 3; k++) {
+        const lanes normal = lanes_all(space->normal[k]);
+        const lanes a = lanes_multiply(normal, two->min[k]), b = lanes_multiply(normal, two->max[k]);
+        r.least = lanes_add(r.least, space->normal[k] < 0 ? b : a);
+        r.greatest = lanes_add(r.greatest, space->normal[k] < 0 ? a : b);
+    }
+    return r;
+}
+
+static octant_masks relate_siblings_to_one(const octree_half_space *space, double error, const sibling_boxes *boxes)
+{
+    const lanes above = lanes_all(space->offset + error), below = lanes_all(space->offset - error);
+    unsigned outside = 0, inside = 0;
+    for (unsigned i = 0; i < boxes->count; i += 2) {
+        const unsigned at = begin_of_pair(boxes->count, i);
+        const two_boxes two = load_two_boxes(boxes, at);
+        const two_ranges r = find_ranges(space, &two);
+        outside |= lanes_less(above, r.least) << at;
+        inside |= lanes_less(r.greatest, below) << at;
+    }
+    return (octant_masks){(uint8_t)~outside, (uint8_t)inside};
+}
+
+static octant_masks relate_siblings(const shape *s, const sibling_boxes *boxes)
+{
+    octant_masks all = {(uint8_t)mask_of_siblings(boxes), 0xff};
+    for (size_t i = 0; i < s->region->half_space_count && all.meets; i++) {
+        const octant_masks masks = relate_siblings_to_one(&s->region->half_spaces[i], s->half_spaces[i].error, boxes);
+        all.meets &= masks.meets;
+        all.inside &= masks.inside;
+    }
+    return all;
+}
+
+/* ---- The bodies of a leaf ---------------------------------------------------------------------------------------- */
+
+/* The points of a leaf, and the box around their positions. */
+typedef struct leaf_pairs {
+    two_bodies pairs[SCAN_POINTS / 2];
+    unsigned count; /* of points */
+    double low[3], high[3];
+} leaf_pairs;
+
+static void load_pairs(leaf_pairs *leaf, const octree_point *points, unsigned count)
+{
+    lanes low[3], high[3];
+    leaf->count = count;
+    for (int k = 0; k < 3; k++) {
+        low[k] = lanes_all(HUGE_VAL);
+        high[k] = lanes_all(-HUGE_VAL);
+    }
+    for (unsigned i = 0; i < count; i += 2) {
+        two_bodies *two = &leaf->pairs[i / 2];
+        *two = load_two_bodies(points, count, begin_of_pair(count, i));
+        for (int k = 0; k < 3; k++) {
+            low[k] = lanes_smaller(two->position[k], low[k]);
+            high[k] = lanes_larger(two->position[k], high[k]);
+        }
+    }
+    for (int k = 0; k < 3; k++) {
+        leaf->low[k] = lanes_least(low[k]);
+        leaf->high[k] = lanes_greatest(high[k]);
+    }
+}
+
+/* Returns whether all positions of a leaf are certainly in a half-space, so that all of its bodies meet it. */
+static bool holds_positions(const octree_half_space *space, const leaf_pairs *leaf, double error)
+{
+    double highest = -space->offset;
+    for (int k = 0; k < 3; k++)
+        highest += larger(space->normal[k] * leaf->low[k], space->normal[k] * leaf->high[k]);
+    return highest < -error;
+}
+
+/* The corner of a body that is farthest against the normal decides. */
+static uint64_t find_outside(const octree_half_space *space, const half_space_bounds *bounds, const leaf_pairs *leaf)
+{
+    uint64_t outside = 0;
+    for (unsigned i = 0; i < leaf->count; i += 2) {
+        const two_bodies *two = &leaf->pairs[i / 2];
+        lanes lowest = lanes_all(0);
+        for (int k = 0; k < 3; k++)
+            lowest = lanes_add(lowest, lanes_subtract(lanes_multiply(lanes_all(space->normal[k]), two->position[k]),
+                                                      lanes_multiply(lanes_all(bounds->slope[k]), two->steps[k])));
+        outside |= (uint64_t)lanes_less(lanes_all(bounds->limit), lowest) << begin_of_pair(leaf->count, i);
+    }
+    return outside;
+}
+
+static uint64_t filter(const shape *s, const octree_point *points, unsigned count)
+{
+    leaf_pairs leaf;
+    uint64_t near = UINT64_MAX >> (SCAN_POINTS - count);
+    load_pairs(&leaf, points, count);
+    for (size_t i = 0; i < s->region->half_space_count && near; i++) {
+        const octree_half_space *space = &s->region->half_spaces[i];
+        if (!holds_positions(space, &leaf, s->half_spaces[i].error))
+            near &= ~find_outside(space, &s->half_spaces[i], &leaf);
+    }
+    return near;
+}
+
+const shape_kind shape_of_half_spaces = {
+    .check = check,
+    .bounds = bounds_of_region,
+    .meets = meets,
+    .contains = contains,
+    .prepare = prepare,
+    .relate_octants = relate_octants,
+    .relate_siblings = relate_siblings,
+    .filter = filter,
+};
