@@ -24,7 +24,6 @@ typedef struct pending {
     size_t index; /* the index of the body in the caller's arrays */
     uint32_t row;
     unsigned level;
-    octree_body body; /* the body that is inserted or removed; before a move, the body that is moved */
 } pending;
 
 /* Change the tree of a level, and its boxes. */
@@ -72,10 +71,16 @@ static bool begin_bulk(bulk *b, size_t count)
     return false;
 }
 
-static void collect(bulk *b, size_t index, uint32_t row, const octree_body *body, unsigned level)
+static void collect(bulk *b, size_t index, uint32_t row, unsigned level)
 {
-    b->items[b->count++] = (pending){index, row, level, *body};
+    b->items[b->count++] = (pending){index, row, level};
     b->ends[level + 1]++;
+}
+
+/* Returns the body that is inserted or removed; before a move, the body that is moved. */
+static const octree_body *body_of(const bulk *b, const pending *p)
+{
+    return b->moved ? &b->from[p->index] : row_at(&b->set->rows, p->row);
 }
 
 /* Fill the lists of points. Afterwards, ends[level] is the end of the level's points. */
@@ -85,9 +90,10 @@ static void gather_points(bulk *b)
         b->ends[level + 1] += b->ends[level];
     for (size_t i = 0; i < b->count; i++) {
         const pending *p = &b->items[i];
+        const octree_body *body = body_of(b, p);
         const size_t at = b->ends[p->level]++;
-        b->points[at].id = make_point_id(&b->set->levels[p->level], p->row, p->body.half);
-        memcpy(b->points[at].position, p->body.position, sizeof p->body.position);
+        b->points[at].id = make_point_id(&b->set->levels[p->level], p->row, body->half);
+        memcpy(b->points[at].position, body->position, sizeof body->position);
         if (b->moved)
             memcpy(b->to[at], b->moved[p->index].position, sizeof b->to[at]);
     }
@@ -168,7 +174,7 @@ static octree_status insert_points(const level *l, const octree_point *points, c
 static void finish_insertion(bulk *b, const pending *p, bool made)
 {
     if (made)
-        change_reach(b->set, p->level, p->body.half, 1);
+        change_reach(b->set, p->level, body_of(b, p)->half, 1);
     else
         rows_remove(&b->set->rows, p->row);
 }
@@ -181,7 +187,7 @@ static void add_row(bulk *b, size_t index)
     if (row == ROW_NONE)
         set_status(b, index, status == OCTREE_OK ? OCTREE_DUPLICATE : status);
     else
-        collect(b, index, row, body, find_level(b->set, body->half));
+        collect(b, index, row, find_level(b->set, body->half));
 }
 
 octree_status octree_bodies_insert_many(octree_bodies *bodies, const octree_body *added, size_t count,
@@ -197,15 +203,15 @@ octree_status octree_bodies_insert_many(octree_bodies *bodies, const octree_body
     if (!begin_bulk(&b, count))
         return OCTREE_NO_MEMORY;
     const row_order order = make_order(bodies, added, count);
-    if (order.indices && bodies->rows.count == 0)
-        choose_floor(bodies, &order, count);
+    if (order.keys && bodies->rows.count == 0)
+        choose_floor(bodies, &order);
     for (size_t i = 0; i < count; i++) {
         const size_t soon = i + PREFETCH_AHEAD, later = soon + PREFETCH_AHEAD;
         if (soon < count)
-            rows_prefetch(&bodies->rows, &added[order.indices ? order.indices[soon] : soon]);
-        if (order.indices && later < count)
-            prefetch_memory(&added[order.indices[later]]);
-        add_row(&b, order.indices ? order.indices[i] : i);
+            rows_prefetch(&bodies->rows, &added[body_in_order(&order, soon)]);
+        if (later < count)
+            prefetch_memory(&added[body_in_order(&order, later)]);
+        add_row(&b, body_in_order(&order, i));
     }
     free_order(bodies, &order);
     make_changes(&b, insert_points, finish_insertion);
@@ -231,7 +237,7 @@ static void finish_removal(bulk *b, const pending *p, bool made)
         rows_show(&b->set->rows, p->row);
         return;
     }
-    change_reach(b->set, p->level, p->body.half, -1);
+    change_reach(b->set, p->level, body_of(b, p)->half, -1);
     rows_free(&b->set->rows, p->row);
 }
 
@@ -244,7 +250,7 @@ static void hide_row(bulk *b, size_t index)
         set_status(b, index, status == OCTREE_OK ? OCTREE_NOT_FOUND : status);
         return;
     }
-    collect(b, index, row, row_at(&b->set->rows, row), find_level(b->set, body->half));
+    collect(b, index, row, find_level(b->set, body->half));
     rows_hide(&b->set->rows, row);
 }
 
@@ -279,13 +285,14 @@ static octree_status move_points(const level *l, const octree_point *points, con
 static void finish_move(bulk *b, const pending *p, bool made)
 {
     if (!made) {
-        rows_replace(&b->set->rows, p->row, &p->body);
+        rows_replace(&b->set->rows, p->row, body_of(b, p));
         return;
     }
-    if (is_same_position(p->body.half, b->moved[p->index].half))
+    const double *half = body_of(b, p)->half, *half_moved = b->moved[p->index].half;
+    if (is_same_position(half, half_moved))
         return;
-    change_reach(b->set, p->level, p->body.half, -1);
-    change_reach(b->set, p->level, b->moved[p->index].half, 1);
+    change_reach(b->set, p->level, half, -1);
+    change_reach(b->set, p->level, half_moved, 1);
 }
 
 static void move_row(bulk *b, size_t index)
@@ -301,7 +308,7 @@ static void move_row(bulk *b, size_t index)
     const unsigned level = find_level(b->set, moved->half);
     const struct level *l = &b->set->levels[level];
     if (level == find_level(b->set, half) && make_point_id(l, row, half) == make_point_id(l, row, moved->half)) {
-        collect(b, index, row, row_at(&b->set->rows, row), level);
+        collect(b, index, row, level);
         rows_replace(&b->set->rows, row, moved);
         return;
     }

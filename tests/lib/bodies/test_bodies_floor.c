@@ -126,7 +126,22 @@ static void dense_cluster_has_a_small_floor(void **state)
         for (int k = 0; k < 3; k++)
             bodies[i].position[k] /= 1024;
     assert_int_equal(octree_bodies_insert_many(set, bodies, BODIES, NULL, NULL), OCTREE_OK);
-    assert_int_equal(count_levels(set), 4);
+    assert_int_equal(count_levels(set), 6);
+    octree_bodies_destroy(set);
+}
+
+/* Whole numbers are on planes of the grid, where the computed key of a coordinate is not certain. */
+static void bodies_on_planes_of_the_grid_count(void **state)
+{
+    (void)state;
+    static octree_body bodies[BODIES];
+    octree_bodies *set = make_set(cube(-8, 8), NULL);
+    make_decades(bodies, BODIES, 3);
+    for (size_t i = 0; i < BODIES; i++)
+        for (int k = 0; k < 3; k++)
+            bodies[i].position[k] = floor(bodies[i].position[k]);
+    assert_int_equal(octree_bodies_insert_many(set, bodies, BODIES, NULL, NULL), OCTREE_OK);
+    assert_int_equal(count_levels(set), 3);
     octree_bodies_destroy(set);
 }
 
@@ -236,6 +251,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(small_bodies_share_a_level_after_a_bulk_insertion),
         cmocka_unit_test(dense_cluster_has_a_small_floor),
+        cmocka_unit_test(bodies_on_planes_of_the_grid_count),
         cmocka_unit_test(refused_bodies_do_not_count),
         cmocka_unit_test(answers_are_the_same_with_and_without_a_floor),
         cmocka_unit_test(set_that_has_grown_chooses_again),
