@@ -3,14 +3,15 @@
  *
  * A body is a position (the centre of its box), three half extents and the caller's 64-bit id. Its box is closed and
  * spans the real numbers position - half to position + half, which are not rounded. Each triple (position, half, id) is
- * stored once. The position must lie in the world; the box may reach beyond it.
+ * stored once. The position must lie in the world; the box may reach beyond it. The world of
+ * a set stays as it is: choose a large one.
  *
  * How it works. Bodies are divided by size into at most twelve levels, and each level is an octree of their positions
  * (octree.h). Each node of the tree has a box around all bodies in and below it, as in a bounding volume hierarchy, and
  * a query skips a node whose box it does not meet. Without levels, one large body would enlarge the boxes of many small
  * ones. Level 0, of the largest bodies, has no boxes; its cells are extended by its largest half extents, its `reach`.
- * The nodes of a level, and their boxes, are a function of its bodies; only the box of a leaf of more than 64 bodies,
- * most of them at one place, does not shrink when bodies are removed.
+ * The nodes of a level, and their boxes, are a function of its bodies; only the box of a leaf beyond its capacity, most
+ * of whose bodies are at one place, does not shrink when bodies are removed.
  *
  * Bodies that are not large beside the leaves need no levels of their own. A bulk insertion into an empty set,
  * replace_all and compact choose the size up to which bodies share the last level; a set that has grown fourfold since
@@ -23,7 +24,9 @@
  * Conventions are those of octree.h: statuses, callbacks that must not change what they visit (OCTREE_BUSY), threads,
  * floating-point modes. In addition:
  *   - A change of one body happens completely or not at all. A call that changes many bodies reports the status of
- * each.
+ *     each, and makes the changes whose status is OK.
+ *   - The options of a search may be null. Of the rules to skip bodies, OCTREE_SKIP_ID works everywhere, and
+ *     OCTREE_SKIP_COINCIDENT only in octree_bodies_nearest(): it compares positions with the target.
  *   - Bodies that visitors receive are valid during the call.
  *   - During a bulk change, the executor must not query the set.
  *   - n is the number of bodies, L the number of levels in use, D and M are the depth and the capacity of a level.
@@ -85,8 +88,9 @@ octree_status octree_bodies_move_many(octree_bodies *bodies, const octree_body *
                                       size_t count, octree_status *statuses, size_t *changed);
 
 /* Replace all bodies by these bodies. For a game in which nearly all bodies move in each tick, this is the fastest
- * change. On an error the set is unchanged. Errors and results: those of octree_bodies_insert_many. Old and new bodies
- * are in memory at the same time. */
+ * change. A body that is refused is in the set no longer: compare *changed with `count`. If the call itself returns an
+ * error, the set is unchanged. Errors and results: those of octree_bodies_insert_many. Old and new bodies are in memory
+ * at the same time. */
 octree_status octree_bodies_replace_all(octree_bodies *bodies, const octree_body *added, size_t count,
                                         octree_status *statuses, size_t *changed);
 
@@ -103,7 +107,7 @@ size_t octree_bodies_count(const octree_bodies *bodies);
 /* Returns the definition of the set: that of octree_definition(). */
 octree_def octree_bodies_definition(const octree_bodies *bodies);
 
-/* Returns whether the set holds this body. Cost: O(1). */
+/* Returns whether the set holds this body. Cost: O(1); O(D + M) in a set that shows points. */
 bool octree_bodies_contain(const octree_bodies *bodies, const octree_body *body);
 
 /* Returns a digest of the definition and the bodies, whatever the order of changes. Returns 0 for null. Cost: O(n). */
@@ -143,11 +147,12 @@ typedef enum octree_region_kind {
     OCTREE_REGION_KINDS
 } octree_region_kind;
 
-/* A region of space. Only the members of its kind are read.
+/* A region of space. Only the members of its kind are read. If all members are zero, it is a box at the origin.
  *
  * A body matches if its box and the region have a common point. For half-spaces a body matches if no half-space has its
  * whole box outside: this is the test of frustum culling. It accepts every body that meets the region, every body of
- * extent zero exactly, and near the edges of the region some boxes that no single half-space separates from it. */
+ * extent zero exactly, and near the edges of the region some boxes that no single half-space separates from it. Normals
+ * point out of the region: an engine's plane a x + b y + c z + d >= 0 is the normal (-a, -b, -c) and the offset d. */
 typedef struct octree_region {
     octree_region_kind kind;
     /* read for BOX, BALL and HALF_SPACES. true: a body matches only if its whole box is in the region */
@@ -158,10 +163,10 @@ typedef struct octree_region {
     const octree_half_space *half_spaces; /* HALF_SPACES */
     size_t half_space_count;
     double from[3], to[3]; /* SWEPT: the first and the last position of the box */
-    double half[3];        /* SWEPT: the half extents of the moving box. RAY: the thickness of the ray on each axis */
-    double origin[3];      /* RAY */
-    double direction[3];   /* RAY: not zero; need not have length 1 */
-    double length;         /* RAY: the largest parameter t; HUGE_VAL for a ray without end */
+    double half[3];   /* SWEPT: the half extents of the moving box. RAY: half the thickness of the ray on each axis */
+    double origin[3]; /* RAY */
+    double direction[3]; /* RAY: not zero; need not have length 1 */
+    double length;       /* RAY: the largest parameter t, a distance if the direction has length 1; HUGE_VAL: no end */
 } octree_region;
 
 /* Check a region. Returns OK, NULL_ARGUMENT, NOT_FINITE, BAD_RANGE (min > max), BAD_SIZE (a negative size, a zero
@@ -170,7 +175,6 @@ octree_status octree_region_check(const octree_region *region);
 
 /* Visit every body that matches a region, in no stated order. The options count and trace nodes; levels are searched in
  * ascending order, and the trace of each level begins with its root. The answer is exact whatever mode and epsilon say.
- * With OCTREE_SKIP_ID, bodies with the id skip_id are skipped.
  * Errors: NULL_ARGUMENT, those of octree_region_check, and BAD_OPTION. Cost: O(nodes whose boxes meet the region +
  * bodies in their leaves). */
 octree_status octree_bodies_search(const octree_bodies *bodies, const octree_region *region, const octree_search *how,
@@ -179,14 +183,18 @@ octree_status octree_bodies_search(const octree_bodies *bodies, const octree_reg
 /* A body that a search in order has found. */
 typedef struct octree_hit {
     octree_body body;
-    /* for neighbours: the distance from the target to the box, 0 inside; within 4 ulp. For rays and moving boxes: the
-     * parameter of the first common point, 0 if the start is inside; within 4 ulp, infinite if it is beyond DBL_MAX */
+    /* for neighbours: the distance from the target to the box, 0 inside; within 4 ulp. For rays: the parameter t of the
+     * first common point. For moving boxes: the share of the way before the first contact, 0 to 1. Both are 0 if the
+     * start is inside; within 4 ulp, infinite if beyond DBL_MAX */
     double at;
 } octree_hit;
 
 /* Store the k bodies nearest to a target in hits[0 .. *count - 1], ordered by the distance to their box, then by id,
  * position and half extents. Only bodies within `radius` count; HUGE_VAL: all. If `accept` is not null, only bodies for
- * which it returns true count. OCTREE_SKIP_ID skips bodies by their id. epsilon means the same as in octree_nearest_k.
+ * which it returns true count. epsilon means the same as in octree_nearest_k.
+ *
+ * *count is the smaller of k and the number of bodies that count, so 0 is no error; it is 0 after an error, too. hits[]
+ * must have room for *count bodies; it may be null if k is 0.
  * Errors: NULL_ARGUMENT, NOT_FINITE, BAD_SIZE (radius or epsilon < 0), BAD_OPTION. Cost: O(L (D + M) + k log k) on
  * average for bodies of bounded density, O(n log k) at worst. */
 octree_status octree_bodies_nearest(const octree_bodies *bodies, const double target[3], size_t k, double radius,
@@ -195,7 +203,8 @@ octree_status octree_bodies_nearest(const octree_bodies *bodies, const double ta
 
 /* Store the first k bodies that a ray or a moving box (a region of kind RAY or SWEPT) hits in hits[0 .. *count - 1],
  * ordered by the parameter of the first common point, then by id, position and half extents. The first hit has k = 1.
- * If `accept` is not null, only bodies for which it returns true count.
+ * If `accept` is not null, only bodies for which it returns true count. *count and hits[] are those of
+ * octree_bodies_nearest().
  * Errors: NULL_ARGUMENT, those of octree_region_check, and BAD_OPTION (another kind of region). Cost: O(nodes along the
  * way to the last hit + bodies in their leaves). */
 octree_status octree_bodies_cast(const octree_bodies *bodies, const octree_region *ray, size_t k,
@@ -207,9 +216,10 @@ typedef bool (*octree_pair_visitor)(const octree_body *a, const octree_body *b, 
 
 /* Visit all pairs of bodies whose boxes have a common point, each pair once. If `other` is null, the pairs within the
  * set are visited, with `a` before `b` in the order of octree_compare_bodies(); otherwise the pairs of one body of each
- * set, `a` from the first. The order of the pairs is a function of the bodies, the definitions and, for sets filled in
- * bulk, the calls that filled them. Errors: NULL_ARGUMENT, and NO_MEMORY. Cost: O(n M) for bodies of bounded density,
- * plus the number of pairs; about 110 bytes of memory a body during the call. */
+ * set, `a` from the first; if both are the same set, each body meets itself, and each pair is visited twice. The order
+ * of the pairs is a function of the bodies, the definitions and, for sets filled in bulk, the calls that filled them.
+ * Errors: NULL_ARGUMENT, and NO_MEMORY. Cost: O(n M) for bodies of bounded density, plus the number of pairs; about 85
+ * bytes of memory a body during the call. The executor is not used. */
 octree_status octree_bodies_pairs(const octree_bodies *bodies, const octree_bodies *other, octree_pair_visitor visit,
                                   void *context);
 

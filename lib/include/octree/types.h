@@ -14,7 +14,8 @@
 #define OCTREE_STATUS_MAP(X)                                                                                           \
     X(OK, "ok", "done")                                                                                                \
     X(NOT_FOUND, "not_found", "the tree has no such point or node")                                                    \
-    X(DUPLICATE, "duplicate", "a point with this id already exists (in a tree: at the same position)")                 \
+    X(DUPLICATE, "duplicate",                                                                                          \
+      "a point with this id already exists (in a tree: at the same position; in a set of bodies: this body)")          \
     X(FULL, "full", "the leaf is full and cannot be split any further")                                                \
     X(OUTSIDE, "outside", "the position is outside the world")                                                         \
     X(NOT_FINITE, "not_finite", "a number is NaN or infinite")                                                         \
@@ -24,7 +25,8 @@
     X(BAD_RANGE, "bad_range", "the box's min is above its max")                                                        \
     X(BAD_SIZE, "bad_size", "a size must not be negative, nor a direction zero")                                       \
     X(BAD_KEY, "bad_key", "the key is not one of w a s d e f n q .")                                                   \
-    X(BAD_OPTION, "bad_option", "an enum has an unknown value, or only one of two allocator functions is set")         \
+    X(BAD_OPTION, "bad_option",                                                                                        \
+      "an option has an unknown value, or one that does not fit here (of the allocator functions, set both or none)")  \
     X(BAD_TEXT, "bad_text", "text must be printable ASCII and end with a zero byte within its array")                  \
     X(BAD_ORDER, "bad_order", "edits, queries and shapes must be in ascending order of their ticks")                   \
     X(BAD_PARENT, "bad_parent", "a foreign node is its own ancestor")                                                  \
@@ -218,7 +220,7 @@ typedef void (*octree_tracer)(octree_address node, octree_trace_kind kind, void 
 /* Options of a search. A struct whose members are all zero, or a null pointer instead of the options, means an exact
  * search that skips no point. */
 typedef struct octree_search {
-    octree_skip skip; /* the points to skip; read only by searches for neighbours */
+    octree_skip skip; /* the points to skip; read only by searches for neighbours, and those of bodies (bodies.h) */
     uint64_t skip_id; /* the id of the skipped points; read only with OCTREE_SKIP_ID */
     octree_mode mode; /* how distances are compared; boxes are compared exactly in both modes */
     /* the permitted error, finite and >= 0: a ratio for neighbours, a length for ranges; each search function explains

@@ -26,7 +26,8 @@
 #include <string.h>
 
 #if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
-#error "Octreel must not be compiled with -ffast-math or -ffinite-math-only, because its answers are exact"
+#error                                                                                                                 \
+    "Octreel must not be compiled with -ffast-math or -ffinite-math-only, because its answers are exact; in CMake, give such options to your own targets, with target_compile_options"
 #endif
 /* Accepted values of FLT_EVAL_METHOD. 0: each type is evaluated in its own precision. 1: floats are evaluated as
  * doubles (s390x under -std=c17), which does no harm, because the library computes in double. 16 to 64: only types of
