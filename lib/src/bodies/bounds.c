@@ -110,8 +110,8 @@ unsigned bound_squares_of_boxes(const query_bounds *b, const sibling_boxes *boxe
 
 /* ---- Times -------------------------------------------------------------------------------------------------- */
 
-/* Without motion on an axis, any speed is right: a body is touched at all times or never. The speed is so small that a
- * body beside the way is touched only after all other times. */
+/* If nothing moves on an axis, a tiny speed serves: bodies on the way are touched at all times, and others so late that
+ * they do not count. */
 static double find_inverse_speed(const cast *c, int axis, double way)
 {
     return c->sign[axis] ? c->inverse[axis] : 0x1p900 / way;

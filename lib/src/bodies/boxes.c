@@ -23,11 +23,12 @@
 /* The half extents of a level's bodies. The rest has a bound of the rounding errors of the boxes. */
 typedef struct fitting {
     half_steps half[3];
+    size_t leaf_capacity;
 } fitting;
 
 static fitting make_fitting(const level *l)
 {
-    fitting f;
+    fitting f = {.leaf_capacity = l->tree->def.leaf_capacity};
     for (int i = 0; i < 3; i++) {
         const double largest = find_farthest(l, i, 0) + l->unit * (MAX_STEPS + 1);
         f.half[i] = (half_steps){l->unit / (double)(1 << STEP_BITS * i), l->unit + largest * 0x1p-51};
@@ -147,15 +148,15 @@ typedef struct box_change {
     bool adds;
 } box_change;
 
-/* A crowded leaf, perhaps of a million bodies at one place, keeps its box when a body is removed, because computing the
- * box again would read them all. */
+/* A leaf beyond its capacity, perhaps of a million bodies at one place, keeps its box when a body is removed, because
+ * computing the box again would read them all. */
 static octree_box change_box_of_leaf(const fitting *f, const node *leaf, const octree_box *old,
                                      const box_change *change)
 {
     octree_box box = *old;
     if (change->adds)
         include_box(&box, &change->box);
-    else if (leaf->room != LEAF_HASHED && touches_face(old, &change->box))
+    else if (leaf->count <= f->leaf_capacity && touches_face(old, &change->box))
         box = box_of_node(f, leaf);
     return box;
 }
@@ -179,9 +180,8 @@ static bool keeps_known_box(const path *p, const box_change *change)
     return !is_unknown(box) && (change->adds ? contains_box(box, &change->box) : !touches_face(box, &change->box));
 }
 
-/* Update the boxes on a path from its end towards the root, up to the first box that stays the same. New nodes that a
- * change has made above the path's end have siblings on the path of another change, or the change has made all nodes
- * between. */
+/* Update the boxes on a path from its end towards the root, up to the first box that stays the same. So each new node
+ * is reached: it is on the path of a change, or a sibling of such a node. */
 static void fit_path(const fitting *f, const path *p, const box_change *change)
 {
     bool changed = !keeps_known_box(p, change);
@@ -226,19 +226,19 @@ void fit_moves(const level *l, const octree_point *points, const double (*to)[3]
         fit_all(l);
     else if (has_boxes(&l->tree->store)) {
         const fitting f = make_fitting(l);
-        for (size_t i = 0; i < count; i++)
-            fit_point(&f, l, &points[i], false);
         for (size_t i = 0; i < count; i++) {
             octree_point moved = points[i];
             memcpy(moved.position, to[i], sizeof moved.position);
             fit_point(&f, l, &moved, true);
         }
+        for (size_t i = 0; i < count; i++) /* last: a body that was moved twice has left its first new place */
+            fit_point(&f, l, &points[i], false);
     }
 }
 
 /* ---- Check -------------------------------------------------------------------------------------------------- */
 
-/* A leaf that is or was crowded may have a larger box. */
+/* A leaf that is or was beyond its capacity may have a larger box. */
 static bool is_right_box(const octree_box *stored, const octree_box *computed, const node *n)
 {
     return is_unknown(stored) || (n->octants ? is_same_box(stored, computed) : contains_box(stored, computed));

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* bulk.c - changes of many bodies in one call.
  *
- * The rows are changed one by one, in the caller's order; so each body gets the status that a single call would give.
- * The resulting changes of the trees are collected, and each level makes its changes in one bulk call of octree.h. If
- * this call fails, it has changed nothing in its tree, and the rows of this level's bodies are restored afterwards.
+ * The rows are changed one by one, with the results of the caller's order; so each body gets the status that a single
+ * call would give. The resulting changes of the trees are collected, and each level makes its changes in one bulk call
+ * of octree.h. If this call fails, it has changed nothing in its tree, and the rows of this level's bodies are restored
+ * afterwards.
  *
  * A move that changes the level of a body, or the half extents in the id of its point, is made alone, after the
  * collected changes.
@@ -135,6 +136,14 @@ static void make_changes(bulk *b, bulk_change *change, void (*finish)(bulk *b, c
     memset(b->ends, 0, sizeof b->ends);
 }
 
+/* Report the failure of a whole call in the status of each body. Returns the status. */
+static octree_status refuse_all(octree_status status, octree_status *statuses, size_t count)
+{
+    for (size_t i = 0; statuses && i < count; i++)
+        statuses[i] = status;
+    return status;
+}
+
 /* Check the arguments that all bulk calls share. */
 static octree_status check_bulk(const octree_bodies *set, const octree_body *bodies, size_t count, size_t *changed)
 {
@@ -197,11 +206,11 @@ octree_status octree_bodies_insert_many(octree_bodies *bodies, const octree_body
     octree_status status = check_bulk(bodies, added, count, changed);
     if (status == OCTREE_OK)
         status = rows_reserve(&bodies->rows, count);
-    if (status != OCTREE_OK)
-        return status;
     bulk b = {.set = bodies, .from = added, .statuses = statuses};
-    if (!begin_bulk(&b, count))
-        return OCTREE_NO_MEMORY;
+    if (status == OCTREE_OK && !begin_bulk(&b, count))
+        status = OCTREE_NO_MEMORY;
+    if (status != OCTREE_OK)
+        return refuse_all(status, statuses, count);
     const row_order order = make_order(bodies, added, count);
     if (order.keys && bodies->rows.count == 0)
         choose_floor(bodies, &order);
@@ -258,12 +267,12 @@ octree_status octree_bodies_remove_many(octree_bodies *bodies, const octree_body
                                         octree_status *statuses, size_t *changed)
 {
     RETURN_IN_DEFAULT_MODE(octree_status, octree_bodies_remove_many, bodies, removed, count, statuses, changed);
-    const octree_status status = check_bulk(bodies, removed, count, changed);
-    if (status != OCTREE_OK)
-        return status;
+    octree_status status = check_bulk(bodies, removed, count, changed);
     bulk b = {.set = bodies, .from = removed, .statuses = statuses};
-    if (!begin_bulk(&b, count))
-        return OCTREE_NO_MEMORY;
+    if (status == OCTREE_OK && !begin_bulk(&b, count))
+        status = OCTREE_NO_MEMORY;
+    if (status != OCTREE_OK)
+        return refuse_all(status, statuses, count);
     for (size_t i = 0; i < count; i++) {
         prefetch_row_of(&b, i, count);
         hide_row(&b, i);
@@ -322,14 +331,14 @@ octree_status octree_bodies_move_many(octree_bodies *bodies, const octree_body *
                                       size_t count, octree_status *statuses, size_t *changed)
 {
     RETURN_IN_DEFAULT_MODE(octree_status, octree_bodies_move_many, bodies, from, to, count, statuses, changed);
-    const octree_status status = check_bulk(bodies, from, count, changed);
-    if (status != OCTREE_OK)
-        return status;
-    if (count > 0 && !to)
-        return OCTREE_NULL_ARGUMENT;
+    octree_status status = check_bulk(bodies, from, count, changed);
+    if (status == OCTREE_OK && count > 0 && !to)
+        status = OCTREE_NULL_ARGUMENT;
     bulk b = {.set = bodies, .from = from, .moved = to, .statuses = statuses};
-    if (!begin_bulk(&b, count))
-        return OCTREE_NO_MEMORY;
+    if (status == OCTREE_OK && !begin_bulk(&b, count))
+        status = OCTREE_NO_MEMORY;
+    if (status != OCTREE_OK)
+        return refuse_all(status, statuses, count);
     for (size_t i = 0; i < count; i++) {
         prefetch_row_of(&b, i, count);
         move_row(&b, i);
@@ -357,7 +366,7 @@ static octree_status rebuild_set(octree_bodies *set, const octree_body *bodies, 
     octree_bodies *other;
     octree_status status = octree_bodies_create(&set->def, &other);
     if (status != OCTREE_OK)
-        return status;
+        return refuse_all(status, statuses, count);
     const unsigned begun = begin_set_callbacks(set); /* an executor of the new set must not change this set */
     status = octree_bodies_insert_many(other, bodies, count, statuses, changed);
     end_callbacks(begun);
@@ -376,7 +385,8 @@ octree_status octree_bodies_replace_all(octree_bodies *bodies, const octree_body
 {
     RETURN_IN_DEFAULT_MODE(octree_status, octree_bodies_replace_all, bodies, added, count, statuses, changed);
     const octree_status status = check_bulk(bodies, added, count, changed);
-    return status == OCTREE_OK ? rebuild_set(bodies, added, count, statuses, changed) : status;
+    return status == OCTREE_OK ? rebuild_set(bodies, added, count, statuses, changed)
+                               : refuse_all(status, statuses, count);
 }
 
 /* The bodies of a set in the order of the leaves. */

@@ -2,9 +2,10 @@
 /* in_order.c - searches that return the first k bodies in an order: octree_bodies_nearest() and octree_bodies_cast().
  *
  * Both searches are one algorithm (branch and bound, Roussopoulos et al. 1995). Each body has a key: the squared
- * distance of its box, or the time at which a ray enters it. The key of a node's bounding body (level.c) is a lower
- * bound of the keys of the node's bodies. A descent visits the children of a node in the order of these bounds, and
- * skips a node if its bound is above the k-th best key so far. The k best bodies are a heap with the worst on top.
+ * distance of its box, or the time at which a ray enters it. The key of the box of a node (boxes.c), or of an octant
+ * of a cell (cell.c), is a lower bound of the keys of its bodies. A descent visits the children of a node in the order
+ * of these bounds, and skips a node if its bound is above the k-th best key so far. The k best bodies are a heap with
+ * the worst on top.
  *
  * Keys are doubles with an error bound. A node is skipped only if the bound says so in spite of the errors. Two bodies
  * are compared exactly if their keys are within their errors.
@@ -286,7 +287,8 @@ static unsigned sort_children(ordered_search *s, const node *n, const cell_halve
     return count;
 }
 
-/* Search a node whose cell is `c`. `h` has the halves of this cell if nodes have no boxes, or of a leaf's parent. */
+/* Search a node whose cell is `c`. `h` has the halves of this cell; it is not read if nodes have boxes, nor for a leaf.
+ */
 static void descend(ordered_search *s, const node *n, cell c, const cell_halves *h, octree_address address)
 {
     meter_record_visited(&s->meter, address);

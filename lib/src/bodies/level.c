@@ -102,8 +102,8 @@ static double end_of_bucket(const octree_bodies *set, unsigned number, int bucke
     return (number == 0 && bucket == REACH_BUCKETS - 1) || value > DBL_MAX ? DBL_MAX : value;
 }
 
-/* The unit is the least power of two that is at least the upper end of the highest bucket, divided by MAX_STEPS + 1.
- * Below 2^-1022 it would not be a power of two; there it is larger. */
+/* The unit is the least power of two of which MAX_STEPS + 1 reach the upper end of the highest bucket. Below 2^-1022 it
+ * would not be a power of two; there it is larger. */
 level make_empty_level(const octree_bodies *set, unsigned number)
 {
     const int64_t exponent = number_of_top_bucket(set, number) / BUCKETS_OF_EXPONENT + 1;

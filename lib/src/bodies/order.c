@@ -5,9 +5,9 @@
  * tells how deep the leaves will be, before there is a tree: a leaf is the largest cell that holds at most as many
  * bodies as the capacity.
  *
- * The floor is the size up to which bodies share one level (level.c). A body enlarges the boxes of its leaf and of the
- * nodes above (boxes.c), and an own level for it costs one more descent. The floor is 3/2 of the cell of a leaf, at a
- * depth that nine of ten bodies' leaves do not exceed, so that sparse regions do not slow down dense ones. Measured in
+ * The floor is the size up to which bodies share one level (level.c). A smaller floor adds levels, each of which costs
+ * a descent; a larger one makes the boxes of nodes too large. The floor is 3/2 of the cell of a leaf, at a depth that
+ * nine of ten bodies' leaves do not exceed, so that sparse regions do not slow down dense ones. Measured in
  * instructions, with 1e5 uniform bodies: beside a floor of 3/8 of a cell, sizes over three decades are searched in 15
  * to 27 % fewer, and streets in 10 to 17 %. If all bodies are small, but one in 20 has 1.3 cells, a search takes 1.7
  * times as many; with a floor of 5/2 of a cell, decades up to such sizes would take 1.2 times as many.
@@ -114,19 +114,19 @@ static size_t find_cell(const row_order *order, size_t begin, size_t end, uint32
 
 /* Add the number of bodies in a cell, those with the keys begin .. end - 1, to the depths that their leaves will have
  * in one tree. Below the grid, each level is assumed to divide the bodies by 4, as on a surface. */
-static void count_by_depth(const row_order *order, size_t capacity, unsigned depth, uint32_t cell, size_t begin,
+static void count_by_depth(const row_order *order, const octree_def *def, unsigned depth, uint32_t cell, size_t begin,
                            size_t end, size_t counts[OCTREE_MAX_DEPTH + 1])
 {
     const size_t count = end - begin;
-    if (count > capacity && depth < order->depth) {
+    if (count > def->leaf_capacity && depth < order->depth && depth < def->max_depth) {
         for (uint32_t child = cell << 3; child < (cell + 1) << 3; child++) {
             const size_t next = find_cell(order, begin, end, (child + 1) << 3 * (order->depth - depth - 1));
-            count_by_depth(order, capacity, depth + 1, child, begin, next, counts);
+            count_by_depth(order, def, depth + 1, child, begin, next, counts);
             begin = next;
         }
         return;
     }
-    for (size_t left = count; left > capacity && depth < OCTREE_MAX_DEPTH; left /= 4)
+    for (size_t left = count; left > def->leaf_capacity && depth < def->max_depth; left /= 4)
         depth++;
     counts[depth] += count;
 }
@@ -137,7 +137,9 @@ void choose_floor(octree_bodies *set, const row_order *order)
     size_t counts[OCTREE_MAX_DEPTH + 1] = {0}, seen = 0;
     unsigned depth = 0;
     double floor[3];
-    count_by_depth(order, anchor_of(set)->def.leaf_capacity, 0, 0, 0, count, counts);
+    if (count == 0)
+        return;
+    count_by_depth(order, &anchor_of(set)->def, 0, 0, 0, count, counts);
     while (depth < OCTREE_MAX_DEPTH && (seen += counts[depth]) < count - count / 10)
         depth++;
     for (int i = 0; i < 3; i++) {

@@ -3,16 +3,16 @@
  *
  * Problem: a search for each body descends from the root each time, and finds each pair twice.
  *
- * Idea: one descent of both sides at once. Groups of bodies whose boxes do not meet have no pairs; of two groups that
- * meet, the one with more bodies is replaced by its children, until two leaves are compared body by body. Each pair is
- * found once: pairs of two children of a node are visited for i < j only.
+ * Idea: one descent of both sides at once. Clusters of bodies whose boxes do not meet have no pairs; of two clusters
+ * that meet, the one with more bodies is replaced by its children, until two leaves are compared body by body. Each
+ * pair is found once: pairs of two children of a node are visited for i < j only.
  *
  * Two neighbouring leaves have few bodies that can meet: those that meet the common box of both leaves. These are
  * gathered from one leaf, and compared with those of the other. Boxes of floats are a quick test before the exact
  * test.
  *
- * The descent runs over copies of the levels (snapshot.c), in which the order of groups and bodies is a function of the
- * bodies alone. So is the order of the pairs.
+ * The descent runs over copies of the levels (snapshot.c), in which the order of clusters and bodies is a function of
+ * the bodies alone. So is the order of the pairs.
  */
 #include "snapshot.h"
 #include "../exact/body.h"
@@ -54,14 +54,14 @@ static size_t size_of_chunk(size_t first, size_t end)
 static void pair_with_rest(pairing *p, const snapshot *s, size_t body, size_t first, size_t end)
 {
     const float_box box = box_in_columns(&s->boxes, body);
-    for (; first < end; first += BOXES_AT_ONCE) {
+    for (; first < end && !p->stopped; first += BOXES_AT_ONCE) {
         uint64_t left = find_meeting_boxes(&s->boxes, first, size_of_chunk(first, end), &box);
         for (; left; left &= left - 1)
             visit_if_pair(p, &s->bodies[body], &s->bodies[first + bits_lowest(left)]);
     }
 }
 
-static void pair_within_leaf(pairing *p, const snapshot *s, const group *leaf)
+static void pair_within_leaf(pairing *p, const snapshot *s, const cluster *leaf)
 {
     const size_t end = leaf->first + leaf->count;
     for (size_t i = leaf->first; i < end && !p->stopped; i++)
@@ -104,7 +104,7 @@ static float_box intersect_boxes(const float_box *a, const float_box *b)
     return both;
 }
 
-static void pair_leaves(pairing *p, const snapshot *x, const group *a, const snapshot *y, const group *b)
+static void pair_leaves(pairing *p, const snapshot *x, const cluster *a, const snapshot *y, const cluster *b)
 {
     const float_box common = intersect_boxes(&a->box, &b->box);
     const size_t end_a = a->first + a->count, end_b = b->first + b->count;
@@ -113,7 +113,7 @@ static void pair_leaves(pairing *p, const snapshot *x, const group *a, const sna
         of_b.boxes.min[k] = of_b.faces[k];
         of_b.boxes.max[k] = of_b.faces[k + 3];
     }
-    for (size_t j = b->first; j < end_b; j += BOXES_AT_ONCE) {
+    for (size_t j = b->first; j < end_b && !p->stopped; j += BOXES_AT_ONCE) {
         gather_candidates(&of_b, y, j, size_of_chunk(j, end_b), &common);
         for (size_t i = a->first; of_b.count > 0 && i < end_a && !p->stopped; i += BOXES_AT_ONCE) {
             uint64_t left = find_meeting_boxes(&x->boxes, i, size_of_chunk(i, end_a), &common);
@@ -137,8 +137,8 @@ static inline bool boxes_meet(const float_box *a, const float_box *b)
     return meet;
 }
 
-/* Visit the pairs of one body in group `a` and one body in group `b`, which is another group. */
-static void pair_groups(pairing *p, const snapshot *x, const group *a, const snapshot *y, const group *b)
+/* Visit the pairs of one body in cluster `a` and one body in cluster `b`, which is another cluster. */
+static void pair_clusters(pairing *p, const snapshot *x, const cluster *a, const snapshot *y, const cluster *b)
 {
     if (p->stopped || !boxes_meet(&a->box, &b->box))
         return;
@@ -148,20 +148,20 @@ static void pair_groups(pairing *p, const snapshot *x, const group *a, const sna
     }
     const bool divides_a = b->child_count == 0 || (a->child_count > 0 && a->count >= b->count);
     for (unsigned i = 0; divides_a && i < a->child_count; i++)
-        pair_groups(p, x, group_at(x, a->child + i), y, b);
+        pair_clusters(p, x, cluster_at(x, a->child + i), y, b);
     for (unsigned i = 0; !divides_a && i < b->child_count; i++)
-        pair_groups(p, x, a, y, group_at(y, b->child + i));
+        pair_clusters(p, x, a, y, cluster_at(y, b->child + i));
 }
 
-/* Visit the pairs of two bodies in a group. */
-static void pair_within_group(pairing *p, const snapshot *s, const group *g)
+/* Visit the pairs of two bodies in a cluster. */
+static void pair_within_cluster(pairing *p, const snapshot *s, const cluster *c)
 {
-    if (g->child_count == 0)
-        pair_within_leaf(p, s, g);
-    for (unsigned i = 0; i < g->child_count && !p->stopped; i++) {
-        pair_within_group(p, s, group_at(s, g->child + i));
-        for (unsigned j = i + 1; j < g->child_count; j++)
-            pair_groups(p, s, group_at(s, g->child + i), s, group_at(s, g->child + j));
+    if (c->child_count == 0)
+        pair_within_leaf(p, s, c);
+    for (unsigned i = 0; i < c->child_count && !p->stopped; i++) {
+        pair_within_cluster(p, s, cluster_at(s, c->child + i));
+        for (unsigned j = i + 1; j < c->child_count; j++)
+            pair_clusters(p, s, cluster_at(s, c->child + i), s, cluster_at(s, c->child + j));
     }
 }
 
@@ -191,9 +191,9 @@ static void release_snapshots(snapshots *s)
 static void pair_within_set(pairing *p, const snapshots *s)
 {
     for (unsigned i = 0; i < s->count && !p->stopped; i++) {
-        pair_within_group(p, &s->levels[i], group_at(&s->levels[i], 0));
+        pair_within_cluster(p, &s->levels[i], cluster_at(&s->levels[i], 0));
         for (unsigned j = i + 1; j < s->count; j++)
-            pair_groups(p, &s->levels[i], group_at(&s->levels[i], 0), &s->levels[j], group_at(&s->levels[j], 0));
+            pair_clusters(p, &s->levels[i], cluster_at(&s->levels[i], 0), &s->levels[j], cluster_at(&s->levels[j], 0));
     }
 }
 
@@ -201,7 +201,7 @@ static void pair_sets(pairing *p, const snapshots *a, const snapshots *b)
 {
     for (unsigned i = 0; i < a->count; i++)
         for (unsigned j = 0; j < b->count; j++)
-            pair_groups(p, &a->levels[i], group_at(&a->levels[i], 0), &b->levels[j], group_at(&b->levels[j], 0));
+            pair_clusters(p, &a->levels[i], cluster_at(&a->levels[i], 0), &b->levels[j], cluster_at(&b->levels[j], 0));
 }
 
 octree_status octree_bodies_pairs(const octree_bodies *bodies, const octree_bodies *other, octree_pair_visitor visit,
@@ -213,7 +213,8 @@ octree_status octree_bodies_pairs(const octree_bodies *bodies, const octree_bodi
     arena memory = {.allocator = bodies->memory.allocator};
     pairing p = {.within = !other, .visit = visit, .context = context};
     snapshots a = {.count = 0}, b = {.count = 0};
-    const float_frame frame = make_float_frame(&bodies->def.world);
+    const float_frame frame =
+        make_float_frame(&anchor_of(bodies)->def.world, &anchor_of(other ? other : bodies)->def.world);
     const bool made =
         make_snapshots(&a, bodies, &frame, &memory) && (!other || make_snapshots(&b, other, &frame, &memory));
     const unsigned begun = begin_set_callbacks(bodies), begun_other = begin_set_callbacks(other ? other : bodies);

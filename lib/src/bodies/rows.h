@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* rows.h - the storage of the bodies of a set: an array of rows with a hash table. Private.
  *
- * A body keeps the index of its row until it is removed. The trees of the levels hold this index as the id of a point.
+ * A body keeps the index of its row until it is removed. The trees of the levels hold this index in the id of a point
+ * (two_bodies.h).
  */
 #ifndef OCTREE_ROWS_H
 #define OCTREE_ROWS_H

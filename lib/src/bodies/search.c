@@ -16,8 +16,8 @@
 #include "visit.h"
 
 typedef struct body_search {
-    box_shape around; /* the first member, because box_shape_enter() casts the region's shape to a box_shape */
-    octree_box box;   /* the box of `around`: the bounds of the region, extended by the reach */
+    box_shape around;
+    octree_box box; /* the box of `around`: the bounds of the region, extended by the reach */
     shape shape;
     const octree_bodies *set;
     bool contained;
@@ -141,7 +141,7 @@ octree_status octree_bodies_search(const octree_bodies *bodies, const octree_reg
     body_search s;
     s.set = bodies;
     shape_make(&s.shape, region);
-    s.contained = region->contained && region->kind <= OCTREE_REGION_HALF_SPACES;
+    s.contained = region->contained && s.shape.kind->contains;
     s.how = &search;
     s.call = (body_call){visit, context};
     s.stopped = false;

@@ -22,7 +22,7 @@ typedef struct reach_counts {
 /* The bodies of similar size. The largest half extents of two bodies differ by a factor below 4; only the bodies of
  * the first level may be larger than that, and those of the last level smaller. */
 typedef struct level {
-    octree *tree;         /* the positions of the bodies; the id of a point is the index of a row. Null: never used */
+    octree *tree; /* the positions of the bodies; for the ids of its points see two_bodies.h. Null: never used */
     reach_counts *counts; /* null: never used */
     double reach[3];      /* an upper bound of the half extents on each axis, a function of the counts */
     /* The ids of points have the half extents in multiples of `unit`, and the rest is at most `rest` (two_bodies.h).

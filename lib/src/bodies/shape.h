@@ -6,8 +6,9 @@
 #include "../query/region.h"
 #include "bounds.h"
 
-/* A half-space, prepared for the bodies of a level. On an axis, a body reaches farther outwards than its position by at
- * most steps * slope; `steps` is in the id of its point (two_bodies.h). The rest of its half extents is in `limit`. */
+/* A half-space, prepared for the bodies of a level. On an axis, a body reaches farther into the half-space than its
+ * position by at most steps * slope; `steps` is in the id of its point (two_bodies.h). The rest of its half extents is
+ * in `limit`. */
 typedef struct half_space_bounds {
     double error; /* of any sum of products of the half-space with positions, half extents and boxes of the level */
     double limit;
@@ -33,8 +34,8 @@ typedef struct shape_kind {
     void (*begin)(shape *s);
     /* Returns a box that contains the region. Its corners may be infinite. */
     octree_box (*bounds)(const shape *s);
-    /* Return, exactly, whether a body has a common point with the region, and whether the body is in the region. The
-     * latter is false for rays and moving boxes. */
+    /* Return, exactly, whether a body has a common point with the region, and whether the body is in the region.
+     * `contains` is null for rays and moving boxes. */
     bool (*meets)(const shape *s, const octree_body *body);
     bool (*contains)(const shape *s, const octree_body *body);
     /* Prepare the search of s->level. */
@@ -45,7 +46,7 @@ typedef struct shape_kind {
     octant_masks (*relate_octants)(const shape *s, const cell_halves *h, unsigned octants, bool contained);
     /* Relate a region to the boxes of siblings, in doubles; bit i is for sibling i. `meets`: the box may meet the
      * region. `inside`: the box is certainly in the region, and so are all of its bodies. A box that is unknown is
-     * infinite: it meets every region, and is in none, because a sum that is NaN decides nothing. */
+     * infinite: it meets every region. */
     octant_masks (*relate_siblings)(const shape *s, const sibling_boxes *boxes);
     /* Returns a bit mask of at most SCAN_POINTS points of the level, without those whose bodies certainly have no
      * common point with the region. Bit i is for points[i]. */

@@ -58,12 +58,6 @@ static bool meets(const shape *s, const octree_body *body)
     return cast_touches(&s->cast, body, &first);
 }
 
-static bool contains(const shape *s, const octree_body *body)
-{
-    (void)s, (void)body;
-    return false;
-}
-
 static void prepare(shape *s)
 {
     s->bounds = prepare_times(s->level, &s->cast);
@@ -97,7 +91,6 @@ const shape_kind shape_of_cast = {
     .begin = begin,
     .bounds = bounds_of_region,
     .meets = meets,
-    .contains = contains,
     .prepare = prepare,
     .relate_octants = relate_octants,
     .relate_siblings = relate_siblings,

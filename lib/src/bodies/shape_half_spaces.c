@@ -95,7 +95,7 @@ static double multiply_halves(const octree_half_space *space, const cell_halves 
     return size * 0x1p-48 + 0x1p-1000;
 }
 
-/* Sums that are NaN or infinite exclude nothing: then the error is infinite or NaN, too. */
+/* A sum that is NaN, or infinite with an infinite error, excludes nothing. */
 static octant_masks relate_octants_to_one(const octree_half_space *space, const cell_halves *h, bool contained)
 {
     half_products p[3];

@@ -3,44 +3,52 @@
  *
  * The order of points in a leaf depends on the history of the tree, and rows lie anywhere in memory. In a snapshot the
  * bodies of a leaf are sorted, so that the results of an algorithm are a function of the bodies, and all bodies lie in
- * the order of the leaves, so that the algorithm runs through memory in order. Copying costs O(n log M).
+ * the order of the leaves, so that the algorithm runs through memory in order. Copying costs O(n M).
  *
  * Boxes are floats in columns, so that four are compared at once and without branches. Each step from the face of a
  * body to a float is monotone: the sum, the difference, the product and the conversion. So bodies that have a common
  * point have boxes that have one. Others may have one too: the caller decides by the bodies.
  *
- * Comparing two groups has a fixed cost, and leaves may have few bodies: if each cell of a depth has a little more than
- * the capacity, all are divided, and a leaf has an eighth of that. So small nodes become one group.
+ * Comparing two clusters has a fixed cost, and leaves may have few bodies: if each cell of a depth has a little more
+ * than the capacity, all are divided, and a leaf has an eighth of that. So small nodes become one cluster.
  */
 #include "snapshot.h"
+#include "../query/search.h"
 #include "../tree/leaf.h"
 
 #include <stdlib.h>
 
-/* A node with at most so many bodies is a group without children: those of eight full leaves, but not too many. With
+/* A node with at most so many bodies is a cluster without children: those of eight full leaves, but not too many. With
  * 64 at most, the pairs of 4e5 equal bodies take 1.25 times as long (octree-bodies-bench --n 4e5). */
-enum { LEAVES_IN_GROUP = 8, GROUP_AT_MOST = 128 };
+enum { LEAVES_IN_CLUSTER = 8, CLUSTER_AT_MOST = 128 };
 
 /* ---- Boxes of floats ---------------------------------------------------------------------------------------- */
 
-/* In a subnormal world, 1 / half would be infinite. */
-float_frame make_float_frame(const octree_box *world)
+/* In a subnormal world, 1 / half would be infinite. If the worlds have nothing in common, any frame is right. */
+float_frame make_float_frame(const octree_box *world, const octree_box *other)
 {
     float_frame frame;
     for (int k = 0; k < 3; k++) {
-        const double half = world->max[k] / 2 - world->min[k] / 2;
-        frame.origin[k] = world->min[k] / 2 + world->max[k] / 2;
+        const double min = larger(world->min[k], other->min[k]), max = -larger(-world->max[k], -other->max[k]);
+        const double half = max > min ? max / 2 - min / 2 : 1;
+        frame.origin[k] = min / 2 + max / 2;
         frame.scale[k] = 1 / half < DBL_MAX ? 1 / half : DBL_MAX;
     }
     return frame;
+}
+
+/* Conversions of values beyond the range of floats would be undefined. */
+static float to_float(double x)
+{
+    return x > FLT_MAX ? FLT_MAX : x < -FLT_MAX ? -FLT_MAX : (float)x;
 }
 
 static float_box make_float_box(const float_frame *frame, const octree_body *body)
 {
     float_box box;
     for (int k = 0; k < 3; k++) {
-        box.min[k] = (float)((body->position[k] - body->half[k] - frame->origin[k]) * frame->scale[k]);
-        box.max[k] = (float)((body->position[k] + body->half[k] - frame->origin[k]) * frame->scale[k]);
+        box.min[k] = to_float((body->position[k] - body->half[k] - frame->origin[k]) * frame->scale[k]);
+        box.max[k] = to_float((body->position[k] + body->half[k] - frame->origin[k]) * frame->scale[k]);
     }
     return box;
 }
@@ -159,24 +167,24 @@ static void copy_bodies(snapshot *s, const octree_bodies *set, const node *n, si
     }
 }
 
-/* Copy a node to the group at an index, and its descendants to the end of the array. `first` is the number of bodies
+/* Copy a node to the cluster at an index, and its descendants to the end of the array. `first` is the number of bodies
  * that are copied already. Returns false if memory runs out. */
 static bool copy_node(snapshot *s, const octree_bodies *set, const node *n, size_t first, size_t at)
 {
     const unsigned children = n->count > s->capacity ? bits_count8(n->octants) : 0;
-    group made = {make_empty_float_box(), children, first, n->count, s->groups.count};
+    cluster made = {make_empty_float_box(), children, first, n->count, s->clusters.count};
     for (unsigned i = 0; i < children; i++)
-        if (!list_append(s->memory, &s->groups, sizeof(group)))
+        if (!list_append(s->memory, &s->clusters, sizeof(cluster)))
             return false;
     for (unsigned i = 0; i < children; i++) {
         if (!copy_node(s, set, &children_of(n)[i], first, made.child + i))
             return false;
         first += children_of(n)[i].count;
-        include_float_box(&made.box, &group_at(s, made.child + i)->box);
+        include_float_box(&made.box, &cluster_at(s, made.child + i)->box);
     }
     if (children == 0)
         copy_bodies(s, set, n, first, &made.box);
-    ((group *)s->groups.items)[at] = made;
+    ((cluster *)s->clusters.items)[at] = made;
     return true;
 }
 
@@ -199,10 +207,11 @@ static bool allocate_bodies(snapshot *s, size_t count)
 
 bool snapshot_make(snapshot *s, const octree_bodies *set, const level *l, const float_frame *frame, arena *memory)
 {
-    const size_t leaf_capacity = set->def.leaf_capacity;
+    const size_t leaf_capacity = l->tree->def.leaf_capacity;
     *s = (snapshot){.memory = memory, .frame = *frame};
-    s->capacity = leaf_capacity < GROUP_AT_MOST / LEAVES_IN_GROUP ? leaf_capacity * LEAVES_IN_GROUP : GROUP_AT_MOST;
-    return allocate_bodies(s, octree_count(l->tree)) && list_append(memory, &s->groups, sizeof(group)) &&
+    s->capacity =
+        leaf_capacity < CLUSTER_AT_MOST / LEAVES_IN_CLUSTER ? leaf_capacity * LEAVES_IN_CLUSTER : CLUSTER_AT_MOST;
+    return allocate_bodies(s, octree_count(l->tree)) && list_append(memory, &s->clusters, sizeof(cluster)) &&
            copy_node(s, set, &l->tree->root, 0, 0);
 }
 
@@ -210,5 +219,5 @@ void snapshot_release(snapshot *s)
 {
     arena_free(s->memory, s->bodies, s->room * sizeof *s->bodies);
     arena_free(s->memory, s->boxes.min[0], 6 * s->room * sizeof(float));
-    list_release(s->memory, &s->groups, sizeof(group));
+    list_release(s->memory, &s->clusters, sizeof(cluster));
 }

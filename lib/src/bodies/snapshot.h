@@ -16,13 +16,14 @@ typedef struct box_columns {
     float *min[3], *max[3];
 } box_columns;
 
-/* A node: the tight box and the range of its bodies. */
-typedef struct group {
+/* The bodies of a node: their tight box and their range. A cluster without children may be several leaves of the tree.
+ */
+typedef struct cluster {
     float_box box;
-    unsigned child_count; /* 0: a leaf */
+    unsigned child_count; /* 0: a leaf of the snapshot */
     size_t first, count;  /* the range of its bodies */
     size_t child;         /* the index of its first child; children are adjacent */
-} group;
+} cluster;
 
 /* Faces are multiplied by `scale` after `origin` is subtracted. */
 typedef struct float_frame {
@@ -32,8 +33,8 @@ typedef struct float_frame {
 typedef struct snapshot {
     arena *memory;
     float_frame frame;
-    size_t capacity;     /* the greatest number of bodies of a node that is not divided */
-    list groups;         /* of groups; the first is the root */
+    size_t capacity;     /* a node with at most so many bodies is not divided, nor is a leaf */
+    list clusters;       /* of clusters; the first is the root */
     octree_body *bodies; /* in the order of the leaves of the tree, and in each leaf sorted */
     box_columns boxes;   /* the boxes of the bodies, in the same order, and BOX_PADDING more that are not used */
     size_t room;         /* the number of bodies for which memory is allocated */
@@ -42,16 +43,16 @@ typedef struct snapshot {
 /* The greatest number of boxes that one call of find_meeting_boxes() compares, and how many more it may read. */
 enum { BOXES_AT_ONCE = 64, BOX_PADDING = 3 };
 
-/* Make the frame for a world. Boxes can be compared if they have the same frame. */
-float_frame make_float_frame(const octree_box *world);
+/* Make the frame for the common part of two worlds. Boxes can be compared if they have the same frame. */
+float_frame make_float_frame(const octree_box *world, const octree_box *other);
 
-/* Copy a level. Returns false if memory runs out. The caller releases the snapshot in both cases. Cost: O(n log M). */
+/* Copy a level. Returns false if memory runs out. The caller releases the snapshot in both cases. Cost: O(n M). */
 bool snapshot_make(snapshot *s, const octree_bodies *set, const level *l, const float_frame *frame, arena *memory);
 void snapshot_release(snapshot *s);
 
-static inline const group *group_at(const snapshot *s, size_t index)
+static inline const cluster *cluster_at(const snapshot *s, size_t index)
 {
-    return (const group *)s->groups.items + index;
+    return (const cluster *)s->clusters.items + index;
 }
 
 /* Returns a bit mask of the boxes first .. first + count - 1 that meet a box. count <= BOXES_AT_ONCE. */

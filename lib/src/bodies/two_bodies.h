@@ -26,7 +26,9 @@ static inline uint64_t make_point_id(const level *l, uint32_t row, const double 
 
 typedef struct two_bodies {
     lanes position[3];
-    lanes steps[3]; /* the bits of the ids that have the half extents, as numbers */
+    /* The bits of the ids that have the half extents, masked but not shifted: those of axis i are units times
+     * 2^(10 i). */
+    lanes steps[3];
 } two_bodies;
 
 /* Load the bodies of two points. Of `count` points, the pair that begins at an index is loaded; see begin_of_pair(). */

@@ -50,13 +50,13 @@ typedef struct key_box {
 typedef struct box_shape {
     const octree_box *box;
     key_box near; /* the keys of the box: a cell that does not meet this box is pruned */
-    /* the keys of the box widened by epsilon: a node whose cell is inside this box is taken whole */
+    /* the keys of another box: a node whose cell is inside this box is taken whole */
     key_box whole;
     int32_t low[OCTREE_MAX_DEPTH][3]; /* low[d]: the lowest keys of the current cell of depth d */
 } box_shape;
 
-/* Make the shape of a box. `whole` is the same box, or the box widened by epsilon; it decides which nodes are taken
- * whole. */
+/* Make the shape of a box. `whole` decides which nodes are taken whole: the same box, or a box widened by epsilon,
+ * or the box of a search for bodies without their reach. */
 box_shape box_shape_make(const octree *tree, const octree_box *box, const octree_box *whole);
 
 /* The functions of a box's shape, for region_search(). */

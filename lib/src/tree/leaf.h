@@ -45,7 +45,7 @@ void store_release(store *s, const node *root);
 /* A group of siblings is a block of the pool `nodes`: the array of the nodes, and in trees of bodies a box for each
  * node. The tree only marks the boxes of new nodes as unknown; bodies/boxes.c computes them.
  *
- * The box of an unknown node is infinite. */
+ * An unknown box is infinite. */
 enum { NODE_WITH_BOX = sizeof(node) + sizeof(octree_box) };
 
 static inline bool has_boxes(const store *s)

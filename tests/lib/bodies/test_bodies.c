@@ -8,6 +8,7 @@
 
 #include "body_scenes.h"
 #include "counting_allocator.h"
+#include "octree/sample.h"
 
 static octree_bodies *make_set(octree_box world, size_t capacity)
 {
@@ -588,6 +589,41 @@ static void points_of_a_tree_are_bodies_of_one_size(void **state)
     octree_destroy(tree);
 }
 
+static bool add_to_order(const octree_body *a, const octree_body *b, void *context)
+{
+    uint64_t *order = context; /* depends on the order of the pairs */
+    *order = *order * 31 + a->id * 3 + b->id;
+    return true;
+}
+
+/* A set that shows the points of a tree does as one that is made after the tree has changed its capacity and world. */
+static void set_that_shows_points_follows_the_tree(void **state)
+{
+    (void)state;
+    octree_bodies *before, *after;
+    octree *tree = make_tree(cube(-8, 8), 1, 21, OCTREE_GROW);
+    const octree_mix changes = {.changes = 1};
+    const double half[3] = {0.5, 0.5, 0.5};
+    uint64_t seed = 4, order = 0, order_after = 0;
+    for (uint64_t i = 0; i < 1000; i++) {
+        double position[3];
+        for (int k = 0; k < 3; k++)
+            position[k] = 16 * octree_random_unit(&seed) - 8;
+        assert_int_equal(octree_insert(tree, position, i), OCTREE_OK);
+    }
+    assert_int_equal(octree_bodies_of_points(tree, half, &before), OCTREE_OK);
+    assert_int_equal(octree_tune(tree, &changes), OCTREE_OK);
+    const octree_box world = cube(-9, 8);
+    assert_int_equal(octree_reworld(tree, &world), OCTREE_OK);
+    assert_int_equal(octree_bodies_of_points(tree, half, &after), OCTREE_OK);
+    assert_int_equal(octree_bodies_pairs(before, NULL, add_to_order, &order), OCTREE_OK);
+    assert_int_equal(octree_bodies_pairs(after, NULL, add_to_order, &order_after), OCTREE_OK);
+    assert_int_equal(order, order_after);
+    octree_bodies_destroy(before);
+    octree_bodies_destroy(after);
+    octree_destroy(tree);
+}
+
 static void null_is_an_empty_set(void **state)
 {
     (void)state;
@@ -648,6 +684,7 @@ int main(void)
         cmocka_unit_test(a_time_beyond_the_doubles_is_infinite),
         cmocka_unit_test(a_radius_limits_the_search_for_neighbours),
         cmocka_unit_test(points_of_a_tree_are_bodies_of_one_size),
+        cmocka_unit_test(set_that_shows_points_follows_the_tree),
         cmocka_unit_test(null_is_an_empty_set),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -108,12 +108,11 @@ static void boxes_follow_bulk_changes_of_all_sizes(void **state)
 }
 
 /* Bodies that were removed or moved leave no trace. */
-static void cost_depends_on_the_bodies_alone(void **state)
+static void assert_cost_of_detour(uint32_t capacity)
 {
-    (void)state;
     static octree_body bodies[BODIES];
     uint64_t seed = 5;
-    octree_bodies *direct = make_set(6), *detour = make_set(6);
+    octree_bodies *direct = make_set(capacity), *detour = make_set(capacity);
     for (size_t i = 0; i < BODIES; i++)
         bodies[i] = small_body(&seed, i);
     for (size_t i = 0; i < BODIES / 2; i++)
@@ -127,6 +126,36 @@ static void cost_depends_on_the_bodies_alone(void **state)
         assert_int_equal(octree_bodies_move(detour, &bodies[i], &elsewhere), OCTREE_OK);
         assert_int_equal(octree_bodies_move(detour, &elsewhere, &bodies[i]), OCTREE_OK);
     }
+    assert_same_cost(direct, detour);
+    octree_bodies_destroy(direct);
+    octree_bodies_destroy(detour);
+}
+
+/* Leaves with more than 64 points are stored in another way. */
+static void cost_depends_on_the_bodies_alone(void **state)
+{
+    (void)state;
+    assert_cost_of_detour(6);
+    assert_cost_of_detour(150);
+}
+
+static void body_that_moves_twice_in_a_call_leaves_no_trace(void **state)
+{
+    (void)state;
+    static octree_body bodies[BODIES];
+    uint64_t seed = 6;
+    octree_bodies *direct = make_set(6), *detour = make_set(6);
+    for (size_t i = 0; i < BODIES; i++)
+        bodies[i] = small_body(&seed, i);
+    assert_int_equal(octree_bodies_insert_many(detour, bodies, BODIES, NULL, NULL), OCTREE_OK);
+    for (size_t i = 0; i < BODIES; i++) {
+        octree_body way[3] = {bodies[i], small_body(&seed, i), small_body(&seed, i)};
+        for (int k = 1; k < 3; k++)
+            memcpy(way[k].half, way[0].half, sizeof way[k].half);
+        assert_int_equal(octree_bodies_move_many(detour, way, way + 1, 2, NULL, NULL), OCTREE_OK);
+        bodies[i] = way[2];
+    }
+    assert_int_equal(octree_bodies_insert_many(direct, bodies, BODIES, NULL, NULL), OCTREE_OK);
     assert_same_cost(direct, detour);
     octree_bodies_destroy(direct);
     octree_bodies_destroy(detour);
@@ -197,6 +226,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(boxes_follow_bulk_changes_of_all_sizes),
         cmocka_unit_test(cost_depends_on_the_bodies_alone),
+        cmocka_unit_test(body_that_moves_twice_in_a_call_leaves_no_trace),
         cmocka_unit_test(flat_bodies_have_flat_boxes),
         cmocka_unit_test(crowded_leaf_keeps_its_box),
     };

@@ -145,6 +145,23 @@ static void bodies_on_planes_of_the_grid_count(void **state)
     octree_bodies_destroy(set);
 }
 
+/* At most 21 levels, or as many as the definition says, divide crowds. */
+static void floor_is_that_of_the_deepest_leaves(void **state)
+{
+    (void)state;
+    static octree_body bodies[BODIES];
+    octree_bodies *set;
+    const octree_def def = define(cube(-8, 8), 4, 2, OCTREE_GROW);
+    assert_int_equal(octree_bodies_create(&def, &set), OCTREE_OK);
+    make_decades(bodies, BODIES, 3);
+    for (size_t i = 0; i < BODIES; i++)
+        for (int k = 0; k < 3; k++)
+            bodies[i].half[k] = fmin(bodies[i].half[k], 5.9);
+    assert_int_equal(octree_bodies_insert_many(set, bodies, BODIES, NULL, NULL), OCTREE_OK);
+    assert_int_equal(count_levels(set), 1);
+    octree_bodies_destroy(set);
+}
+
 static void refused_bodies_do_not_count(void **state)
 {
     (void)state;
@@ -252,6 +269,7 @@ int main(void)
         cmocka_unit_test(small_bodies_share_a_level_after_a_bulk_insertion),
         cmocka_unit_test(dense_cluster_has_a_small_floor),
         cmocka_unit_test(bodies_on_planes_of_the_grid_count),
+        cmocka_unit_test(floor_is_that_of_the_deepest_leaves),
         cmocka_unit_test(refused_bodies_do_not_count),
         cmocka_unit_test(answers_are_the_same_with_and_without_a_floor),
         cmocka_unit_test(set_that_has_grown_chooses_again),
