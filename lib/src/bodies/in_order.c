@@ -223,8 +223,12 @@ static void scan_points(ordered_search *s, const octree_point *points, unsigned 
     if (near == 0)
         return;
     unsigned first = bits_lowest(near);
-    for (uint64_t left = near & (near - 1); left; left &= left - 1)
-        first = bounds[bits_lowest(left)] < bounds[first] ? bits_lowest(left) : first;
+    for (uint64_t left = near; left; left &= left - 1) {
+        const unsigned i = bits_lowest(left);
+        first = bounds[i] < bounds[first] ? i : first;
+        if (!s->set->points)
+            prefetch_memory(row_at(&s->set->rows, row_of_point(&points[i])));
+    }
     measure_and_offer(s, &points[first]);
     for (near &= ~(UINT64_C(1) << first); near; near &= near - 1)
         if (bounds[bits_lowest(near)] <= s->cut)
