@@ -596,6 +596,39 @@ static bool add_to_order(const octree_body *a, const octree_body *b, void *conte
     return true;
 }
 
+/* Two worlds that have nothing in common, but bodies that reach from one into the other. */
+static void bodies_of_separate_worlds_meet(void **state)
+{
+    (void)state;
+    octree_bodies *left = make_set(cube(-8, -1), 4), *right = make_set(cube(1, 8), 4);
+    size_t pairs = 0;
+    const octree_body a = body_at(-2, -2, -2, 3, 1), b = body_at(2, 2, 2, 1, 2), c = body_at(5, 5, 5, 1, 3);
+    assert_int_equal(octree_bodies_insert(left, &a), OCTREE_OK);
+    assert_int_equal(octree_bodies_insert(right, &b), OCTREE_OK);
+    assert_int_equal(octree_bodies_insert(right, &c), OCTREE_OK);
+    assert_int_equal(octree_bodies_pairs(left, right, count_pairs, &pairs), OCTREE_OK);
+    assert_int_equal(octree_bodies_pairs(right, left, count_pairs, &pairs), OCTREE_OK);
+    assert_int_equal(pairs, 2);
+    octree_bodies_destroy(left);
+    octree_bodies_destroy(right);
+}
+
+/* A world of subnormal numbers, whose extent has no inverse. */
+static void bodies_of_a_subnormal_world_meet(void **state)
+{
+    (void)state;
+    octree_bodies *set = make_set(cube(-1e-310, 1e-310), 4);
+    size_t pairs = 0;
+    const octree_body middle = body_at(0, 0, 0, 0, 1), around = body_at(1e-311, 0, 0, 1e-311, 2),
+                      beside = body_at(-1e-311, 0, 0, 0, 3);
+    assert_int_equal(octree_bodies_insert(set, &middle), OCTREE_OK);
+    assert_int_equal(octree_bodies_insert(set, &around), OCTREE_OK);
+    assert_int_equal(octree_bodies_insert(set, &beside), OCTREE_OK);
+    assert_int_equal(octree_bodies_pairs(set, NULL, count_pairs, &pairs), OCTREE_OK);
+    assert_int_equal(pairs, 1);
+    octree_bodies_destroy(set);
+}
+
 /* A set that shows the points of a tree does as one that is made after the tree has changed its capacity and world. */
 static void set_that_shows_points_follows_the_tree(void **state)
 {
@@ -684,6 +717,8 @@ int main(void)
         cmocka_unit_test(a_time_beyond_the_doubles_is_infinite),
         cmocka_unit_test(a_radius_limits_the_search_for_neighbours),
         cmocka_unit_test(points_of_a_tree_are_bodies_of_one_size),
+        cmocka_unit_test(bodies_of_separate_worlds_meet),
+        cmocka_unit_test(bodies_of_a_subnormal_world_meet),
         cmocka_unit_test(set_that_shows_points_follows_the_tree),
         cmocka_unit_test(null_is_an_empty_set),
     };

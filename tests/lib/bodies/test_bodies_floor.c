@@ -145,6 +145,21 @@ static void bodies_on_planes_of_the_grid_count(void **state)
     octree_bodies_destroy(set);
 }
 
+/* One body in twenty is in a dense cluster: the leaves of the others decide. */
+static void few_crowded_bodies_do_not_change_the_floor(void **state)
+{
+    (void)state;
+    static octree_body bodies[BODIES];
+    octree_bodies *set = make_set(cube(-8, 8), NULL);
+    make_decades(bodies, BODIES, 3);
+    for (size_t i = 0; i < BODIES; i += 20)
+        for (int k = 0; k < 3; k++)
+            bodies[i].position[k] /= 1024;
+    assert_int_equal(octree_bodies_insert_many(set, bodies, BODIES, NULL, NULL), OCTREE_OK);
+    assert_int_equal(count_levels(set), 3);
+    octree_bodies_destroy(set);
+}
+
 /* At most 21 levels, or as many as the definition says, divide crowds. */
 static void floor_is_that_of_the_deepest_leaves(void **state)
 {
@@ -170,7 +185,7 @@ static void refused_bodies_do_not_count(void **state)
     octree_bodies *set = make_set(cube(-8, 8), NULL);
     make_decades(bodies, BODIES, 3);
     for (size_t i = 0; i < BODIES / 2; i++)
-        bodies[BODIES + i].position[0] = i % 2 ? NAN : 9;
+        bodies[BODIES + i].position[0] = i % 3 == 0 ? NAN : i % 3 == 1 ? 9 : -9;
     assert_int_equal(octree_bodies_insert_many(set, bodies, BODIES + BODIES / 2, NULL, &changed), OCTREE_OK);
     assert_int_equal(changed, BODIES);
     assert_int_equal(count_levels(set), 3);
@@ -269,6 +284,7 @@ int main(void)
         cmocka_unit_test(small_bodies_share_a_level_after_a_bulk_insertion),
         cmocka_unit_test(dense_cluster_has_a_small_floor),
         cmocka_unit_test(bodies_on_planes_of_the_grid_count),
+        cmocka_unit_test(few_crowded_bodies_do_not_change_the_floor),
         cmocka_unit_test(floor_is_that_of_the_deepest_leaves),
         cmocka_unit_test(refused_bodies_do_not_count),
         cmocka_unit_test(answers_are_the_same_with_and_without_a_floor),
