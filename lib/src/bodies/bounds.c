@@ -35,10 +35,14 @@ query_bounds prepare_squares(const level *l, const double target[3])
         const double way = find_farthest(l, i, target[i]), error = (way + l->reach[i]) * 0x1p-50;
         const half_steps half = half_steps_of(l, i);
         const bool moderate = way * scale < 0x1p500;
-        b.axes[i] = (axis_bounds){lanes_all(target[i]), lanes_all(moderate ? scale * (1 - 0x1p-51) : 0),
-                                  lanes_all(half.step), lanes_all(moderate ? half.rest + error : HUGE_VAL),
-                                  lanes_all(1),         lanes_all(moderate ? error : HUGE_VAL),
-                                  lanes_all(target[i]), lanes_all(target[i])};
+        b.axes[i] = (axis_bounds){.origin = lanes_all(target[i]),
+                                  .factor = lanes_all(moderate ? scale * (1 - 0x1p-51) : 0),
+                                  .step = lanes_all(half.step),
+                                  .rest = lanes_all(moderate ? half.rest + error : HUGE_VAL),
+                                  .unit = lanes_all(1),
+                                  .extra = lanes_all(moderate ? error : HUGE_VAL),
+                                  .min = lanes_all(target[i]),
+                                  .max = lanes_all(target[i])};
     }
     return b;
 }
@@ -124,16 +128,16 @@ static axis_bounds prepare_axis_of_times(const level *l, const cast *c, int i)
     const double inverse = find_inverse_speed(c, i, way), latest = way * inverse;
     const half_steps half = half_steps_of(l, i);
     const double extra = c->half[i] * inverse + latest * 0x1p-49 + 0x1p-1000;
-    return (axis_bounds){lanes_all(c->origin[i]),
-                         lanes_all(!(latest < 0x1p1000) ? NAN
-                                   : c->sign[i] < 0     ? -inverse
-                                                        : inverse),
-                         lanes_all(half.step * inverse),
-                         lanes_all(half.rest * inverse + extra),
-                         lanes_all(inverse),
-                         lanes_all(extra),
-                         lanes_all(exact_add_down(c->origin[i], -c->half[i])),
-                         lanes_all(exact_add_up(c->origin[i], c->half[i]))};
+    return (axis_bounds){.origin = lanes_all(c->origin[i]),
+                         .factor = lanes_all(!(latest < 0x1p1000) ? NAN
+                                             : c->sign[i] < 0     ? -inverse
+                                                                  : inverse),
+                         .step = lanes_all(half.step * inverse),
+                         .rest = lanes_all(half.rest * inverse + extra),
+                         .unit = lanes_all(inverse),
+                         .extra = lanes_all(extra),
+                         .min = lanes_all(exact_add_down(c->origin[i], -c->half[i])),
+                         .max = lanes_all(exact_add_up(c->origin[i], c->half[i]))};
 }
 
 query_bounds prepare_times(const level *l, const cast *c)
@@ -229,40 +233,49 @@ unsigned bound_times_of_boxes(const query_bounds *b, const sibling_boxes *boxes,
 
 /* ---- Boxes -------------------------------------------------------------------------------------------------- */
 
-/* The box is cut to the extent of the level, so that all numbers are finite. Among subnormal numbers, the errors are
- * those of halving. */
+/* The box is cut to the extent of the level, so that all numbers are finite, but for those of a level without a reach.
+ * Among subnormal numbers, the errors are those of halving. A body has at least the half extents in its id. */
 query_bounds prepare_box_test(const level *l, const octree_box *box)
 {
-    query_bounds b = {.length = lanes_all(0)};
+    query_bounds b = {.unsure = lanes_all(-HUGE_VAL)};
     for (int i = 0; i < 3; i++) {
         const axis *world = &l->tree->axes[i];
         const double min = larger(box->min[i], world->min - l->reach[i]);
         const double max = -larger(-box->max[i], -world->max - l->reach[i]);
-        const double middle = min / 2 + max / 2, size = larger(fabs(min), fabs(max));
+        const double middle = min / 2 + max / 2, extent = max / 2 - min / 2, size = larger(fabs(min), fabs(max));
         const double error = (size + find_farthest(l, i, 0) + l->reach[i]) * 0x1p-50 + 0x1p-1072;
         const half_steps half = half_steps_of(l, i);
-        b.axes[i] = (axis_bounds){
-            lanes_all(middle), lanes_all(1), lanes_all(half.step),   lanes_all(half.rest + (max / 2 - min / 2) + error),
-            lanes_all(1),      lanes_all(0), lanes_all(box->min[i]), lanes_all(box->max[i])};
+        b.axes[i] = (axis_bounds){.origin = lanes_all(middle),
+                                  .step = lanes_all(half.step),
+                                  .rest = lanes_all(half.rest + extent + error),
+                                  .min = lanes_all(box->min[i]),
+                                  .max = lanes_all(box->max[i]),
+                                  .inner = lanes_all(extent - error)};
+        if (!(fabs(middle) + fabs(extent) + error <= DBL_MAX))
+            b.unsure = lanes_all(HUGE_VAL);
     }
     return b;
 }
 
-uint64_t test_box(const query_bounds *b, const octree_point *points, unsigned count)
+body_masks test_box(const query_bounds *b, const octree_point *points, unsigned count)
 {
-    uint64_t apart = 0;
+    uint64_t apart = 0, sure = 0;
     for (unsigned i = 0; i < count; i += 2) {
         const unsigned at = begin_of_pair(count, i);
         const two_bodies two = load_two_bodies(points, count, at);
-        lanes gap = lanes_all(0);
+        lanes gap = lanes_all(0), excess = b->unsure;
         for (int k = 0; k < 3; k++) {
             const axis_bounds *a = &b->axes[k];
             const lanes offset = lanes_absolute(lanes_subtract(two.position[k], a->origin));
-            gap = lanes_larger(lanes_subtract(offset, reach_of_bodies(a, two.steps[k])), gap);
+            const lanes way = lanes_subtract(offset, lanes_multiply(two.steps[k], a->step));
+            gap = lanes_larger(lanes_subtract(way, a->rest), gap);
+            excess = lanes_larger(lanes_subtract(way, a->inner), excess);
         }
         apart |= (uint64_t)lanes_less(lanes_all(0), gap) << at;
+        sure |= (uint64_t)lanes_less(excess, lanes_all(0)) << at;
     }
-    return ~apart & UINT64_MAX >> (SCAN_POINTS - count);
+    const uint64_t all = UINT64_MAX >> (SCAN_POINTS - count);
+    return (body_masks){~apart & all, sure & all};
 }
 
 unsigned test_boxes(const query_bounds *b, const sibling_boxes *boxes)

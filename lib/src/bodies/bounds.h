@@ -19,11 +19,13 @@ typedef struct axis_bounds {
     lanes step, rest;
     lanes unit, extra;
     lanes min, max; /* the extent of the query: of the target, the region or the moving box at its origin */
+    lanes inner; /* only for boxes: a body certainly meets the box if its distance - steps * step is less than this */
 } axis_bounds;
 
 typedef struct query_bounds {
     axis_bounds axes[3];
     lanes length; /* only for times */
+    lanes unsure; /* only for boxes: HUGE_VAL if no body certainly meets the box, otherwise -HUGE_VAL */
 } query_bounds;
 
 /* Prepare bounds of squared distances from a target, multiplied by the square of the tree's scale. */
@@ -40,8 +42,12 @@ query_bounds prepare_box_test(const level *l, const octree_box *box);
 uint64_t bound_squares(const query_bounds *b, const octree_point *points, unsigned count, double cut, double *bounds);
 uint64_t bound_times(const query_bounds *b, const octree_point *points, unsigned count, double cut, double *bounds);
 
-/* Returns a bit mask of the bodies, of at most SCAN_POINTS points, that may meet the box. */
-uint64_t test_box(const query_bounds *b, const octree_point *points, unsigned count);
+/* The bodies of at most SCAN_POINTS points that may meet a region, and those that certainly do, as bit masks. */
+typedef struct body_masks {
+    uint64_t near, sure;
+} body_masks;
+
+body_masks test_box(const query_bounds *b, const octree_point *points, unsigned count);
 
 /* The same for the eight octants of a cell. HUGE_VAL: the cast never touches them. */
 void bound_squares_of_octants(const query_bounds *b, const cell_halves *h, double bounds[8]);

@@ -65,11 +65,11 @@ static octant_masks enter_cell(void *shape, const octree *tree, const node *n, u
 static uint64_t scan_bodies(const void *shape, const octree_point *points, unsigned count)
 {
     const body_search *s = shape;
-    uint64_t found = 0;
-    const uint64_t near = s->shape.kind->filter(&s->shape, points, count);
-    for (uint64_t left = s->set->points ? 0 : near; left; left &= left - 1)
+    const body_masks masks = s->shape.kind->filter(&s->shape, points, count);
+    uint64_t found = s->contained ? 0 : masks.sure;
+    for (uint64_t left = s->set->points ? 0 : masks.near; left; left &= left - 1)
         prefetch_memory(row_at(&s->set->rows, row_of_point(&points[bits_lowest(left)])));
-    for (uint64_t left = near; left; left &= left - 1) {
+    for (uint64_t left = masks.near & ~found; left; left &= left - 1) {
         const unsigned i = bits_lowest(left);
         octree_body scratch;
         found |= (uint64_t)is_match(s, load_body(s->set, &points[i], &scratch)) << i;

@@ -48,9 +48,9 @@ typedef struct shape_kind {
      * region. `inside`: the box is certainly in the region, and so are all of its bodies. A box that is unknown is
      * infinite: it meets every region. */
     octant_masks (*relate_siblings)(const shape *s, const sibling_boxes *boxes);
-    /* Returns a bit mask of at most SCAN_POINTS points of the level, without those whose bodies certainly have no
-     * common point with the region. Bit i is for points[i]. */
-    uint64_t (*filter)(const shape *s, const octree_point *points, unsigned count);
+    /* Test at most SCAN_POINTS points of the level, in doubles. `near`: the body may have a common point with the
+     * region. `sure`: it certainly has one. Bit i is for points[i]. */
+    body_masks (*filter)(const shape *s, const octree_point *points, unsigned count);
 } shape_kind;
 
 extern const shape_kind shape_of_box, shape_of_ball, shape_of_half_spaces, shape_of_cast;

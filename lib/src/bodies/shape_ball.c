@@ -81,11 +81,11 @@ static octant_masks relate_siblings(const shape *s, const sibling_boxes *boxes)
     return (octant_masks){(uint8_t)meets, (uint8_t)inside};
 }
 
-static uint64_t filter(const shape *s, const octree_point *points, unsigned count)
+static body_masks filter(const shape *s, const octree_point *points, unsigned count)
 {
     double bounds[SCAN_POINTS + 1];
     const double radius = s->region->radius * s->level->tree->scale;
-    return bound_squares(&s->bounds, points, count, metric_above(radius * radius), bounds);
+    return (body_masks){bound_squares(&s->bounds, points, count, metric_above(radius * radius), bounds), 0};
 }
 
 const shape_kind shape_of_ball = {

@@ -57,7 +57,7 @@ static octant_masks relate_siblings(const shape *s, const sibling_boxes *boxes)
     return (octant_masks){(uint8_t)meets, (uint8_t)inside};
 }
 
-static uint64_t filter(const shape *s, const octree_point *points, unsigned count)
+static body_masks filter(const shape *s, const octree_point *points, unsigned count)
 {
     return test_box(&s->bounds, points, count);
 }

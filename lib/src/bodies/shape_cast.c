@@ -80,10 +80,10 @@ static octant_masks relate_siblings(const shape *s, const sibling_boxes *boxes)
     return (octant_masks){(uint8_t)bound_times_of_boxes(&s->bounds, boxes, DBL_MAX, bounds), 0};
 }
 
-static uint64_t filter(const shape *s, const octree_point *points, unsigned count)
+static body_masks filter(const shape *s, const octree_point *points, unsigned count)
 {
     double bounds[SCAN_POINTS + 1];
-    return bound_times(&s->bounds, points, count, DBL_MAX, bounds);
+    return (body_masks){bound_times(&s->bounds, points, count, DBL_MAX, bounds), 0};
 }
 
 const shape_kind shape_of_cast = {

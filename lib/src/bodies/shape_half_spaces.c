@@ -222,7 +222,7 @@ static uint64_t find_outside(const octree_half_space *space, const half_space_bo
     return outside;
 }
 
-static uint64_t filter(const shape *s, const octree_point *points, unsigned count)
+static body_masks filter(const shape *s, const octree_point *points, unsigned count)
 {
     leaf_pairs leaf;
     uint64_t near = UINT64_MAX >> (SCAN_POINTS - count);
@@ -232,7 +232,7 @@ static uint64_t filter(const shape *s, const octree_point *points, unsigned coun
         if (!holds_positions(space, &leaf, s->half_spaces[i].error))
             near &= ~find_outside(space, &s->half_spaces[i], &leaf);
     }
-    return near;
+    return (body_masks){near, 0};
 }
 
 const shape_kind shape_of_half_spaces = {
