@@ -2,8 +2,8 @@
 /* search.c - the bodies that match a region: octree_bodies_search().
  *
  * Each level is searched by the traversal of region.h. Nodes whose boxes cannot meet the region are pruned, and nodes
- * whose boxes are certainly in it are taken whole. The bodies of the remaining leaves are filtered, and the rest is
- * tested exactly.
+ * whose boxes are certainly in it are taken whole. The bodies of the remaining leaves are filtered, and those for which
+ * that is not decisive are tested exactly.
  *
  * A level without boxes has two tests instead. By integer keys: cells that do not meet the box around the region,
  * extended by the level's reach, are pruned. By the region's own bounds: octants whose bodies cannot meet the region
