@@ -4,7 +4,8 @@
 #   cmake -D SOURCE=page/index.html -D OUTPUT=page_html.c [-D MODULE=octreel.wasm.letters] -P embed_page.cmake
 # the arrays are page_html_head and page_html_tail. A page with @MODULE@ in it also gets page_html_plays: whether there is
 # a module. With a module the styles and scripts marked data-packed are compressed, too: that makes them three times
-# smaller. page.c then compresses the facts. Without one they are plain, since packing needs tools that only a build with a module needs.
+# smaller; and page.c compresses the facts. Without one all is plain, since packing scripts needs tools that only a build
+# with a module needs.
 cmake_minimum_required(VERSION 3.22)
 get_filename_component(name ${OUTPUT} NAME_WE)
 get_filename_component(folder ${SOURCE} DIRECTORY)
