@@ -29,4 +29,7 @@ octree_region random_region(scene_numbers numbers, octree_region_kind kind, uint
 /* A random position for a target, inside or outside of the world. */
 void random_target(scene_numbers numbers, uint64_t *seed, double target[3]);
 
+/* An octree_pair_visitor that adds a pair to a uint64_t, which depends on the order of the pairs. */
+bool add_pair_to_order(const octree_body *a, const octree_body *b, void *order);
+
 #endif

@@ -589,13 +589,6 @@ static void points_of_a_tree_are_bodies_of_one_size(void **state)
     octree_destroy(tree);
 }
 
-static bool add_to_order(const octree_body *a, const octree_body *b, void *context)
-{
-    uint64_t *order = context; /* depends on the order of the pairs */
-    *order = *order * 31 + a->id * 3 + b->id;
-    return true;
-}
-
 /* Two worlds that have nothing in common, but bodies that reach from one into the other. */
 static void bodies_of_separate_worlds_meet(void **state)
 {
@@ -649,8 +642,8 @@ static void set_that_shows_points_follows_the_tree(void **state)
     const octree_box world = cube(-9, 8);
     assert_int_equal(octree_reworld(tree, &world), OCTREE_OK);
     assert_int_equal(octree_bodies_of_points(tree, half, &after), OCTREE_OK);
-    assert_int_equal(octree_bodies_pairs(before, NULL, add_to_order, &order), OCTREE_OK);
-    assert_int_equal(octree_bodies_pairs(after, NULL, add_to_order, &order_after), OCTREE_OK);
+    assert_int_equal(octree_bodies_pairs(before, NULL, add_pair_to_order, &order), OCTREE_OK);
+    assert_int_equal(octree_bodies_pairs(after, NULL, add_pair_to_order, &order_after), OCTREE_OK);
     assert_int_equal(order, order_after);
     octree_bodies_destroy(before);
     octree_bodies_destroy(after);

@@ -115,19 +115,24 @@ static void small_bodies_share_a_level_after_a_bulk_insertion(void **state)
     octree_bodies_destroy(single);
 }
 
+/* Insert BODIES bodies into an empty set, count the levels that have bodies, and destroy the set. */
+static void assert_levels(octree_bodies *set, const octree_body *bodies, unsigned expected)
+{
+    assert_int_equal(octree_bodies_insert_many(set, bodies, BODIES, NULL, NULL), OCTREE_OK);
+    assert_int_equal(count_levels(set), expected);
+    octree_bodies_destroy(set);
+}
+
 /* The leaves of a dense cluster are small beside the grid whose counts are known. */
 static void dense_cluster_has_a_small_floor(void **state)
 {
     (void)state;
     static octree_body bodies[BODIES];
-    octree_bodies *set = make_set(cube(-8, 8), NULL);
     make_decades(bodies, BODIES, 3);
     for (size_t i = 0; i < BODIES; i++)
         for (int k = 0; k < 3; k++)
             bodies[i].position[k] /= 1024;
-    assert_int_equal(octree_bodies_insert_many(set, bodies, BODIES, NULL, NULL), OCTREE_OK);
-    assert_int_equal(count_levels(set), 6);
-    octree_bodies_destroy(set);
+    assert_levels(make_set(cube(-8, 8), NULL), bodies, 6);
 }
 
 /* Whole numbers are on planes of the grid, where the computed key of a coordinate is not certain. */
@@ -135,14 +140,11 @@ static void bodies_on_planes_of_the_grid_count(void **state)
 {
     (void)state;
     static octree_body bodies[BODIES];
-    octree_bodies *set = make_set(cube(-8, 8), NULL);
     make_decades(bodies, BODIES, 3);
     for (size_t i = 0; i < BODIES; i++)
         for (int k = 0; k < 3; k++)
             bodies[i].position[k] = floor(bodies[i].position[k]);
-    assert_int_equal(octree_bodies_insert_many(set, bodies, BODIES, NULL, NULL), OCTREE_OK);
-    assert_int_equal(count_levels(set), 3);
-    octree_bodies_destroy(set);
+    assert_levels(make_set(cube(-8, 8), NULL), bodies, 3);
 }
 
 /* One body in twenty is in a dense cluster: the leaves of the others decide. */
@@ -150,14 +152,11 @@ static void few_crowded_bodies_do_not_change_the_floor(void **state)
 {
     (void)state;
     static octree_body bodies[BODIES];
-    octree_bodies *set = make_set(cube(-8, 8), NULL);
     make_decades(bodies, BODIES, 3);
     for (size_t i = 0; i < BODIES; i += 20)
         for (int k = 0; k < 3; k++)
             bodies[i].position[k] /= 1024;
-    assert_int_equal(octree_bodies_insert_many(set, bodies, BODIES, NULL, NULL), OCTREE_OK);
-    assert_int_equal(count_levels(set), 3);
-    octree_bodies_destroy(set);
+    assert_levels(make_set(cube(-8, 8), NULL), bodies, 3);
 }
 
 /* At most 21 levels, or as many as the definition says, divide crowds. */
@@ -172,9 +171,7 @@ static void floor_is_that_of_the_deepest_leaves(void **state)
     for (size_t i = 0; i < BODIES; i++)
         for (int k = 0; k < 3; k++)
             bodies[i].half[k] = fmin(bodies[i].half[k], 5.9);
-    assert_int_equal(octree_bodies_insert_many(set, bodies, BODIES, NULL, NULL), OCTREE_OK);
-    assert_int_equal(count_levels(set), 1);
-    octree_bodies_destroy(set);
+    assert_levels(set, bodies, 1);
 }
 
 static void refused_bodies_do_not_count(void **state)
