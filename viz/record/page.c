@@ -241,16 +241,22 @@ bool page_add_tick(page_writer *w, const char *path, const char *line, size_t si
     return ok;
 }
 
+static bool write_packed_facts(page_writer *w, octreel_error *error)
+{
+    size_t size;
+    unsigned char *facts = packer_end(&w->facts, &size);
+    if (!facts)
+        return error_no_memory(error);
+    write_letters(w->out, facts, size);
+    free(facts);
+    return true;
+}
+
 static bool begin_session_element(page_writer *w, octreel_error *error)
 {
-    size_t size = 0;
     add_repetition_count(w);
-    unsigned char *facts = page_html_plays ? packer_end(&w->facts, &size) : NULL;
-    if (page_html_plays && !facts)
-        return error_no_memory(error);
-    if (facts)
-        write_letters(w->out, facts, size);
-    free(facts);
+    if (page_html_plays && !write_packed_facts(w, error))
+        return false;
     fputs("</script>\n<script type=\"application/json\" id=\"session\">", w->out);
     return true;
 }

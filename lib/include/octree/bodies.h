@@ -3,8 +3,8 @@
  *
  * A body is a position (the centre of its box), three half extents and the caller's 64-bit id. Its box is closed and
  * spans the real numbers position - half to position + half, which are not rounded. Each triple (position, half, id) is
- * stored once. The position must lie in the world; the box may reach beyond it. The world of
- * a set stays as it is: choose a large one.
+ * stored once. The position must lie in the world; the box may reach beyond it. The world of a set stays as it is:
+ * choose a large one.
  *
  * How it works. Bodies are divided by size into at most twelve levels, and each level is an octree of their positions
  * (octree.h). Each node of the tree has a box around all bodies in and below it, as in a bounding volume hierarchy, and

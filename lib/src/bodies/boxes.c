@@ -38,6 +38,19 @@ static fitting make_fitting(const level *l)
 
 /* ---- Compute a box ------------------------------------------------------------------------------------------ */
 
+static octree_box make_empty_box(void)
+{
+    return (octree_box){{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
+}
+
+static void include_box(octree_box *around, const octree_box *box)
+{
+    for (int k = 0; k < 3; k++) {
+        around->min[k] = box->min[k] < around->min[k] ? box->min[k] : around->min[k];
+        around->max[k] = larger(box->max[k], around->max[k]);
+    }
+}
+
 static octree_box box_of_points(const fitting *f, const octree_point *points, uint32_t count)
 {
     octree_box box;

@@ -24,19 +24,6 @@ static inline double find_farthest(const level *l, int axis, double origin)
     return larger(fabs(l->tree->axes[axis].min - origin), fabs(l->tree->axes[axis].max - origin));
 }
 
-static inline octree_box make_empty_box(void)
-{
-    return (octree_box){{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
-}
-
-static inline void include_box(octree_box *around, const octree_box *box)
-{
-    for (int k = 0; k < 3; k++) {
-        around->min[k] = box->min[k] < around->min[k] ? box->min[k] : around->min[k];
-        around->max[k] = larger(box->max[k], around->max[k]);
-    }
-}
-
 static inline bool contains_box(const octree_box *around, const octree_box *box)
 {
     bool contains = true;

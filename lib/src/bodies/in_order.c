@@ -21,20 +21,30 @@ typedef struct key {
 /* The keys of as many hits are kept, those at the top of the heap. Others are measured when they are needed. */
 enum { KEPT_KEYS = 32 };
 
-typedef struct ordered_search {
-    const octree_bodies *set;
+typedef struct ordered_search ordered_search;
+
+/* What the search for neighbours and the cast do differently. */
+typedef struct search_kind {
+    /* Prepare the bounds for a level. */
+    query_bounds (*prepare)(const ordered_search *s, const level *l);
     /* Compute lower bounds of the keys of the bodies in the eight octants of a cell, HUGE_VAL if no such body counts;
-     * and of the bodies of a leaf, as bound_squares() does. */
-    void (*bound)(const query_bounds *b, const cell_halves *h, double bounds[8]);
+     * in the boxes of siblings; and of the bodies of a leaf. See bounds.h. */
+    void (*bound_octants)(const query_bounds *b, const cell_halves *h, double bounds[8]);
+    unsigned (*bound_boxes)(const query_bounds *b, const sibling_boxes *boxes, double cut, double bounds[8]);
     uint64_t (*bound_bodies)(const query_bounds *b, const octree_point *points, unsigned count, double cut,
                              double *bounds);
     /* Compute the key of a body. Returns false if the body does not count. */
-    bool (*measure)(const struct ordered_search *s, const octree_body *body, key *k);
+    bool (*measure)(const ordered_search *s, const octree_body *body, key *k);
     /* Returns the sign of the key of `a` minus that of `b`, in real numbers. */
-    int (*compare)(const struct ordered_search *s, const octree_body *a, const octree_body *b);
-    double (*finish)(const struct ordered_search *s, const octree_body *body); /* Returns octree_hit.at. */
-    const double *target;                                                      /* nearest: the target; null for casts */
-    double radius; /* HUGE_VAL: there is none, as in a cast */
+    int (*compare)(const ordered_search *s, const octree_body *a, const octree_body *b);
+    double (*finish)(const ordered_search *s, const octree_body *body); /* Returns octree_hit.at. */
+} search_kind;
+
+struct ordered_search {
+    const search_kind *kind;
+    const octree_bodies *set;
+    const double *target; /* nearest: the target; null for casts */
+    double radius;        /* HUGE_VAL: there is none, as in a cast */
     double scale;
     cast cast;
     query_bounds bounds; /* for the bodies of the current level */
@@ -48,9 +58,14 @@ typedef struct ordered_search {
     double cut;      /* nodes and bodies whose bound exceeds this are skipped: min(limit * shrink, farthest, DBL_MAX) */
     const level *level;
     meter meter;
-} ordered_search;
+};
 
 /* ---- Keys --------------------------------------------------------------------------------------------------- */
+
+static query_bounds prepare_distances(const ordered_search *s, const level *l)
+{
+    return prepare_squares(l, s->target);
+}
 
 static bool measure_distance(const ordered_search *s, const octree_body *body, key *k)
 {
@@ -67,6 +82,21 @@ static int compare_distances(const ordered_search *s, const octree_body *a, cons
 static double finish_distance(const ordered_search *s, const octree_body *body)
 {
     return body_distance(body, s->target);
+}
+
+static const search_kind by_distance = {
+    .prepare = prepare_distances,
+    .bound_octants = bound_squares_of_octants,
+    .bound_boxes = bound_squares_of_boxes,
+    .bound_bodies = bound_squares,
+    .measure = measure_distance,
+    .compare = compare_distances,
+    .finish = finish_distance,
+};
+
+static query_bounds prepare_first_times(const ordered_search *s, const level *l)
+{
+    return prepare_times(l, &s->cast);
 }
 
 static bool measure_time(const ordered_search *s, const octree_body *body, key *k)
@@ -87,6 +117,16 @@ static double finish_time(const ordered_search *s, const octree_body *body)
     return cast_first_time(&s->cast, body);
 }
 
+static const search_kind by_time = {
+    .prepare = prepare_first_times,
+    .bound_octants = bound_times_of_octants,
+    .bound_boxes = bound_times_of_boxes,
+    .bound_bodies = bound_times,
+    .measure = measure_time,
+    .compare = compare_first_times,
+    .finish = finish_time,
+};
+
 /* ---- The heap of the best bodies ---------------------------------------------------------------------------- */
 
 static key key_of_hit(const ordered_search *s, size_t at)
@@ -94,7 +134,7 @@ static key key_of_hit(const ordered_search *s, size_t at)
     key k;
     if (at < KEPT_KEYS)
         return s->keys[at];
-    s->measure(s, &s->hits[at].body, &k);
+    s->kind->measure(s, &s->hits[at].body, &k);
     return k;
 }
 
@@ -109,7 +149,7 @@ static int compare_by_key(const ordered_search *s, const octree_body *a, key x, 
 {
     if (fabs(x.value - y.value) > x.error + y.error)
         return x.value < y.value ? -1 : 1;
-    const int order = x.error + y.error == 0 ? 0 : s->compare(s, a, b);
+    const int order = x.error + y.error == 0 ? 0 : s->kind->compare(s, a, b);
     return order ? order : octree_compare_bodies(a, b);
 }
 
@@ -185,7 +225,7 @@ static void sort_hits(ordered_search *s)
         sift_down(s, left - 1);
     }
     for (size_t i = 0; i < s->count; i++)
-        s->hits[i].at = s->finish(s, &s->hits[i].body);
+        s->hits[i].at = s->kind->finish(s, &s->hits[i].body);
 }
 
 /* ---- The descent -------------------------------------------------------------------------------------------- */
@@ -209,7 +249,7 @@ static void measure_and_offer(ordered_search *s, const octree_point *point)
     const octree_body *body = load_body(s->set, point, &scratch);
     if (comes_after_all(s, body))
         return;
-    if (s->measure(s, body, &k) && !(k.value - k.error > s->limit) && is_within_radius(s, body) &&
+    if (s->kind->measure(s, body, &k) && !(k.value - k.error > s->limit) && is_within_radius(s, body) &&
         !is_skipped(s->meter.how, body, s->target))
         offer_body(s, body, k);
 }
@@ -219,7 +259,7 @@ static void measure_and_offer(ordered_search *s, const octree_point *point)
 static void scan_points(ordered_search *s, const octree_point *points, unsigned count)
 {
     double bounds[SCAN_POINTS + 1];
-    uint64_t near = s->bound_bodies(&s->bounds, points, count, s->cut, bounds);
+    uint64_t near = s->kind->bound_bodies(&s->bounds, points, count, s->cut, bounds);
     if (near == 0)
         return;
     unsigned first = bits_lowest(near);
@@ -259,11 +299,9 @@ static unsigned bound_children(const ordered_search *s, const node *n, const cel
     unsigned near = 0;
     if (has_boxes(&s->level->tree->store)) {
         const sibling_boxes boxes = boxes_of_children(n);
-        near = s->target ? bound_squares_of_boxes(&s->bounds, &boxes, s->cut, bounds)
-                         : bound_times_of_boxes(&s->bounds, &boxes, s->cut, bounds);
-        return spread_mask(n, near);
+        return spread_mask(n, s->kind->bound_boxes(&s->bounds, &boxes, s->cut, bounds));
     }
-    s->bound(&s->bounds, h, bounds);
+    s->kind->bound_octants(&s->bounds, h, bounds);
     for (unsigned octant = 0; octant < 8; octant++)
         near |= mask_if(!(bounds[octant] > s->cut), 1u << octant);
     return near & n->octants;
@@ -320,7 +358,7 @@ static void search_level(ordered_search *s, const level *l)
 {
     cell_halves halves;
     s->level = l;
-    s->bounds = s->target ? prepare_squares(l, s->target) : prepare_times(l, &s->cast);
+    s->bounds = s->kind->prepare(s, l);
     if (!has_boxes(&l->tree->store))
         divide_root_cell(l, &halves);
     descend(s, &l->tree->root, root_cell(), &halves, OCTREE_ROOT);
@@ -369,12 +407,8 @@ octree_status octree_bodies_nearest(const octree_bodies *bodies, const double ta
         status = radius == HUGE_VAL ? OCTREE_OK : check_length(radius);
     if (status != OCTREE_OK)
         return status;
-    ordered_search s = {.set = bodies,
-                        .bound = bound_squares_of_octants,
-                        .bound_bodies = bound_squares,
-                        .measure = measure_distance,
-                        .compare = compare_distances,
-                        .finish = finish_distance,
+    ordered_search s = {.kind = &by_distance,
+                        .set = bodies,
                         .target = target,
                         .radius = radius,
                         .accept = {accept, context},
@@ -406,12 +440,8 @@ octree_status octree_bodies_cast(const octree_bodies *bodies, const octree_regio
         status = OCTREE_BAD_OPTION;
     if (status != OCTREE_OK)
         return status;
-    ordered_search s = {.set = bodies,
-                        .bound = bound_times_of_octants,
-                        .bound_bodies = bound_times,
-                        .measure = measure_time,
-                        .compare = compare_first_times,
-                        .finish = finish_time,
+    ordered_search s = {.kind = &by_time,
+                        .set = bodies,
                         .accept = {accept, context},
                         .hits = hits,
                         .k = k,

@@ -19,7 +19,7 @@
 enum { LEAST_SORTED = 1024 };
 
 /* The depth of the grid. Crowds are sorted finely, but in small sets less so, because each digit of the radix sort
- * takes some 4 % of the time in which all bodies of a set are replaced. */
+ * takes time. */
 enum { DEPTH = 7, DEPTH_OF_MANY = 10, MANY = 1 << 18 };
 
 /* A digit of the radix sort. Two have the cells of a grid of depth 7, three those of depth 10, and no_cell(). */
@@ -74,13 +74,18 @@ static void sort_by_digit(const uint64_t *from, uint64_t *to, size_t count, unsi
         to[ends[(from[i] >> shift) % DIGIT_VALUES]++] = from[i];
 }
 
+/* The keys, and room to sort them. */
+static size_t bytes_of_order(const row_order *order)
+{
+    return 2 * order->count * sizeof *order->keys;
+}
+
 row_order make_order(octree_bodies *set, const octree_body *added, size_t count)
 {
     row_order order = {.count = count, .depth = count < MANY ? DEPTH : DEPTH_OF_MANY};
     if (count == 0 || (count < LEAST_SORTED && set->rows.count > 0))
         return order;
-    order.size = 2 * count * sizeof *order.keys;
-    order.keys = arena_allocate(&set->memory, order.size);
+    order.keys = arena_allocate(&set->memory, bytes_of_order(&order));
     if (!order.keys)
         return order;
     const unsigned digits = (3 * order.depth + DIGIT_BITS) / DIGIT_BITS;
@@ -93,7 +98,7 @@ row_order make_order(octree_bodies *set, const octree_body *added, size_t count)
 
 void free_order(octree_bodies *set, const row_order *order)
 {
-    arena_free(&set->memory, order->keys, order->size);
+    arena_free(&set->memory, order->keys, bytes_of_order(order));
 }
 
 /* ---- The floor ---------------------------------------------------------------------------------------------- */

@@ -8,9 +8,9 @@
 /* The order in which rows are added: that of the cells of a fine grid, so that the bodies of a leaf are close together
  * in memory. Null keys: the order of the caller, for few bodies or if memory is short. */
 typedef struct row_order {
-    uint64_t *keys;     /* sorted; the upper half is the number of a cell, the lower half the index of a body; owned */
-    size_t count, size; /* size: in bytes */
-    unsigned depth;     /* of the grid */
+    uint64_t *keys; /* sorted; the upper half is the number of a cell, the lower half the index of a body; owned */
+    size_t count;
+    unsigned depth; /* of the grid */
 } row_order;
 
 row_order make_order(octree_bodies *set, const octree_body *added, size_t count);
