@@ -293,9 +293,11 @@ static octree_status run_queries_and_publish_tick(octree_game *game, const octre
     if (game->tick.number == 0 && game->tick.has_player && !input->gap)
         ok = test_collision(game, game->tick.player);
     ok = ok && (input->gap ? game_finish_queries(game) : run_queries_and_list_shapes(game, input));
-    ok = ok && (input->gap || game_list_pairs(game)) && summarize_tree(game) && game_list_movers(game);
-    if (ok)
+    ok = ok && (input->gap || game_list_pairs(game)) && summarize_tree(game);
+    if (ok) {
+        game_settle_movers(game);
         publish_tick(game);
+    }
     return ok ? OCTREE_OK : OCTREE_NO_MEMORY;
 }
 
@@ -326,6 +328,8 @@ static octree_status start_game(octree_game *game)
     if (status != OCTREE_OK)
         return status;
     store_player_positions(game);
+    if (!game_list_movers(game))
+        return OCTREE_NO_MEMORY;
     const octree_input input = session_input(session, 0);
     return run_queries_and_publish_tick(game, &input);
 }
@@ -408,7 +412,7 @@ static void record_edits(octree_tick *tick, const octree_input *input)
 static bool apply_changes(octree_game *game, const octree_input *input)
 {
     record_edits(&game->tick, input);
-    return game_apply_edits(game, input) && game_move_bodies(game) && step_player(game);
+    return game_apply_edits(game, input) && game_list_movers(game) && game_move_bodies(game) && step_player(game);
 }
 
 /* Play one tick. `given` is the input of the tick; if `given` is null, the session's input is used. */
@@ -424,10 +428,10 @@ static octree_status play_tick(octree_game *game, char key, const octree_input *
         return OCTREE_BAD_KEY;
     const octree_input own = session_input(game->session, game->tick.number + 1), *input = given ? given : &own;
     begin_tick(game, input->gap ? '.' : key);
-    /* in a gap the player makes no step */
+    /* in a gap nothing moves */
     if (input->gap)
         store_player_positions(game);
-    else if (!apply_changes(game, input))
+    if (!(input->gap ? game_list_movers(game) : apply_changes(game, input)))
         return OCTREE_NO_MEMORY;
     return run_queries_and_publish_tick(game, input);
 }

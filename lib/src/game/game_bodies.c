@@ -287,16 +287,17 @@ static void add_move(motion *m, const bodies *all, size_t index, const double to
     m->bodies[m->count++] = (uint32_t)index;
 }
 
+/* Collect the moves of the game's movers, which game_list_movers() has listed. */
 static void collect_moves_by_velocity(const octree_game *game, motion *m)
 {
+    const octree_game_body *now = game->movers.items;
     for (size_t i = 0; i < game->bodies.items.count; i++) {
         const moving_body *body = &bodies_items(&game->bodies)[i];
-        /* Skip bodies at rest: body_at_tick() would turn a coordinate of -0.0 into +0.0. */
         if (!is_moving(body->velocity))
             continue;
-        const octree_game_body now = body_at_tick(body, &game->session->tree.world, game->tick.number);
-        if (memcmp(now.position, body->position, sizeof now.position) != 0)
-            add_move(m, &game->bodies, i, now.position);
+        if (memcmp(now->position, body->position, sizeof now->position) != 0)
+            add_move(m, &game->bodies, i, now->position);
+        now++;
     }
 }
 
@@ -385,6 +386,21 @@ bool game_apply_edits(octree_game *game, const octree_input *input)
     return ok;
 }
 
+bool game_list_movers(octree_game *game)
+{
+    const bodies *all = &game->bodies;
+    for (size_t i = 0; all->movers && i < all->items.count; i++) {
+        const moving_body *body = &bodies_items(all)[i];
+        /* Skip bodies at rest: body_at_tick() would turn a coordinate of -0.0 into +0.0. */
+        if (!is_moving(body->velocity))
+            continue;
+        const octree_game_body now = body_at_tick(body, &game->session->tree.world, game->tick.number);
+        if (!list_push(&game->memory, &game->movers, &now, sizeof now))
+            return false;
+    }
+    return true;
+}
+
 bool game_move_bodies(octree_game *game)
 {
     motion m;
@@ -399,20 +415,18 @@ bool game_move_bodies(octree_game *game)
     return ok;
 }
 
-bool game_list_movers(octree_game *game)
+void game_settle_movers(octree_game *game)
 {
-    const bodies *all = &game->bodies;
-    for (size_t i = 0; all->movers && i < all->items.count; i++) {
-        const moving_body *body = &bodies_items(all)[i];
-        if (!is_moving(body->velocity))
+    octree_game_body *movers = game->movers.items;
+    const moving_body *body = bodies_items(&game->bodies);
+    size_t kept = 0;
+    for (size_t i = 0; i < game->movers.count; i++, body++) {
+        while (!is_moving(body->velocity))
+            body++;
+        if (!is_moving(movers[i].velocity))
             continue;
-        octree_game_body now = body_at_tick(body, &game->session->tree.world, game->tick.number);
-        /* Show the position that the tree stores. The stored position differs from the computed position if a full leaf
-         * refused the move. */
-        memcpy(now.position, body->position, sizeof now.position);
-        /* A body whose path overflows (reflect_path()) does not move. */
-        if (is_moving(now.velocity) && !list_push(&game->memory, &game->movers, &now, sizeof now))
-            return false;
+        movers[kept] = movers[i];
+        memcpy(movers[kept++].position, body->position, sizeof body->position);
     }
-    return true;
+    game->movers.count = kept;
 }

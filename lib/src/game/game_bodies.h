@@ -62,11 +62,14 @@ octree_status check_numbers_of_body(const octree_game_body *body);
  * `status` as the reason. Returns false if memory runs out. */
 bool game_add_body(octree_game *game, const octree_game_body *body, octree_status status);
 
-/* The parts of a tick. game_apply_edits() applies the edits in order. game_move_bodies() moves each body by its
- * velocity. game_list_movers() lists the bodies with a velocity, as they are after the tick. All three return false if
- * memory runs out. */
+/* The parts of a tick, in this order. game_apply_edits() applies the edits in order. game_list_movers() lists the
+ * bodies with a velocity and where each is at this tick; no later part adds or removes a body. game_move_bodies() moves
+ * these bodies. The three return false if memory runs out. game_settle_movers() gives each mover the position that the
+ * tree stores, which is another one if a full leaf refused the move, and drops bodies whose path overflows
+ * (reflect_path()), because they do not move. */
 bool game_apply_edits(octree_game *game, const octree_input *input);
-bool game_move_bodies(octree_game *game);
 bool game_list_movers(octree_game *game);
+bool game_move_bodies(octree_game *game);
+void game_settle_movers(octree_game *game);
 
 #endif
