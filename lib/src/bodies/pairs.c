@@ -57,7 +57,7 @@ static void pair_with_rest(pairing *p, const snapshot *s, size_t body, size_t fi
     for (; first < end && !p->stopped; first += BOXES_AT_ONCE) {
         uint64_t left = find_meeting_boxes(&s->boxes, first, size_of_chunk(first, end), &box);
         for (; left; left &= left - 1)
-            visit_if_pair(p, &s->bodies[body], &s->bodies[first + bits_lowest(left)]);
+            visit_if_pair(p, s->bodies[body], s->bodies[first + bits_lowest(left)]);
     }
 }
 
@@ -70,12 +70,10 @@ static void pair_within_leaf(pairing *p, const snapshot *s, const cluster *leaf)
 
 static void add_candidate(candidates *c, const snapshot *s, size_t index)
 {
-    for (int k = 0; k < 3; k++) {
-        c->boxes.min[k][c->count] = s->boxes.min[k][index];
-        c->boxes.max[k][c->count] = s->boxes.max[k][index];
-    }
-    prefetch_memory(&s->bodies[index]);
-    c->bodies[c->count++] = &s->bodies[index];
+    const float_box box = box_in_columns(&s->boxes, index);
+    store_in_columns(&c->boxes, c->count, &box);
+    prefetch_memory(s->bodies[index]);
+    c->bodies[c->count++] = s->bodies[index];
 }
 
 /* Gather the bodies first .. first + count - 1 that meet a box. */
@@ -94,19 +92,9 @@ static void pair_with_candidates(pairing *p, const octree_body *body, const floa
         visit_if_pair(p, body, c->bodies[bits_lowest(left)]);
 }
 
-static float_box intersect_boxes(const float_box *a, const float_box *b)
-{
-    float_box both;
-    for (int k = 0; k < 3; k++) {
-        both.min[k] = a->min[k] > b->min[k] ? a->min[k] : b->min[k];
-        both.max[k] = a->max[k] < b->max[k] ? a->max[k] : b->max[k];
-    }
-    return both;
-}
-
 static void pair_leaves(pairing *p, const snapshot *x, const cluster *a, const snapshot *y, const cluster *b)
 {
-    const float_box common = intersect_boxes(&a->box, &b->box);
+    const float_box common = intersect_float_boxes(&a->box, &b->box);
     const size_t end_a = a->first + a->count, end_b = b->first + b->count;
     candidates of_b;
     for (int k = 0; k < 3; k++) {
@@ -120,7 +108,7 @@ static void pair_leaves(pairing *p, const snapshot *x, const cluster *a, const s
             for (; left; left &= left - 1) {
                 const size_t body = i + bits_lowest(left);
                 const float_box box = box_in_columns(&x->boxes, body);
-                pair_with_candidates(p, &x->bodies[body], &box, &of_b);
+                pair_with_candidates(p, x->bodies[body], &box, &of_b);
             }
         }
     }
@@ -128,19 +116,10 @@ static void pair_leaves(pairing *p, const snapshot *x, const cluster *a, const s
 
 /* ---- Nodes -------------------------------------------------------------------------------------------------- */
 
-/* Without branches, because they would be unpredictable. */
-static inline bool boxes_meet(const float_box *a, const float_box *b)
-{
-    bool meet = true;
-    for (int k = 0; k < 3; k++)
-        meet &= (a->min[k] <= b->max[k]) & (b->min[k] <= a->max[k]);
-    return meet;
-}
-
 /* Visit the pairs of one body in cluster `a` and one body in cluster `b`, which is another cluster. */
 static void pair_clusters(pairing *p, const snapshot *x, const cluster *a, const snapshot *y, const cluster *b)
 {
-    if (p->stopped || !boxes_meet(&a->box, &b->box))
+    if (p->stopped || !float_boxes_meet(&a->box, &b->box))
         return;
     if (a->child_count == 0 && b->child_count == 0) {
         pair_leaves(p, x, a, y, b);

@@ -3,7 +3,7 @@
  *
  * The order of points in a leaf depends on the history of the tree, and rows lie anywhere in memory. In a snapshot the
  * bodies of a leaf are sorted, so that the results of an algorithm are a function of the bodies, and all bodies lie in
- * the order of the leaves, so that the algorithm runs through memory in order. Copying costs O(n M).
+ * the order of the leaves, so that the algorithm runs through memory in order. It costs O(n M).
  *
  * Boxes are floats in columns, so that four are compared at once and without branches. Each step from the face of a
  * body to a float is monotone: the sum, the difference, the product and the conversion. So bodies that have a common
@@ -53,60 +53,6 @@ static float_box make_float_box(const float_frame *frame, const octree_body *bod
     return box;
 }
 
-static float_box make_empty_float_box(void)
-{
-    return (float_box){{HUGE_VALF, HUGE_VALF, HUGE_VALF}, {-HUGE_VALF, -HUGE_VALF, -HUGE_VALF}};
-}
-
-static void include_float_box(float_box *around, const float_box *box)
-{
-    for (int k = 0; k < 3; k++) {
-        around->min[k] = box->min[k] < around->min[k] ? box->min[k] : around->min[k];
-        around->max[k] = box->max[k] > around->max[k] ? box->max[k] : around->max[k];
-    }
-}
-
-#ifdef OCTREE_SSE2
-static uint64_t find_meeting(const float *const min[3], const float *const max[3], size_t count, const float_box *box)
-{
-    uint64_t found = 0;
-    __m128 low[3], high[3];
-    for (int k = 0; k < 3; k++) {
-        low[k] = _mm_set1_ps(box->min[k]);
-        high[k] = _mm_set1_ps(box->max[k]);
-    }
-    for (size_t i = 0; i < count; i += 4) {
-        __m128 meets = _mm_cmple_ps(_mm_loadu_ps(&min[0][i]), high[0]);
-        meets = _mm_and_ps(meets, _mm_cmple_ps(low[0], _mm_loadu_ps(&max[0][i])));
-        for (int k = 1; k < 3; k++) {
-            meets = _mm_and_ps(meets, _mm_cmple_ps(_mm_loadu_ps(&min[k][i]), high[k]));
-            meets = _mm_and_ps(meets, _mm_cmple_ps(low[k], _mm_loadu_ps(&max[k][i])));
-        }
-        found |= (uint64_t)_mm_movemask_ps(meets) << i;
-    }
-    return found & UINT64_MAX >> (BOXES_AT_ONCE - count);
-}
-#else
-static uint64_t find_meeting(const float *const min[3], const float *const max[3], size_t count, const float_box *box)
-{
-    uint64_t found = 0;
-    for (size_t i = 0; i < count; i++) {
-        bool meets = true;
-        for (int k = 0; k < 3; k++)
-            meets &= (min[k][i] <= box->max[k]) & (box->min[k] <= max[k][i]);
-        found |= (uint64_t)meets << i;
-    }
-    return found;
-}
-#endif
-
-uint64_t find_meeting_boxes(const box_columns *boxes, size_t first, size_t count, const float_box *box)
-{
-    const float *const min[3] = {boxes->min[0] + first, boxes->min[1] + first, boxes->min[2] + first};
-    const float *const max[3] = {boxes->max[0] + first, boxes->max[1] + first, boxes->max[2] + first};
-    return count ? find_meeting(min, max, count, box) : 0;
-}
-
 /* ---- Copy the leaves ---------------------------------------------------------------------------------------- */
 
 static inline bool comes_before(const octree_body *a, const octree_body *b)
@@ -114,55 +60,52 @@ static inline bool comes_before(const octree_body *a, const octree_body *b)
     return a->id < b->id || (a->id == b->id && octree_compare_bodies(a, b) < 0);
 }
 
+static int compare_bodies_at(const void *a, const void *b)
+{
+    return octree_compare_bodies(*(const octree_body *const *)a, *(const octree_body *const *)b);
+}
+
 /* Insertion sort: leaves are small, and most ids differ. */
-static void sort_bodies(octree_body *bodies, size_t count)
+static void sort_bodies(const octree_body **bodies, size_t count)
 {
     if (count > BOXES_AT_ONCE) {
-        qsort(bodies, count, sizeof *bodies, octree_compare_bodies);
+        qsort(bodies, count, sizeof *bodies, compare_bodies_at);
         return;
     }
     for (size_t i = 1; i < count; i++) {
-        const octree_body body = bodies[i];
+        const octree_body *body = bodies[i];
         size_t at = i;
-        for (; at > 0 && comes_before(&body, &bodies[at - 1]); at--)
+        for (; at > 0 && comes_before(body, bodies[at - 1]); at--)
             bodies[at] = bodies[at - 1];
         bodies[at] = body;
     }
 }
 
-static void store_box(snapshot *s, size_t index, float_box *around)
+/* List the bodies of a leaf, of which `first` is the index of the first one, and include their boxes in one box. */
+static void list_leaf(snapshot *s, const octree_bodies *set, const node *leaf, size_t first, float_box *around)
 {
-    const float_box box = make_float_box(&s->frame, &s->bodies[index]);
-    for (int k = 0; k < 3; k++) {
-        s->boxes.min[k][index] = box.min[k];
-        s->boxes.max[k][index] = box.max[k];
-    }
-    include_float_box(around, &box);
-}
-
-static void copy_leaf(snapshot *s, const octree_bodies *set, const node *leaf, size_t first, float_box *around)
-{
-    octree_body *bodies = s->bodies + first;
-    for (uint32_t i = 0; !set->points && i < leaf->count && i < POOL_MAX_UNITS; i++)
-        prefetch_memory(row_at(&set->rows, row_of_point(&leaf_points(leaf)[i])));
+    const octree_body **bodies = s->bodies + first;
     for (uint32_t i = 0; i < leaf->count; i++) {
-        octree_body scratch;
-        bodies[i] = *load_body(set, &leaf_points(leaf)[i], &scratch);
+        bodies[i] = load_body(set, &leaf_points(leaf)[i], s->made ? &s->made[first + i] : NULL);
+        prefetch_memory(bodies[i]);
     }
     sort_bodies(bodies, leaf->count);
-    for (uint32_t i = 0; i < leaf->count; i++)
-        store_box(s, first + i, around);
+    for (uint32_t i = 0; i < leaf->count; i++) {
+        const float_box box = make_float_box(&s->frame, bodies[i]);
+        store_in_columns(&s->boxes, first + i, &box);
+        include_float_box(around, &box);
+    }
 }
 
 /* ---- Copy the nodes ----------------------------------------------------------------------------------------- */
 
-/* Copy the bodies of a node, of which `first` is the index of the first one, and include their boxes in one box. */
-static void copy_bodies(snapshot *s, const octree_bodies *set, const node *n, size_t first, float_box *around)
+/* List the bodies of a node, as list_leaf() does. */
+static void list_bodies(snapshot *s, const octree_bodies *set, const node *n, size_t first, float_box *around)
 {
     if (!n->octants)
-        copy_leaf(s, set, n, first, around);
+        list_leaf(s, set, n, first, around);
     for (unsigned i = 0; i < bits_count8(n->octants); i++) {
-        copy_bodies(s, set, &children_of(n)[i], first, around);
+        list_bodies(s, set, &children_of(n)[i], first, around);
         first += children_of(n)[i].count;
     }
 }
@@ -183,26 +126,29 @@ static bool copy_node(snapshot *s, const octree_bodies *set, const node *n, size
         include_float_box(&made.box, &cluster_at(s, made.child + i)->box);
     }
     if (children == 0)
-        copy_bodies(s, set, n, first, &made.box);
+        list_bodies(s, set, n, first, &made.box);
     ((cluster *)s->clusters.items)[at] = made;
     return true;
 }
 
+enum { COLUMN_BYTES = 6 * sizeof(float) };
+
 /* The columns are one allocation. */
-static bool allocate_bodies(snapshot *s, size_t count)
+static bool allocate_bodies(snapshot *s, size_t count, bool makes_bodies)
 {
-    if (count > SIZE_MAX / (6 * sizeof(float) + sizeof(octree_body)) - BOX_PADDING)
+    if (count > SIZE_MAX / (COLUMN_BYTES + sizeof(octree_body)) - BOX_PADDING)
         return false;
     s->room = count + BOX_PADDING;
     s->bodies = arena_allocate(s->memory, s->room * sizeof *s->bodies);
-    float *columns = s->bodies ? arena_allocate(s->memory, 6 * s->room * sizeof *columns) : NULL;
+    s->made = makes_bodies ? arena_allocate(s->memory, s->room * sizeof *s->made) : NULL;
+    float *columns = arena_allocate(s->memory, s->room * COLUMN_BYTES);
     for (size_t k = 0; columns && k < 3; k++) {
         s->boxes.min[k] = columns + k * s->room;
         s->boxes.max[k] = columns + (k + 3) * s->room;
         memset(&s->boxes.min[k][count], 0, BOX_PADDING * sizeof(float));
         memset(&s->boxes.max[k][count], 0, BOX_PADDING * sizeof(float));
     }
-    return columns != NULL;
+    return s->bodies && (s->made || !makes_bodies) && columns;
 }
 
 bool snapshot_make(snapshot *s, const octree_bodies *set, const level *l, const float_frame *frame, arena *memory)
@@ -211,13 +157,14 @@ bool snapshot_make(snapshot *s, const octree_bodies *set, const level *l, const 
     *s = (snapshot){.memory = memory, .frame = *frame};
     s->capacity =
         leaf_capacity < CLUSTER_AT_MOST / LEAVES_IN_CLUSTER ? leaf_capacity * LEAVES_IN_CLUSTER : CLUSTER_AT_MOST;
-    return allocate_bodies(s, octree_count(l->tree)) && list_append(memory, &s->clusters, sizeof(cluster)) &&
-           copy_node(s, set, &l->tree->root, 0, 0);
+    return allocate_bodies(s, octree_count(l->tree), set->points) &&
+           list_append(memory, &s->clusters, sizeof(cluster)) && copy_node(s, set, &l->tree->root, 0, 0);
 }
 
 void snapshot_release(snapshot *s)
 {
     arena_free(s->memory, s->bodies, s->room * sizeof *s->bodies);
-    arena_free(s->memory, s->boxes.min[0], 6 * s->room * sizeof(float));
+    arena_free(s->memory, s->made, s->room * sizeof *s->made);
+    arena_free(s->memory, s->boxes.min[0], s->room * COLUMN_BYTES);
     list_release(s->memory, &s->clusters, sizeof(cluster));
 }

@@ -1,20 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* snapshot.h - a copy of the nodes and bodies of one level, for algorithms that compare many bodies with many. Private.
+/* snapshot.h - the nodes and bodies of one level in arrays, for algorithms that compare many bodies with many. Private.
  */
 #ifndef OCTREE_SNAPSHOT_H
 #define OCTREE_SNAPSHOT_H
 
+#include "float_box.h"
 #include "set.h"
-
-/* A box whose faces are floats: those of bodies, relative to a world and rounded (see snapshot.c). */
-typedef struct float_box {
-    float min[3], max[3];
-} float_box;
-
-/* The boxes of bodies, as one array for each face. */
-typedef struct box_columns {
-    float *min[3], *max[3];
-} box_columns;
 
 /* The bodies of a node: their tight box and their range. A cluster without children may be several leaves of the tree.
  */
@@ -33,35 +24,25 @@ typedef struct float_frame {
 typedef struct snapshot {
     arena *memory;
     float_frame frame;
-    size_t capacity;     /* a node with at most so many bodies is not divided, nor is a leaf */
-    list clusters;       /* of clusters; the first is the root */
-    octree_body *bodies; /* in the order of the leaves of the tree, and in each leaf sorted */
-    box_columns boxes;   /* the boxes of the bodies, in the same order, and BOX_PADDING more that are not used */
-    size_t room;         /* the number of bodies for which memory is allocated */
+    size_t capacity;            /* a node with at most so many bodies is not divided, nor is a leaf */
+    list clusters;              /* of clusters; the first is the root */
+    const octree_body **bodies; /* in the order of the leaves of the tree, and in each leaf sorted */
+    octree_body *made;          /* the bodies of a set that shows points, which has no rows; else null */
+    box_columns boxes;          /* the boxes of the bodies, in the same order, and BOX_PADDING more that are not used */
+    size_t room;                /* the number of bodies for which memory is allocated */
 } snapshot;
-
-/* The greatest number of boxes that one call of find_meeting_boxes() compares, and how many more it may read. */
-enum { BOXES_AT_ONCE = 64, BOX_PADDING = 3 };
 
 /* Make the frame for the common part of two worlds. Boxes can be compared if they have the same frame. */
 float_frame make_float_frame(const octree_box *world, const octree_box *other);
 
-/* Copy a level. Returns false if memory runs out. The caller releases the snapshot in both cases. Cost: O(n M). */
+/* Make the snapshot of a level. Returns false if memory runs out. The caller releases the snapshot in both cases. Cost:
+ * O(n M). */
 bool snapshot_make(snapshot *s, const octree_bodies *set, const level *l, const float_frame *frame, arena *memory);
 void snapshot_release(snapshot *s);
 
 static inline const cluster *cluster_at(const snapshot *s, size_t index)
 {
     return (const cluster *)s->clusters.items + index;
-}
-
-/* Returns a bit mask of the boxes first .. first + count - 1 that meet a box. count <= BOXES_AT_ONCE. */
-uint64_t find_meeting_boxes(const box_columns *boxes, size_t first, size_t count, const float_box *box);
-
-static inline float_box box_in_columns(const box_columns *boxes, size_t index)
-{
-    return (float_box){{boxes->min[0][index], boxes->min[1][index], boxes->min[2][index]},
-                       {boxes->max[0][index], boxes->max[1][index], boxes->max[2][index]}};
 }
 
 #endif
