@@ -163,6 +163,13 @@ static octree_status finish_bulk(bulk *b, size_t *changed)
     return b->failure;
 }
 
+/* A body may lie on two cache lines. */
+static void prefetch_body(const octree_body *body)
+{
+    prefetch_memory(body);
+    prefetch_memory(&body->id);
+}
+
 static void prefetch_row_of(const bulk *b, size_t index, size_t count)
 {
     if (index + PREFETCH_AHEAD < count)
@@ -188,15 +195,31 @@ static void finish_insertion(bulk *b, const pending *p, bool made)
         rows_remove(&b->set->rows, p->row);
 }
 
-static void add_row(bulk *b, size_t index)
+static void add_row(bulk *b, size_t index, uint32_t hash)
 {
     const octree_body *body = &b->from[index];
     const octree_status status = check_body(b->set, body);
-    const uint32_t row = status == OCTREE_OK ? rows_add(&b->set->rows, body) : ROW_NONE;
+    const uint32_t row = status == OCTREE_OK ? rows_add(&b->set->rows, body, hash) : ROW_NONE;
     if (row == ROW_NONE)
         set_status(b, index, status == OCTREE_OK ? OCTREE_DUPLICATE : status);
     else
         collect(b, index, row, find_level(b->set, body->half));
+}
+
+/* Add the rows in their order. The bodies and their slots of the hash table are loaded ahead, because they lie anywhere
+ * in memory. */
+static void add_rows(bulk *b, const row_order *order)
+{
+    uint32_t hashes[PREFETCH_AHEAD];
+    for (size_t i = 0; i < order->count + PREFETCH_AHEAD; i++) {
+        uint32_t *hash = &hashes[i % PREFETCH_AHEAD];
+        if (i >= PREFETCH_AHEAD)
+            add_row(b, body_in_order(order, i - PREFETCH_AHEAD), *hash);
+        if (i < order->count)
+            *hash = rows_prefetch(&b->set->rows, &b->from[body_in_order(order, i)]);
+        if (i + PREFETCH_AHEAD < order->count)
+            prefetch_body(&b->from[body_in_order(order, i + PREFETCH_AHEAD)]);
+    }
 }
 
 octree_status octree_bodies_insert_many(octree_bodies *bodies, const octree_body *added, size_t count,
@@ -214,14 +237,7 @@ octree_status octree_bodies_insert_many(octree_bodies *bodies, const octree_body
     const row_order order = make_order(bodies, added, count);
     if (order.keys && bodies->rows.count == 0)
         choose_floor(bodies, &order);
-    for (size_t i = 0; i < count; i++) {
-        const size_t soon = i + PREFETCH_AHEAD, later = soon + PREFETCH_AHEAD;
-        if (soon < count)
-            rows_prefetch(&bodies->rows, &added[body_in_order(&order, soon)]);
-        if (later < count)
-            prefetch_memory(&added[body_in_order(&order, later)]);
-        add_row(&b, body_in_order(&order, i));
-    }
+    add_rows(&b, &order);
     free_order(bodies, &order);
     make_changes(&b, insert_points, finish_insertion);
     status = finish_bulk(&b, changed);

@@ -10,8 +10,8 @@
  * A slot of the table also holds the hash of its body, so that probing and removing read no rows. The table grows by a
  * half, which wastes less memory than doubling.
  *
- * Cost: 56 bytes a body for the row, 10 to 15 bytes for the hash table; a change reads about two cache lines more than
- * that of a point.
+ * Cost: 56 bytes a body for the row, 10 bytes after a bulk insertion and up to 15 bytes otherwise for the hash table; a
+ * change reads about two cache lines more than that of a point.
  */
 #include "rows.h"
 #include "../exact/point.h"
@@ -127,11 +127,11 @@ static void clear_slot(rows *r, uint32_t gap)
 /* Give the hash table at least 5/4 slots for each of `count` bodies. Returns false if memory runs out. */
 static bool reserve_slots(rows *r, uint64_t count)
 {
-    uint64_t slots = LEAST_SLOTS;
-    while (slots * 4 < count * 5)
-        slots += slots / 2;
-    if (slots <= r->slot_count)
+    const uint64_t needed = count * 5 / 4 + 1, grown = r->slot_count + (uint64_t)r->slot_count / 2;
+    uint64_t slots = needed > grown ? needed : grown;
+    if (needed <= r->slot_count)
         return true;
+    slots = slots < LEAST_SLOTS ? LEAST_SLOTS : slots > UINT32_MAX ? UINT32_MAX : slots;
     const rows old = *r;
     row_slot *made = slots <= SIZE_MAX / sizeof *made ? arena_allocate(r->memory, (size_t)slots * sizeof *made) : NULL;
     if (!made)
@@ -170,9 +170,9 @@ uint32_t rows_find(const rows *r, const octree_body *body)
     return r->slots ? r->slots[find_slot(r, body, hash_body(body))].row - 1 : ROW_NONE;
 }
 
-uint32_t rows_add(rows *r, const octree_body *body)
+uint32_t rows_add(rows *r, const octree_body *body, uint32_t hash)
 {
-    const uint32_t hash = hash_body(body), slot = find_slot(r, body, hash);
+    const uint32_t slot = find_slot(r, body, hash);
     if (r->slots[slot].row)
         return ROW_NONE;
     uint32_t index = r->free;
@@ -216,8 +216,10 @@ void rows_replace(rows *r, uint32_t index, const octree_body *body)
     rows_show(r, index);
 }
 
-void rows_prefetch(const rows *r, const octree_body *body)
+uint32_t rows_prefetch(const rows *r, const octree_body *body)
 {
+    const uint32_t hash = hash_body(body);
     if (r->slots)
-        prefetch_memory(&r->slots[home_of_hash(r, hash_body(body))]);
+        prefetch_memory(&r->slots[home_of_hash(r, hash)]);
+    return hash;
 }

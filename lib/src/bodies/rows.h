@@ -39,8 +39,12 @@ octree_status rows_reserve(rows *r, size_t count);
 /* Returns the index of the row of a body, or ROW_NONE. */
 uint32_t rows_find(const rows *r, const octree_body *body);
 
-/* Add a body, for which there is room. Returns the index of its row, or ROW_NONE if the body is stored already. */
-uint32_t rows_add(rows *r, const octree_body *body);
+/* Start loading the slot of the hash table that is read first to find a body. Returns the body's hash. */
+uint32_t rows_prefetch(const rows *r, const octree_body *body);
+
+/* Add a body with its hash; there must be room. Returns the index of its row, or ROW_NONE if the body is stored
+ * already. */
+uint32_t rows_add(rows *r, const octree_body *body, uint32_t hash);
 
 /* Remove the body of a row: rows_hide() and rows_free() in one. rows_hide() removes a body from the hash table only,
  * and rows_show() restores it; rows_free() frees the row of a hidden body. */
@@ -51,9 +55,6 @@ void rows_free(rows *r, uint32_t index);
 
 /* Replace the body of a row by a body that is not stored yet. */
 void rows_replace(rows *r, uint32_t index, const octree_body *body);
-
-/* Start loading the slot of the hash table that rows_find() reads first. */
-void rows_prefetch(const rows *r, const octree_body *body);
 
 /* Returns a digest of a body. -0.0 and +0.0 give the same digest. */
 uint64_t digest_body(const octree_body *body);

@@ -173,13 +173,13 @@ octree_status octree_bodies_insert(octree_bodies *bodies, const octree_body *bod
         return status;
     const octree_body added = *body;
     const unsigned number = find_level(bodies, added.half);
-    rows_prefetch(&bodies->rows, &added);
+    const uint32_t hash = rows_prefetch(&bodies->rows, &added);
     status = create_level(bodies, number);
     if (status == OCTREE_OK)
         status = rows_reserve(&bodies->rows, 1);
     if (status != OCTREE_OK)
         return status;
-    const uint32_t row = rows_add(&bodies->rows, &added);
+    const uint32_t row = rows_add(&bodies->rows, &added, hash);
     if (row == ROW_NONE)
         return OCTREE_DUPLICATE;
     const unsigned begun = begin_set_callbacks(bodies); /* under OCTREE_AUTO, the executor */
