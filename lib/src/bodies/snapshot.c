@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* snapshot.c - a copy of the nodes and bodies of one level, for algorithms that compare many bodies with many.
+/* snapshot.c - the nodes and bodies of one level in arrays, for algorithms that compare many bodies with many.
  *
- * The order of points in a leaf depends on the history of the tree, and rows lie anywhere in memory. In a snapshot the
- * bodies of a leaf are sorted, so that the results of an algorithm are a function of the bodies, and all bodies lie in
- * the order of the leaves, so that the algorithm runs through memory in order. It costs O(n M).
+ * The order of points in a leaf depends on the history of the tree. In a snapshot the bodies of a leaf are sorted, so
+ * that the results of an algorithm are a function of the bodies. Their boxes lie in the order of the leaves, so that
+ * the algorithm runs through memory in order. It costs O(n M).
  *
  * Boxes are floats in columns, so that four are compared at once and without branches. Each step from the face of a
  * body to a float is monotone: the sum, the difference, the product and the conversion. So bodies that have a common
@@ -53,7 +53,7 @@ static float_box make_float_box(const float_frame *frame, const octree_body *bod
     return box;
 }
 
-/* ---- Copy the leaves ---------------------------------------------------------------------------------------- */
+/* ---- Leaves --------------------------------------------------------------------------------------------------  */
 
 static inline bool comes_before(const octree_body *a, const octree_body *b)
 {
@@ -97,7 +97,7 @@ static void list_leaf(snapshot *s, const octree_bodies *set, const node *leaf, s
     }
 }
 
-/* ---- Copy the nodes ----------------------------------------------------------------------------------------- */
+/* ---- Nodes --------------------------------------------------------------------------------------------------- */
 
 /* List the bodies of a node, as list_leaf() does. */
 static void list_bodies(snapshot *s, const octree_bodies *set, const node *n, size_t first, float_box *around)

@@ -7,17 +7,10 @@
 #include <string.h>
 
 #include "body_scenes.h"
+#include "body_sets.h"
 #include "octree/sample.h"
 
 enum { BODIES = 1500, QUERIES = 100 };
-
-static octree_bodies *make_set(uint32_t capacity)
-{
-    octree_bodies *set;
-    const octree_def def = define(cube(-8, 8), capacity, 21, OCTREE_GROW);
-    assert_int_equal(octree_bodies_create(&def, &set), OCTREE_OK);
-    return set;
-}
 
 static octree_body small_body(uint64_t *seed, uint64_t id)
 {
@@ -27,13 +20,6 @@ static octree_body small_body(uint64_t *seed, uint64_t id)
         body.half[k] = 0.2 * octree_random_unit(seed);
     }
     return body;
-}
-
-static bool count_body(const octree_body *body, void *context)
-{
-    (void)body;
-    ++*(size_t *)context;
-    return true;
 }
 
 static octree_cost cost_of_queries(const octree_bodies *set)
@@ -80,7 +66,7 @@ static void boxes_follow_bulk_changes_of_all_sizes(void **state)
     static octree_body bodies[BODIES], moved[BODIES];
     uint64_t seed = 3;
     for (uint32_t capacity = 1; capacity <= 16; capacity += 5) {
-        octree_bodies *set = make_set(capacity);
+        octree_bodies *set = make_body_set(cube(-8, 8), capacity);
         for (size_t i = 0; i < BODIES; i++)
             bodies[i] = small_body(&seed, i);
         assert_int_equal(octree_bodies_insert_many(set, bodies, BODIES, NULL, NULL), OCTREE_OK);
@@ -99,7 +85,7 @@ static void boxes_follow_bulk_changes_of_all_sizes(void **state)
             assert_int_equal(octree_bodies_insert_many(set, bodies + 100, count, NULL, NULL), OCTREE_OK);
             assert_null(octree_bodies_check(set));
         }
-        octree_bodies *made_anew = make_set(capacity);
+        octree_bodies *made_anew = make_body_set(cube(-8, 8), capacity);
         assert_int_equal(octree_bodies_insert_many(made_anew, bodies, BODIES, NULL, NULL), OCTREE_OK);
         assert_same_cost(set, made_anew);
         octree_bodies_destroy(set);
@@ -112,7 +98,7 @@ static void assert_cost_of_detour(uint32_t capacity)
 {
     static octree_body bodies[BODIES];
     uint64_t seed = 5;
-    octree_bodies *direct = make_set(capacity), *detour = make_set(capacity);
+    octree_bodies *direct = make_body_set(cube(-8, 8), capacity), *detour = make_body_set(cube(-8, 8), capacity);
     for (size_t i = 0; i < BODIES; i++)
         bodies[i] = small_body(&seed, i);
     for (size_t i = 0; i < BODIES / 2; i++)
@@ -144,7 +130,7 @@ static void body_that_moves_twice_in_a_call_leaves_no_trace(void **state)
     (void)state;
     static octree_body bodies[BODIES];
     uint64_t seed = 6;
-    octree_bodies *direct = make_set(6), *detour = make_set(6);
+    octree_bodies *direct = make_body_set(cube(-8, 8), 6), *detour = make_body_set(cube(-8, 8), 6);
     for (size_t i = 0; i < BODIES; i++)
         bodies[i] = small_body(&seed, i);
     assert_int_equal(octree_bodies_insert_many(detour, bodies, BODIES, NULL, NULL), OCTREE_OK);
@@ -176,7 +162,7 @@ static void flat_bodies_have_flat_boxes(void **state)
 {
     (void)state;
     uint64_t seed = 7;
-    octree_bodies *set = make_set(8);
+    octree_bodies *set = make_body_set(cube(-8, 8), 8);
     for (uint64_t id = 0; id < 400; id++) {
         octree_body plate = small_body(&seed, id);
         plate.position[2] = 0.1;
@@ -199,7 +185,7 @@ static void flat_bodies_have_flat_boxes(void **state)
 static void crowded_leaf_keeps_its_box(void **state)
 {
     (void)state;
-    octree_bodies *set = make_set(4);
+    octree_bodies *set = make_body_set(cube(-8, 8), 4);
     octree_hit hit;
     size_t count;
     for (uint64_t id = 0; id < 300; id++) {
