@@ -34,8 +34,10 @@ typedef struct bulk {
     octree_bodies *set;
     pending *items;
     size_t count, room;
-    size_t ends[OCTREE_BODY_LEVELS + 1]; /* ends[level + 1]: the number of changes that are collected for the level */
-    octree_point *points;                /* the points of the changes, level by level */
+    /* While changes are collected, ends[level + 1] is their number for a level. After gather_points(), ends[level] is
+     * the end of the level's points. */
+    size_t ends[OCTREE_BODY_LEVELS + 1];
+    octree_point *points; /* the points of the changes, level by level */
     double (*to)[3];
     const octree_body *from, *moved; /* the caller's arrays; `moved` is null unless bodies are moved */
     octree_status *statuses;         /* may be null */
@@ -84,7 +86,7 @@ static const octree_body *body_of(const bulk *b, const pending *p)
     return b->moved ? &b->from[p->index] : row_at(&b->set->rows, p->row);
 }
 
-/* Fill the lists of points. Afterwards, ends[level] is the end of the level's points. */
+/* Fill the lists of points. */
 static void gather_points(bulk *b)
 {
     for (unsigned level = 0; level < OCTREE_BODY_LEVELS; level++)

@@ -44,7 +44,7 @@ unsigned find_level(const octree_bodies *set, const double half[3])
     if (half[0] <= set->floor[0] && half[1] <= set->floor[1] && half[2] <= set->floor[2])
         return OCTREE_BODY_LEVELS - 1;
     const double largest = larger(larger(half[0], half[1]), half[2]);
-    const int below = set->largest - get_exponent(largest);
+    const int below = set->world_exponent - get_exponent(largest);
     const int number = below < 0 ? 0 : below / LEVEL_EXPONENTS;
     return number < OCTREE_BODY_LEVELS ? (unsigned)number : OCTREE_BODY_LEVELS - 1;
 }
@@ -76,7 +76,7 @@ static int64_t number_of_bucket(double half)
 /* Returns the number of the highest bucket of a level. */
 static int64_t number_of_top_bucket(const octree_bodies *set, unsigned number)
 {
-    const int64_t top = (int64_t)(set->largest - LEVEL_EXPONENTS * (int)number + 1) * BUCKETS_OF_EXPONENT - 1;
+    const int64_t top = (int64_t)(set->world_exponent - LEVEL_EXPONENTS * (int)number + 1) * BUCKETS_OF_EXPONENT - 1;
     return number == OCTREE_BODY_LEVELS - 1 && set->floor_bucket > top ? set->floor_bucket : top;
 }
 
@@ -110,7 +110,7 @@ level make_empty_level(const octree_bodies *set, unsigned number)
     const int64_t unit = (exponent - STEP_BITS) * BUCKETS_OF_EXPONENT;
     level l = {.tree = NULL};
     l.unit = l.rest = value_of_number(unit < BUCKETS_OF_EXPONENT ? BUCKETS_OF_EXPONENT : unit);
-    l.units = 1 / l.unit;
+    l.inverse_unit = 1 / l.unit;
     return l;
 }
 

@@ -52,7 +52,7 @@ octree_status octree_bodies_create(const octree_def *def, octree_bodies **bodies
     (*bodies)->def = clamped;
     if (def->leaf_capacity == OCTREE_AUTO)
         (*bodies)->def.leaf_capacity = OCTREE_AUTO;
-    (*bodies)->largest = find_exponent_of_world(&def->world);
+    (*bodies)->world_exponent = find_exponent_of_world(&def->world);
     for (unsigned i = 0; i < OCTREE_BODY_LEVELS; i++)
         (*bodies)->levels[i] = make_empty_level(*bodies, i);
     (*bodies)->levels[OCTREE_BODY_LEVELS - 1].tree = anchor;
@@ -418,7 +418,7 @@ static bool is_reach_right(const level *l, const level *counted)
 /* Count the half extents of all levels again, in a set on the stack that has no bodies. */
 static const char *check_rows(const octree_bodies *set)
 {
-    octree_bodies counted = {.largest = set->largest, .floor_bucket = set->floor_bucket};
+    octree_bodies counted = {.world_exponent = set->world_exponent, .floor_bucket = set->floor_bucket};
     reach_counts counts[OCTREE_BODY_LEVELS] = {{{{0}}}};
     size_t count = 0;
     inspection s = {(octree_bodies *)(uintptr_t)set, &counted, 0, NULL};

@@ -28,7 +28,7 @@ typedef struct level {
     /* The ids of points have the half extents in multiples of `unit`, and the rest is at most `rest` (two_bodies.h).
      * If a half extent is too large for that, and in sets that show points, `rest` is infinite. */
     double unit, rest;
-    double units; /* 1 / unit, exactly */
+    double inverse_unit; /* exactly 1 / unit */
 } level;
 
 /* A function that stores the half extents of a point in half[]. They are at most the reach that was set with it. */
@@ -37,7 +37,7 @@ typedef void half_lookup(const void *context, const octree_point *point, double 
 struct octree_bodies {
     arena memory;
     octree_def def;
-    int largest; /* the binary exponent, biased, of the half extents with which level 0 begins */
+    int world_exponent; /* of find_exponent_of_world(): level 0 begins with half extents of this exponent */
     /* Bodies whose half extents are at most these belong to the last level. The bucket is that of the largest. */
     double floor[3];
     int64_t floor_bucket;

@@ -18,7 +18,7 @@ static inline uint64_t make_point_id(const level *l, uint32_t row, const double 
 {
     uint64_t id = (uint64_t)row << ROW_SHIFT;
     for (int i = 0; i < 3; i++) {
-        const double steps = half[i] * l->units;
+        const double steps = half[i] * l->inverse_unit;
         id |= (steps < MAX_STEPS ? (uint64_t)steps : MAX_STEPS) << STEP_BITS * i;
     }
     return id;
