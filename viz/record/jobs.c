@@ -406,15 +406,29 @@ static bool make_claims(job_pool *pool)
     return pool->claims != NULL;
 }
 
+/* The starter has time to make the page while the jobs film, unless it records a chunk, which has no page. */
+static bool begin_page(recording *r, page_writer *page, octreel_error *error)
+{
+    if (recording_is_chunk(r))
+        return true;
+    r->page = page;
+    return page_begin_folder(page, r->options->folder, error);
+}
+
 bool film_by_jobs(recording *r, playback *p, unsigned jobs, octreel_error *error)
 {
+    page_writer page = {0};
     job_pool pool = {.recording = r, .wanted = jobs, .jobs = calloc(jobs, sizeof *pool.jobs)};
     if (!pool.jobs || !make_claims(&pool)) {
         free(pool.jobs);
         return error_no_memory(error);
     }
     const bool begun = start_all_jobs(&pool, p, error);
-    const bool ok = begun && send_session_digest(&pool, p->session_digest, error) && collect_ticks(&pool, error);
+    bool ok = begun && send_session_digest(&pool, p->session_digest, error) && begin_page(r, &page, error) &&
+              collect_ticks(&pool, error);
     end_jobs(&pool);
-    return begun ? recording_end(r, ok, error) : false;
+    ok = begun && recording_end(r, ok, error);
+    r->page = NULL;
+    page_release(&page);
+    return ok;
 }

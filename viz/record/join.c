@@ -204,7 +204,7 @@ bool join_chunks(film_options *options, film_summary *summary, octreel_error *er
     bool ok = (options->every == 0 || check_renderer_file(options->folder, error)) && find_chunks(&j, error) &&
               write_joined_ticks(&j, error);
     if (ok && summary->ticks == summary->total)
-        ok = page_write(options->folder, &file.session, &file.values, error) &&
+        ok = page_write(NULL, options->folder, &file.session, &file.values, error) &&
              folder_remove_leftovers(options->folder, error);
     session_release(&file);
     free(j.chunks);

@@ -67,8 +67,8 @@ static bool update_list_state(cutter *c, char at)
 }
 
 /* Copy JSON text, but keep only the first PAGE_LIST entries of each list. A tick may list a million refused points, so
- * lists are shortened before the text is parsed. The caller frees the copy. Returns null if memory runs out, or if
- * brackets do not match or are nested too deeply. */
+ * lists are shortened before the text is parsed. The caller frees the copy. If brackets do not match or are nested too
+ * deeply, the copy is not JSON. Returns null if memory runs out. */
 static char *shorten_lists(const char *text, size_t size, size_t *left)
 {
     char *copy;
@@ -85,12 +85,11 @@ static char *shorten_lists(const char *text, size_t size, size_t *left)
     }
     if (ok && !c.cut)
         fwrite(text + from, 1, size - from, c.out);
-    if (text_stream_end(&s, &copy) && ok) {
-        *left = s.size;
-        return copy;
-    }
-    free(copy);
-    return NULL;
+    if (s.stream)
+        putc(ok ? '\n' : ']', s.stream);
+    const bool whole = text_stream_end(&s, &copy);
+    *left = s.size;
+    return whole ? copy : NULL;
 }
 
 /* ---- Ticks -------------------------------------------------------------------------------------------------- */
@@ -112,8 +111,8 @@ static void add_facts(page_writer *w, const char *text, size_t size)
 {
     if (page_html_plays)
         packer_add(&w->facts, text, size);
-    else
-        write_escaped_json(w->out, text, size);
+    else if (w->plain.stream)
+        write_escaped_json(w->plain.stream, text, size);
 }
 
 /* Add a JSON object as one line of ASCII text. Returns false if memory runs out. */
@@ -133,12 +132,17 @@ static bool add_json_text(page_writer *w, const char *text, size_t size, const c
 {
     size_t left;
     char *cut = shorten_lists(text, size, &left);
-    json_error_t why;
+    json_error_t why = {0};
     json_t *object = cut ? json_parse(cut, left, 0, &why) : NULL;
-    const bool ok = json_is_object(object) && add_object(w, object);
+    const bool short_of_memory = !cut || (!object && why.line < 0);
+    bool ok = false;
+    if (short_of_memory || (json_is_object(object) && !(ok = add_object(w, object))))
+        error_no_memory(error);
+    else if (!ok)
+        error_set(error, "%s:%ju: not a JSON object; index.html cannot be written", path, line);
     json_decref(object);
     free(cut);
-    return ok || error_set(error, "%s:%ju: not a JSON object; index.html cannot be written", path, line);
+    return ok;
 }
 
 /* ---- Ticks in which nothing happens -------------------------------------------------------------------------- */
@@ -222,12 +226,13 @@ bool page_can_play(void)
     return page_html_plays;
 }
 
-bool page_begin(page_writer *w, FILE *page, const char *path, const char *recording, size_t size, octreel_error *error)
+bool page_begin(page_writer *w, const char *path, const char *recording, size_t size, octreel_error *error)
 {
-    *w = (page_writer){.out = page};
+    *w = (page_writer){.ticks = 0};
     if (page_html_plays)
         packer_begin(&w->facts);
-    fwrite(page_html_head, 1, page_html_head_size, page);
+    else if (!text_stream_begin(&w->plain))
+        return error_no_memory(error);
     return add_json_text(w, recording, size, path, 1, error);
 }
 
@@ -241,54 +246,66 @@ bool page_add_tick(page_writer *w, const char *path, const char *line, size_t si
     return ok;
 }
 
-static bool write_packed_facts(page_writer *w, octreel_error *error)
+static bool write_packed_facts(page_writer *w, FILE *page)
 {
     size_t size;
     unsigned char *facts = packer_end(&w->facts, &size);
-    if (!facts)
-        return error_no_memory(error);
-    write_letters(w->out, facts, size);
+    if (facts)
+        write_letters(page, facts, size);
     free(facts);
-    return true;
+    return facts != NULL;
 }
 
-static bool begin_session_element(page_writer *w, octreel_error *error)
+static bool write_plain_facts(page_writer *w, FILE *page)
+{
+    char *facts;
+    const bool ok = text_stream_end(&w->plain, &facts);
+    if (facts)
+        fwrite(facts, 1, w->plain.size, page);
+    free(facts);
+    w->plain = (text_stream){0};
+    return ok;
+}
+
+/* Write the page up to the text of the session. */
+static bool begin_session_element(page_writer *w, FILE *page, octreel_error *error)
 {
     add_repetition_count(w);
-    if (page_html_plays && !write_packed_facts(w, error))
-        return false;
-    fputs("</script>\n<script type=\"application/json\" id=\"session\">", w->out);
+    fwrite(page_html_head, 1, page_html_head_size, page);
+    if (!(page_html_plays ? write_packed_facts : write_plain_facts)(w, page))
+        return error_no_memory(error);
+    fputs("</script>\n<script type=\"application/json\" id=\"session\">", page);
     return true;
 }
 
-static void write_page_tail(page_writer *w)
+static void write_page_tail(FILE *page)
 {
-    fwrite(page_html_tail, 1, page_html_tail_size, w->out);
+    fwrite(page_html_tail, 1, page_html_tail_size, page);
 }
 
-bool page_end(page_writer *w, const char *session, size_t size, octreel_error *error)
+bool page_end(page_writer *w, FILE *page, const char *session, size_t size, octreel_error *error)
 {
-    if (!begin_session_element(w, error))
+    if (!begin_session_element(w, page, error))
         return false;
     if (size <= PAGE_MOST_SESSION)
-        write_escaped_json(w->out, session, size);
-    write_page_tail(w);
+        write_escaped_json(page, session, size);
+    write_page_tail(page);
     return true;
 }
 
-bool page_end_with_points(page_writer *w, const char *session, size_t size, const unsigned char *points,
+bool page_end_with_points(page_writer *w, FILE *page, const char *session, size_t size, const unsigned char *points,
                           size_t points_size, bool cloud, octreel_error *error)
 {
-    if (!begin_session_element(w, error))
+    if (!begin_session_element(w, page, error))
         return false;
-    write_escaped_json(w->out, session, size);
-    fprintf(w->out, "</script>\n<script type=\"application/gzip;z85\" id=\"points\"%s>", cloud ? " data-cloud" : "");
-    write_letters(w->out, points, points_size);
-    write_page_tail(w);
+    write_escaped_json(page, session, size);
+    fprintf(page, "</script>\n<script type=\"application/gzip;z85\" id=\"points\"%s>", cloud ? " data-cloud" : "");
+    write_letters(page, points, points_size);
+    write_page_tail(page);
     return true;
 }
 
-bool page_end_with_packed_session(page_writer *w, const octree_session *session, const point_values *values,
+bool page_end_with_packed_session(page_writer *w, FILE *page, const octree_session *session, const point_values *values,
                                   octreel_error *error)
 {
     octree_session rest = *session;
@@ -298,7 +315,7 @@ bool page_end_with_packed_session(page_writer *w, const octree_session *session,
     rest.body_count = 0;
     unsigned char *points = pack_points_of_session(session, values, &size);
     const bool ok = points ? make_session_bytes(&rest, NULL, &text, error) &&
-                                 page_end_with_points(w, text.bytes, text.size, points, size, false, error)
+                                 page_end_with_points(w, page, text.bytes, text.size, points, size, false, error)
                            : error_no_memory(error);
     free(text.bytes);
     free(points);
@@ -308,20 +325,25 @@ bool page_end_with_packed_session(page_writer *w, const octree_session *session,
 void page_release(page_writer *w)
 {
     packer_release(&w->facts);
+    if (w->plain.stream)
+        fclose(w->plain.stream);
+    free(w->plain.text);
     free(w->rest);
     *w = (page_writer){0};
 }
 
 /* ---- The page of a folder ----------------------------------------------------------------------------------- */
 
-static bool begin_folder_page(page_writer *w, FILE *page, const char *path, octreel_error *error)
+bool page_begin_folder(page_writer *w, const char *folder, octreel_error *error)
 {
-    char *text;
+    char *path = path_join(folder, "recording.json"), *text = NULL;
     size_t size;
-    if (!file_read_whole(path, &text, &size, error))
-        return false;
-    const bool ok = page_begin(w, page, path, text, size, error);
+    bool ok = path || error_no_memory(error);
+    *w = (page_writer){.ticks = 0};
+    if (ok)
+        ok = file_read_whole(path, &text, &size, error) && page_begin(w, path, text, size, error);
     free(text);
+    free(path);
     return ok;
 }
 
@@ -361,44 +383,50 @@ static bool copy_session(FILE *page, const char *path, octreel_error *error)
     return ok;
 }
 
-static bool end_folder_page(page_writer *w, const char *path, octreel_error *error)
+static bool end_page_with_file(page_writer *w, FILE *page, const char *path, octreel_error *error)
 {
     struct stat status;
-    if (!begin_session_element(w, error))
+    if (!begin_session_element(w, page, error))
         return false;
     const bool has = stat(path, &status) == 0 && (uintmax_t)status.st_size <= PAGE_MOST_SESSION;
-    const bool ok = !has || copy_session(w->out, path, error);
-    write_page_tail(w);
+    const bool ok = !has || copy_session(page, path, error);
+    write_page_tail(page);
     return ok;
 }
 
-static bool write_page(const char *folder, const octree_session *points, const point_values *values, FILE *page,
-                       octreel_error *error)
+static bool read_folder(page_writer *w, const char *folder, octreel_error *error)
 {
-    char *recording = path_join(folder, "recording.json"), *ticks = path_join(folder, "ticks.jsonl"),
-         *session = path_join(folder, "session.json");
-    page_writer w = {0};
-    const bool ok = recording && ticks && session
-                        ? begin_folder_page(&w, page, recording, error) && add_ticks_of_file(&w, ticks, error) &&
-                              (points ? page_end_with_packed_session(&w, points, values, error)
-                                      : end_folder_page(&w, session, error))
-                        : error_no_memory(error);
-    page_release(&w);
-    free(recording);
+    char *ticks = path_join(folder, "ticks.jsonl");
+    const bool ok =
+        ticks ? page_begin_folder(w, folder, error) && add_ticks_of_file(w, ticks, error) : error_no_memory(error);
     free(ticks);
-    free(session);
     return ok;
 }
 
-bool page_write(const char *folder, const octree_session *session, const point_values *values, octreel_error *error)
+static bool end_page_of_folder(page_writer *w, FILE *page, const char *folder, const octree_session *session,
+                               const point_values *values, octreel_error *error)
 {
-    const bool packed = session && are_points_packed(session, values);
-    char *path = path_join(folder, "index.html");
+    if (session && are_points_packed(session, values))
+        return page_end_with_packed_session(w, page, session, values, error);
+    char *path = path_join(folder, "session.json");
+    const bool ok = path ? end_page_with_file(w, page, path, error) : error_no_memory(error);
+    free(path);
+    return ok;
+}
+
+bool page_write(page_writer *made, const char *folder, const octree_session *session, const point_values *values,
+                octreel_error *error)
+{
+    page_writer read = {0}, *w = made ? made : &read;
     file_writer file;
+    char *path = path_join(folder, "index.html");
     bool ok = path ? file_writer_open_replacing(&file, path, error) : error_no_memory(error);
     if (ok)
-        ok = write_page(folder, packed ? session : NULL, values, file.stream, error) ? file_writer_close(&file, error)
-                                                                                     : file_writer_discard(&file);
+        ok = (made || read_folder(w, folder, error)) &&
+                     end_page_of_folder(w, file.stream, folder, session, values, error)
+                 ? file_writer_close(&file, error)
+                 : file_writer_discard(&file);
+    page_release(&read);
     free(path);
     return ok;
 }

@@ -16,7 +16,6 @@
 typedef struct playing {
     const film_options *options;
     film_summary *summary;
-    FILE *out;
     page_writer page;
 } playing;
 
@@ -39,7 +38,7 @@ static bool begin_page(playing *p, const view *v, octreel_error *error)
         recording_write(s.stream, v, 0);
     if (!text_stream_end(&s, &text))
         return error_no_memory(error);
-    const bool ok = page_begin(&p->page, p->out, "recording.json", text, s.size, error);
+    const bool ok = page_begin(&p->page, "recording.json", text, s.size, error);
     free(text);
     return ok;
 }
@@ -87,12 +86,12 @@ bool write_played_page(const octree_session *session, const film_options *option
         !session_check_length(session, options->max_ticks, error) ||
         !make_session_bytes(session, options->values, &written, error))
         return false;
-    playing p = {.options = options, .summary = summary, .out = page};
+    playing p = {.options = options, .summary = summary};
     bool ok = check_session_size(written.size, error) && play_and_write_ticks(&p, session, error);
     if (ok && are_points_packed(session, options->values))
-        ok = page_end_with_packed_session(&p.page, session, options->values, error);
+        ok = page_end_with_packed_session(&p.page, page, session, options->values, error);
     else if (ok)
-        ok = page_end(&p.page, written.bytes, written.size, error);
+        ok = page_end(&p.page, page, written.bytes, written.size, error);
     page_release(&p.page);
     free(written.bytes);
     return ok;

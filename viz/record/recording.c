@@ -1,16 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* recording.c - writes all files of a recording except the frames. */
 #include "recording.h"
-#include "page.h"
 
 #include <stdlib.h>
 
 /* ---- The start ---------------------------------------------------------------------------------------------- */
-
-static bool is_chunk(const recording *r)
-{
-    return r->options->last != 0;
-}
 
 bool recording_open_picture(const recording *r, playback *p, octreel_error *error)
 {
@@ -40,7 +34,7 @@ static bool write_first_files(const recording *r, const folder_place *place, con
 static bool open_log(recording *r, octreel_error *error)
 {
     char name[CHUNK_NAME] = "ticks.jsonl";
-    if (is_chunk(r))
+    if (recording_is_chunk(r))
         chunk_print_name(r->share.first, r->share.last, name);
     return tick_log_open(&r->log, r->options->folder, name, r->options->resume, error);
 }
@@ -99,7 +93,7 @@ bool recording_begin(recording *r, playback *p, octreel_error *error)
         b.info = renderer_describe(p->picture.renderer);
     p->session_digest = r->bytes.digest;
     const bool begun =
-        (is_chunk(r) || r->options->resume ? begin_chunk_of_recording : begin_whole_recording)(r, &b, error);
+        (recording_is_chunk(r) || r->options->resume ? begin_chunk_of_recording : begin_whole_recording)(r, &b, error);
     free(r->bytes.bytes);
     r->bytes.bytes = NULL;
     return begun;
@@ -129,6 +123,8 @@ bool recording_add_tick(void *context, const film_step *step, octreel_error *err
     recording *r = context;
     if (!tick_log_add(&r->log, step->line, step->size, error))
         return false;
+    if (r->page && !page_add_tick(r->page, r->log.path, step->line, step->size, error))
+        return false;
     replacement_remove_old(&r->replaced);
     add_to_summary(r->summary, step);
     watcher_report(&r->options->watch, r->summary->ticks, r->summary->total);
@@ -141,10 +137,10 @@ bool recording_end(recording *r, bool ok, octreel_error *error)
     const char *folder = r->options->folder;
     const bool whole = ok && r->summary->ticks == r->summary->total;
     ok = tick_log_close(&r->log, whole, ok ? error : &late) && ok;
-    if (replacement_undo(&r->replaced) || !ok || is_chunk(r))
+    if (replacement_undo(&r->replaced) || !ok || recording_is_chunk(r))
         return ok;
     if (whole && r->options->resume)
         replacement_remove_leftovers(folder);
-    return page_write(folder, r->session, r->options->values, error) &&
+    return page_write(r->page, folder, r->session, r->options->values, error) &&
            (!whole || !r->options->resume || folder_remove_leftovers(folder, error));
 }

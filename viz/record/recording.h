@@ -6,6 +6,7 @@
 
 #include "film_options.h"
 #include "folder_files.h"
+#include "page.h"
 #include "playback.h"
 #include "replacement.h"
 #include "tick_log.h"
@@ -20,7 +21,16 @@ typedef struct recording {
     tick_log log;
     /* The old recording that is being replaced; kept until tick 0 of the new recording is filmed. */
     replacement replaced;
+    /* A page that gets each tick as it is recorded; not null only where that takes no time of the process that films.
+     * Otherwise the page is made at the end, from the files. */
+    page_writer *page;
 } recording;
+
+/* Returns whether only a part of the ticks is recorded, into a file of its own. */
+static inline bool recording_is_chunk(const recording *r)
+{
+    return r->options->last != 0;
+}
 
 /* Call playback_open_picture() with the options of the recording. */
 bool recording_open_picture(const recording *r, playback *p, octreel_error *error);

@@ -63,7 +63,7 @@ static unsigned char *make_packed_points(const cloud_page *c, size_t *packed)
 /* ---- The page --------------------------------------------------------------------------------------------------- */
 
 /* Begin the page with the text of recording.json that a recording with this view would have. */
-static bool begin_page(const cloud_page *c, page_writer *w, FILE *page, octreel_error *error)
+static bool begin_page(const cloud_page *c, page_writer *w, octreel_error *error)
 {
     text_stream s;
     char *text;
@@ -72,8 +72,8 @@ static bool begin_page(const cloud_page *c, page_writer *w, FILE *page, octreel_
         return false;
     if (text_stream_begin(&s))
         recording_write(s.stream, &v, 0);
-    const bool ok = text_stream_end(&s, &text) ? page_begin(w, page, "recording.json", text, s.size, error)
-                                               : error_no_memory(error);
+    const bool ok =
+        text_stream_end(&s, &text) ? page_begin(w, "recording.json", text, s.size, error) : error_no_memory(error);
     free(text);
     return ok;
 }
@@ -93,7 +93,7 @@ static bool add_tick(const cloud_page *c, page_writer *w, octreel_error *error)
     return ok;
 }
 
-static bool end_page(const cloud_page *c, page_writer *w, octreel_error *error)
+static bool end_page(const cloud_page *c, page_writer *w, FILE *page, octreel_error *error)
 {
     const octree_session session = {.tree = octree_definition(c->made->tree),
                                     .player.kind = OCTREE_PLAYER_NONE,
@@ -106,7 +106,8 @@ static bool end_page(const cloud_page *c, page_writer *w, octreel_error *error)
         session_write(&session, NULL, s.stream);
     const bool written = text_stream_end(&s, &text);
     unsigned char *points = written ? make_packed_points(c, &size) : NULL;
-    const bool ok = points ? page_end_with_points(w, text, s.size, points, size, true, error) : error_no_memory(error);
+    const bool ok =
+        points ? page_end_with_points(w, page, text, s.size, points, size, true, error) : error_no_memory(error);
     free(text);
     free(points);
     return ok;
@@ -122,7 +123,7 @@ bool cloud_page_write(const cloud_page *c, FILE *page, octreel_error *error)
         return error_set(
             error, "the cloud has %zu points, but a page holds at most %d; use --world to show a part of the cloud",
             octree_count(c->made->tree), POINT_BLOCK_MOST);
-    const bool ok = begin_page(c, &w, page, error) && add_tick(c, &w, error) && end_page(c, &w, error);
+    const bool ok = begin_page(c, &w, error) && add_tick(c, &w, error) && end_page(c, &w, page, error);
     page_release(&w);
     return ok;
 }

@@ -36,7 +36,7 @@ static place recording_of(void **state, const char *ticks)
 static void assert_page_written(const char *folder)
 {
     octreel_error error = {""};
-    if (!page_write(folder, NULL, NULL, &error))
+    if (!page_write(NULL, folder, NULL, NULL, &error))
         fail_msg("%s", error.text);
 }
 
@@ -45,7 +45,7 @@ static void assert_page_written(const char *folder)
 static void assert_no_page(const char *folder, const char *part, const char *reason)
 {
     octreel_error error = {""};
-    assert_false(page_write(folder, NULL, NULL, &error));
+    assert_false(page_write(NULL, folder, NULL, NULL, &error));
     if (strstr(error.text, part) == NULL || strstr(error.text, reason) == NULL)
         fail_msg("\"%s\" does not contain both \"%s\" and \"%s\"", error.text, part, reason);
     assert_false(file_exists(place_below(folder, "index.html").path));
@@ -374,7 +374,7 @@ static void failed_write_keeps_the_old_page(void **state)
     const place part = place_below(folder.path, "index.html.part");
     file_write_text(page.path, "mine");
     limit_file_size(1000);
-    assert_false(page_write(folder.path, NULL, NULL, &error));
+    assert_false(page_write(NULL, folder.path, NULL, NULL, &error));
     limit_file_size(SIZE_MAX);
     assert_non_null(strstr(error.text, page.path));
     assert_non_null(strstr(error.text, "File too large"));
@@ -394,7 +394,7 @@ static void unwritable_folder_is_named(void **state)
     if (root && seteuid(NOBODY) != 0)
         skip(); /* root can write everything, and this container has no other user */
     octreel_error error = {""};
-    const bool written = page_write(folder.path, NULL, NULL, &error);
+    const bool written = page_write(NULL, folder.path, NULL, NULL, &error);
     if (root)
         assert_int_equal(seteuid(0), 0);
     assert_int_equal(chmod(folder.path, 0755), 0);

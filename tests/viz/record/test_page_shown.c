@@ -331,7 +331,7 @@ static place recording_by_hand(const driven *d, const char *name, const char *ti
     assert_int_equal(mkdir(folder.path, 0777), 0);
     file_write_text(place_below(folder.path, "recording.json").path, "{\"size\": [160, 90]}\n");
     file_write_text(place_below(folder.path, "ticks.jsonl").path, ticks);
-    if (!page_write(folder.path, NULL, NULL, &error))
+    if (!page_write(NULL, folder.path, NULL, NULL, &error))
         fail_msg("%s", error.text);
     return place_below(folder.path, "index.html");
 }
