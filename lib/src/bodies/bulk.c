@@ -2,19 +2,21 @@
 /* bulk.c - changes of many bodies in one call.
  *
  * The rows are changed one by one, with the results of the caller's order; so each body gets the status that a single
- * call would give. The resulting changes of the trees are collected, and each level makes its changes in one bulk call
- * of octree.h. If this call fails, it has changed nothing in its tree, and the rows of this level's bodies are restored
- * afterwards.
+ * call would give. The hash table of the rows finds duplicates among the bodies of the call. It stays, because further
+ * bulk calls are likely; only if the call fills an empty set, it is dropped. The resulting changes of the trees are
+ * collected, and each level makes its changes in one bulk call of octree.h. If this call fails, it has changed nothing
+ * in its tree, and the rows of this level's bodies are restored afterwards.
  *
  * A move that changes the level of a body, or the half extents in the id of its point, is made alone, after the
  * collected changes.
  *
- * Cost: that of the bulk calls, and one cache miss in the hash table for each body.
+ * Cost: that of the bulk calls, and one cache miss in the hash table for each body. The first call hashes all rows.
  */
 #include "../exact/float_mode.h"
 #include "../exact/point.h"
 #include "../query/search.h"
 #include "boxes.h"
+#include "lookup.h"
 #include "order.h"
 #include "two_bodies.h"
 
@@ -60,10 +62,13 @@ static void end_bulk(bulk *b)
     arena_free(memory, b->to, (b->room + 1) * sizeof *b->to);
 }
 
-/* Allocate the lists of a bulk call. Returns false, without memory, if there is none. */
-static bool begin_bulk(bulk *b, size_t count)
+/* Hash the rows, with room for `more` bodies, and allocate the lists of a bulk call. Returns false, without the lists,
+ * if memory runs out. */
+static bool begin_bulk(bulk *b, size_t count, size_t more)
 {
     arena *memory = &b->set->memory;
+    if (count > 0 && !rows_hash(&b->set->rows, more))
+        return false;
     b->room = count;
     b->items = count <= SIZE_MAX / sizeof *b->items ? arena_allocate(memory, (count + 1) * sizeof *b->items) : NULL;
     b->points = b->items ? arena_allocate(memory, (count + 1) * sizeof *b->points) : NULL;
@@ -201,7 +206,7 @@ static void add_row(bulk *b, size_t index, uint32_t hash)
 {
     const octree_body *body = &b->from[index];
     const octree_status status = check_body(b->set, body);
-    const uint32_t row = status == OCTREE_OK ? rows_add(&b->set->rows, body, hash) : ROW_NONE;
+    const uint32_t row = status == OCTREE_OK ? rows_add_if_new(&b->set->rows, body, hash) : ROW_NONE;
     if (row == ROW_NONE)
         set_status(b, index, status == OCTREE_OK ? OCTREE_DUPLICATE : status);
     else
@@ -231,8 +236,9 @@ octree_status octree_bodies_insert_many(octree_bodies *bodies, const octree_body
     octree_status status = check_bulk(bodies, added, count, changed);
     if (status == OCTREE_OK)
         status = rows_reserve(&bodies->rows, count);
+    const bool first = status == OCTREE_OK && bodies->rows.count == 0 && !rows_are_hashed(&bodies->rows);
     bulk b = {.set = bodies, .from = added, .statuses = statuses};
-    if (status == OCTREE_OK && !begin_bulk(&b, count))
+    if (status == OCTREE_OK && !begin_bulk(&b, count, count))
         status = OCTREE_NO_MEMORY;
     if (status != OCTREE_OK)
         return refuse_all(status, statuses, count);
@@ -243,6 +249,8 @@ octree_status octree_bodies_insert_many(octree_bodies *bodies, const octree_body
     free_order(bodies, &order);
     make_changes(&b, insert_points, finish_insertion);
     status = finish_bulk(&b, changed);
+    if (first && !has_crowded_leaf(bodies))
+        rows_drop_hash(&bodies->rows);
     rebuild_if_due(bodies);
     return status;
 }
@@ -287,7 +295,7 @@ octree_status octree_bodies_remove_many(octree_bodies *bodies, const octree_body
     RETURN_IN_DEFAULT_MODE(octree_status, octree_bodies_remove_many, bodies, removed, count, statuses, changed);
     octree_status status = check_bulk(bodies, removed, count, changed);
     bulk b = {.set = bodies, .from = removed, .statuses = statuses};
-    if (status == OCTREE_OK && !begin_bulk(&b, count))
+    if (status == OCTREE_OK && !begin_bulk(&b, count, 0))
         status = OCTREE_NO_MEMORY;
     if (status != OCTREE_OK)
         return refuse_all(status, statuses, count);
@@ -353,7 +361,7 @@ octree_status octree_bodies_move_many(octree_bodies *bodies, const octree_body *
     if (status == OCTREE_OK && count > 0 && !to)
         status = OCTREE_NULL_ARGUMENT;
     bulk b = {.set = bodies, .from = from, .moved = to, .statuses = statuses};
-    if (status == OCTREE_OK && !begin_bulk(&b, count))
+    if (status == OCTREE_OK && !begin_bulk(&b, count, 0))
         status = OCTREE_NO_MEMORY;
     if (status != OCTREE_OK)
         return refuse_all(status, statuses, count);

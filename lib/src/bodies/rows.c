@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: MIT */
-/* rows.c - the storage of the bodies of a set: an array of rows with a hash table.
+/* rows.c - the storage of the bodies of a set: an array of rows, and perhaps a hash table of them.
  *
  * Problem: a leaf of a tree holds positions and ids, 32 bytes a point. Half extents need 24 bytes more. Wider leaves
  * would make trees of points larger and slower.
  *
- * Idea: each body is a row of an array, and the leaf holds the index of the row. A hash table finds the row of a body
- * that is to be removed or moved, so that even a million bodies at one place are found in constant time.
+ * Idea: each body is a row of an array, and the leaf holds the index of the row. The tree finds the row of a body that
+ * is to be removed or moved (lookup.c). Where it cannot, a hash table does, so that even a million bodies at one place
+ * are found in constant time.
  *
  * A slot of the table also holds the hash of its body, so that probing and removing read no rows. The table grows by a
- * half, which wastes less memory than doubling.
+ * half, which wastes less memory than doubling. A free row has a negative half extent.
  *
- * Cost: 56 bytes a body for the row, 10 bytes after a bulk insertion and up to 15 bytes otherwise for the hash table; a
- * change reads about two cache lines more than that of a point.
+ * Cost: 56 bytes a body for the row, 10 to 15 bytes for the hash table.
  */
 #include "rows.h"
 #include "../exact/point.h"
@@ -30,12 +30,19 @@ void rows_init(rows *r, arena *memory)
     *r = (rows){.memory = memory, .free = ROW_NONE};
 }
 
+void rows_drop_hash(rows *r)
+{
+    arena_free(r->memory, r->slots, r->slot_count * sizeof *r->slots);
+    r->slots = NULL;
+    r->slot_count = 0;
+}
+
 void rows_release(rows *r)
 {
     for (size_t i = 0; i < r->chunks.count; i++)
         arena_free(r->memory, ((octree_body **)r->chunks.items)[i], ROWS_IN_CHUNK * sizeof(octree_body));
     list_release(r->memory, &r->chunks, sizeof(octree_body *));
-    arena_free(r->memory, r->slots, r->slot_count * sizeof *r->slots);
+    rows_drop_hash(r);
     rows_init(r, r->memory);
 }
 
@@ -153,7 +160,7 @@ octree_status rows_reserve(rows *r, size_t count)
     const uint64_t total = (uint64_t)r->count + count;
     if (count > ROWS_AT_MOST || total > ROWS_AT_MOST)
         return OCTREE_TOO_MANY;
-    if (!reserve_slots(r, total))
+    if (rows_are_hashed(r) && !reserve_slots(r, total))
         return OCTREE_NO_MEMORY;
     while ((uint64_t)r->chunks.count * ROWS_IN_CHUNK < total) {
         octree_body *chunk = arena_allocate(r->memory, ROWS_IN_CHUNK * sizeof *chunk);
@@ -165,40 +172,73 @@ octree_status rows_reserve(rows *r, size_t count)
     return OCTREE_OK;
 }
 
-uint32_t rows_find(const rows *r, const octree_body *body)
+static bool is_row_free(const octree_body *row)
 {
-    return r->slots ? r->slots[find_slot(r, body, hash_body(body))].row - 1 : ROW_NONE;
+    return row->half[0] < 0;
 }
 
-uint32_t rows_add(rows *r, const octree_body *body, uint32_t hash)
+bool rows_hash(rows *r, size_t count)
 {
-    const uint32_t slot = find_slot(r, body, hash);
-    if (r->slots[slot].row)
-        return ROW_NONE;
+    const bool hashed = rows_are_hashed(r);
+    if (!reserve_slots(r, (uint64_t)r->count + count))
+        return false;
+    for (uint32_t i = 0; !hashed && i < r->end; i++)
+        if (!is_row_free(row_at(r, i)))
+            fill_slot(r, hash_body(row_at(r, i)), i);
+    return true;
+}
+
+uint32_t rows_find(const rows *r, const octree_body *body)
+{
+    return r->slots[find_slot(r, body, hash_body(body))].row - 1;
+}
+
+/* Returns the index of a row that was free and now has this body. */
+static uint32_t take_row(rows *r, const octree_body *body)
+{
     uint32_t index = r->free;
     if (index == ROW_NONE)
         index = r->end++;
     else
         r->free = (uint32_t)row_at(r, index)->id;
     *row_at(r, index) = *body;
-    r->slots[slot] = (row_slot){hash, index + 1};
     r->count++;
+    return index;
+}
+
+uint32_t rows_add(rows *r, const octree_body *body)
+{
+    const uint32_t index = take_row(r, body);
+    rows_show(r, index);
+    return index;
+}
+
+uint32_t rows_add_if_new(rows *r, const octree_body *body, uint32_t hash)
+{
+    const uint32_t slot = find_slot(r, body, hash);
+    if (r->slots[slot].row)
+        return ROW_NONE;
+    const uint32_t index = take_row(r, body);
+    r->slots[slot] = (row_slot){hash, index + 1};
     return index;
 }
 
 void rows_hide(rows *r, uint32_t index)
 {
-    clear_slot(r, find_slot_of_row(r, index));
+    if (rows_are_hashed(r))
+        clear_slot(r, find_slot_of_row(r, index));
 }
 
 void rows_show(rows *r, uint32_t index)
 {
-    fill_slot(r, hash_body(row_at(r, index)), index);
+    if (rows_are_hashed(r))
+        fill_slot(r, hash_body(row_at(r, index)), index);
 }
 
 void rows_free(rows *r, uint32_t index)
 {
     row_at(r, index)->id = r->free;
+    row_at(r, index)->half[0] = -1;
     r->free = index;
     r->count--;
 }
@@ -219,7 +259,7 @@ void rows_replace(rows *r, uint32_t index, const octree_body *body)
 uint32_t rows_prefetch(const rows *r, const octree_body *body)
 {
     const uint32_t hash = hash_body(body);
-    if (r->slots)
+    if (rows_are_hashed(r))
         prefetch_memory(&r->slots[home_of_hash(r, hash)]);
     return hash;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* rows.h - the storage of the bodies of a set: an array of rows with a hash table. Private.
+/* rows.h - the storage of the bodies of a set: an array of rows, and perhaps a hash table of them. Private.
  *
  * A body keeps the index of its row until it is removed. The trees of the levels hold this index in the id of a point
  * (two_bodies.h).
@@ -20,7 +20,7 @@ typedef struct rows {
     uint32_t end;   /* all rows in use have an index below this number */
     uint32_t free;  /* the first free row, whose id is the index of the next free row; or ROW_NONE */
     uint32_t count; /* the number of bodies */
-    /* the hash table, with linear probing */
+    /* the hash table, with linear probing; null: there is none */
     struct row_slot *slots;
     uint32_t slot_count;
 } rows;
@@ -33,21 +33,33 @@ static inline octree_body *row_at(const rows *r, size_t index)
     return ((octree_body **)r->chunks.items)[index / ROWS_IN_CHUNK] + index % ROWS_IN_CHUNK;
 }
 
-/* Make room for `count` more bodies, so that as many calls of rows_add() cannot fail. Returns NO_MEMORY or TOO_MANY. */
+/* Make room for `count` more bodies, so that as many additions cannot fail. Returns NO_MEMORY or TOO_MANY. */
 octree_status rows_reserve(rows *r, size_t count);
 
-/* Returns the index of the row of a body, or ROW_NONE. */
+/* Make the hash table if there is none, with room for `count` more bodies. Returns false if memory runs out. */
+bool rows_hash(rows *r, size_t count);
+void rows_drop_hash(rows *r);
+
+static inline bool rows_are_hashed(const rows *r)
+{
+    return r->slots != NULL;
+}
+
+/* Returns the index of the row of a body, or ROW_NONE. The rows must be hashed. */
 uint32_t rows_find(const rows *r, const octree_body *body);
 
 /* Start loading the slot of the hash table that is read first to find a body. Returns the body's hash. */
 uint32_t rows_prefetch(const rows *r, const octree_body *body);
 
-/* Add a body with its hash; there must be room. Returns the index of its row, or ROW_NONE if the body is stored
- * already. */
-uint32_t rows_add(rows *r, const octree_body *body, uint32_t hash);
+/* Add a body that is not stored; there must be room. Returns the index of its row. */
+uint32_t rows_add(rows *r, const octree_body *body);
 
-/* Remove the body of a row: rows_hide() and rows_free() in one. rows_hide() removes a body from the hash table only,
- * and rows_show() restores it; rows_free() frees the row of a hidden body. */
+/* Add a body with its hash; there must be room, and the rows must be hashed. Returns the index of its row, or ROW_NONE
+ * if the body is stored already. */
+uint32_t rows_add_if_new(rows *r, const octree_body *body, uint32_t hash);
+
+/* Remove the body of a row: rows_hide() and rows_free() in one. rows_hide() removes a body from the hash table only, if
+ * there is one, and rows_show() restores it; rows_free() frees the row of a hidden body. */
 void rows_remove(rows *r, uint32_t index);
 void rows_hide(rows *r, uint32_t index);
 void rows_show(rows *r, uint32_t index);

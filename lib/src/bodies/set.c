@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* set.c - creates sets of bodies, and inserts, removes and moves single bodies. */
 #include "boxes.h"
+#include "lookup.h"
 #include "two_bodies.h"
 #include "../exact/float_mode.h"
 #include "../query/search.h"
@@ -173,15 +174,14 @@ octree_status octree_bodies_insert(octree_bodies *bodies, const octree_body *bod
         return status;
     const octree_body added = *body;
     const unsigned number = find_level(bodies, added.half);
-    const uint32_t hash = rows_prefetch(&bodies->rows, &added);
     status = create_level(bodies, number);
     if (status == OCTREE_OK)
         status = rows_reserve(&bodies->rows, 1);
+    if (status == OCTREE_OK && find_row_for_change(bodies, &added) != ROW_NONE)
+        status = OCTREE_DUPLICATE;
     if (status != OCTREE_OK)
         return status;
-    const uint32_t row = rows_add(&bodies->rows, &added, hash);
-    if (row == ROW_NONE)
-        return OCTREE_DUPLICATE;
+    const uint32_t row = rows_add(&bodies->rows, &added);
     const unsigned begun = begin_set_callbacks(bodies); /* under OCTREE_AUTO, the executor */
     const octree_point point = make_point(&bodies->levels[number], row, &added);
     status = octree_insert(bodies->levels[number].tree, point.position, point.id);
@@ -204,7 +204,7 @@ octree_status octree_bodies_remove(octree_bodies *bodies, const octree_body *bod
         return status;
     const octree_body removed = *body;
     const unsigned number = find_level(bodies, removed.half);
-    const uint32_t row = rows_find(&bodies->rows, &removed);
+    const uint32_t row = find_row_for_change(bodies, &removed);
     if (row == ROW_NONE)
         return OCTREE_NOT_FOUND;
     const octree_point point = make_point(&bodies->levels[number], row, &removed);
@@ -258,17 +258,17 @@ static octree_status move_point(octree_bodies *set, const octree_body *from, con
     return OCTREE_OK;
 }
 
-octree_status find_moved_row(const octree_bodies *set, const octree_body *from, const octree_body *to, uint32_t *row)
+octree_status find_moved_row(octree_bodies *set, const octree_body *from, const octree_body *to, uint32_t *row)
 {
     octree_status status = check_body(set, from);
     if (status == OCTREE_OK)
         status = check_body(set, to);
     if (status != OCTREE_OK)
         return status;
-    *row = rows_find(&set->rows, from);
+    *row = find_row_for_change(set, from);
     if (*row == ROW_NONE)
         return OCTREE_NOT_FOUND;
-    const uint32_t other = rows_find(&set->rows, to);
+    const uint32_t other = find_row_for_change(set, to);
     return other == ROW_NONE || other == *row ? OCTREE_OK : OCTREE_DUPLICATE;
 }
 
@@ -319,7 +319,7 @@ bool octree_bodies_contain(const octree_bodies *bodies, const octree_body *body)
         return octree_contains(bodies->points, body->position, body->id) &&
                is_same_position(load_body(bodies, &point, &stored)->half, body->half);
     }
-    return rows_find(&bodies->rows, body) != ROW_NONE;
+    return find_row(bodies, body) != ROW_NONE;
 }
 
 const octree *octree_bodies_level(const octree_bodies *bodies, unsigned level, double reach[3])
@@ -394,8 +394,8 @@ static const char *check_row(inspection *s, const octree_point *point)
         return "a body is in the wrong level";
     if (make_point_id(&s->set->levels[s->number], row, body->half) != point->id)
         return "the id of a point has other half extents than its row";
-    if (rows_find(&s->set->rows, body) != row)
-        return "the hash table does not find a body";
+    if (find_row(s->set, body) != row)
+        return "a body is not found";
     change_reach(s->counted, s->number, body->half, 1);
     return NULL;
 }
