@@ -195,7 +195,7 @@ static bool keeps_known_box(const path *p, const box_change *change)
 
 /* Update the boxes on a path from its end towards the root, up to the first box that stays the same. So each new node
  * is reached: it is on the path of a change, or a sibling of such a node. */
-static void fit_path(const fitting *f, const path *p, const box_change *change)
+static void fit_boxes_on_path(const fitting *f, const path *p, const box_change *change)
 {
     bool changed = !keeps_known_box(p, change);
     for (unsigned depth = p->depth + 1; changed && depth-- > 0;) {
@@ -207,11 +207,23 @@ static void fit_path(const fitting *f, const path *p, const box_change *change)
     }
 }
 
-static void fit_point(const fitting *f, const level *l, const octree_point *point, bool adds)
+static void fit_point(const fitting *f, const path *p, const octree_point *point, bool adds)
+{
+    const box_change change = {box_of_points(f, point, 1), adds};
+    fit_boxes_on_path(f, p, &change);
+}
+
+void fit_path(const level *l, const path *p, const octree_point *point, bool adds)
+{
+    const fitting f = make_fitting(l);
+    if (has_boxes(&l->tree->store))
+        fit_point(&f, p, point, adds);
+}
+
+static void find_and_fit_point(const fitting *f, const level *l, const octree_point *point, bool adds)
 {
     const path p = find_path(l->tree, morton_code(l->tree->axes, point->position));
-    const box_change change = {box_of_points(f, point, 1), adds};
-    fit_path(f, &p, &change);
+    fit_point(f, &p, point, adds);
 }
 
 /* If a larger share of the bodies has changed, all boxes are computed again. */
@@ -229,7 +241,7 @@ void fit_changes(const level *l, const octree_point *points, size_t count, bool 
     else if (has_boxes(&l->tree->store)) {
         const fitting f = make_fitting(l);
         for (size_t i = 0; i < count; i++)
-            fit_point(&f, l, &points[i], adds);
+            find_and_fit_point(&f, l, &points[i], adds);
     }
 }
 
@@ -242,10 +254,10 @@ void fit_moves(const level *l, const octree_point *points, const double (*to)[3]
         for (size_t i = 0; i < count; i++) {
             octree_point moved = points[i];
             memcpy(moved.position, to[i], sizeof moved.position);
-            fit_point(&f, l, &moved, true);
+            find_and_fit_point(&f, l, &moved, true);
         }
         for (size_t i = 0; i < count; i++) /* last: a body that was moved twice has left its first new place */
-            fit_point(&f, l, &points[i], false);
+            find_and_fit_point(&f, l, &points[i], false);
     }
 }
 

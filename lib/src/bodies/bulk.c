@@ -330,6 +330,22 @@ static void finish_move(bulk *b, const pending *p, bool made)
     change_reach(b->set, p->level, half_moved, 1);
 }
 
+/* Check a move, and find the row of the moved body. */
+static octree_status find_moved_row(const octree_bodies *set, const octree_body *from, const octree_body *to,
+                                    uint32_t *row)
+{
+    octree_status status = check_body(set, from);
+    if (status == OCTREE_OK)
+        status = check_body(set, to);
+    if (status != OCTREE_OK)
+        return status;
+    *row = rows_find(&set->rows, from);
+    if (*row == ROW_NONE)
+        return OCTREE_NOT_FOUND;
+    const uint32_t other = rows_find(&set->rows, to);
+    return other == ROW_NONE || other == *row ? OCTREE_OK : OCTREE_DUPLICATE;
+}
+
 static void move_row(bulk *b, size_t index)
 {
     uint32_t row;
@@ -342,7 +358,7 @@ static void move_row(bulk *b, size_t index)
     const double *half = b->from[index].half;
     const unsigned level = find_level(b->set, moved->half);
     const struct level *l = &b->set->levels[level];
-    if (level == find_level(b->set, half) && make_point_id(l, row, half) == make_point_id(l, row, moved->half)) {
+    if (level == find_level(b->set, half) && make_point_id(l, 0, half) == make_point_id(l, 0, moved->half)) {
         collect(b, index, row, level);
         rows_replace(&b->set->rows, row, moved);
         return;

@@ -19,47 +19,70 @@ static bool is_crowded(const node *leaf)
     return leaf->count > POOL_MAX_UNITS;
 }
 
-/* Returns the leaf for a position. Null: the tree has none. */
-static const node *find_leaf(const octree *tree, const double position[3])
+/* Returns the index of the first point from `first` on with this x coordinate; `count` if there is none. */
+static uint32_t find_x(const octree_point *points, uint32_t first, uint32_t count, double x)
 {
-    if (!tree)
-        return NULL;
-    const path p = find_path(tree, morton_code(tree->axes, position));
-    return path_end(&p)->octants ? NULL : path_end(&p);
+    uint32_t i = first;
+    while (i + 4 <= count && points[i].position[0] != x && points[i + 1].position[0] != x &&
+           points[i + 2].position[0] != x && points[i + 3].position[0] != x)
+        i += 4;
+    while (i < count && points[i].position[0] != x)
+        i++;
+    return i;
 }
 
-static uint32_t find_row_in_leaf(const octree_bodies *set, const level *l, const node *leaf, const octree_body *body)
+/* Find a body among the points of its leaf. */
+static void find_in_leaf(const octree_bodies *set, const level *l, const octree_body *body, found_body *found)
 {
+    const node *leaf = path_end(&found->at.path);
+    const octree_point *points = leaf_points(leaf);
     const uint64_t steps = make_point_id(l, 0, body->half);
-    for (uint32_t i = 0; i < leaf->count; i++) {
-        const octree_point *point = &leaf_points(leaf)[i];
-        const uint32_t row = row_of_point(point);
-        if (point->position[0] == body->position[0] && (uint64_t)row << ROW_SHIFT == point->id - steps &&
-            is_same_body(row_at(&set->rows, row), body))
-            return row;
+    for (uint32_t i = 0; (i = find_x(points, i, leaf->count, body->position[0])) < leaf->count; i++) {
+        const uint32_t row = row_of_point(&points[i]);
+        if ((uint64_t)row << ROW_SHIFT == points[i].id - steps && is_same_body(row_at(&set->rows, row), body)) {
+            found->row = row;
+            found->at.index = i;
+            return;
+        }
     }
-    return ROW_NONE;
 }
 
-uint32_t find_row(const octree_bodies *set, const octree_body *body)
+/* Find a body by the hash table, then its point in the leaf. */
+static void find_by_hash(const octree_bodies *set, const level *l, const octree_body *body, found_body *found)
 {
-    if (rows_are_hashed(&set->rows))
-        return rows_find(&set->rows, body);
-    const level *l = &set->levels[find_level(set, body->half)];
-    const node *leaf = find_leaf(l->tree, body->position);
-    return leaf ? find_row_in_leaf(set, l, leaf, body) : ROW_NONE;
+    found->row = rows_find(&set->rows, body);
+    if (found->row != ROW_NONE)
+        found->at.index =
+            leaf_find(path_end(&found->at.path), body->position, make_point_id(l, found->row, body->half));
 }
 
-uint32_t find_row_for_change(octree_bodies *set, const octree_body *body)
+/* Find a body, and hash the rows of the set `changed` before if the leaf is crowded. Null: the set is not changed. */
+static inline bool find(const octree_bodies *set, const octree_body *body, octree_bodies *changed, found_body *found)
 {
-    if (rows_are_hashed(&set->rows))
-        return rows_find(&set->rows, body);
     const level *l = &set->levels[find_level(set, body->half)];
-    const node *leaf = find_leaf(l->tree, body->position);
-    if (!leaf)
-        return ROW_NONE;
-    return is_crowded(leaf) && rows_hash(&set->rows, 0) ? rows_find(&set->rows, body)
-                                                        : find_row_in_leaf(set, l, leaf, body);
+    found->row = ROW_NONE;
+    if (!l->tree)
+        return false;
+    found->code = morton_code(l->tree->axes, body->position);
+    begin_path(&found->at.path, l->tree);
+    extend_path(&found->at.path, found->code);
+    const node *end = path_end(&found->at.path);
+    if (end->octants)
+        return false;
+    if (changed && is_crowded(end) && !rows_are_hashed(&set->rows))
+        rows_hash(&changed->rows, 0);
+    (rows_are_hashed(&set->rows) ? find_by_hash : find_in_leaf)(set, l, body, found);
+    return found->row != ROW_NONE;
+}
+
+bool find_body(const octree_bodies *set, const octree_body *body, found_body *found)
+{
+    return find(set, body, NULL, found);
+}
+
+bool find_body_for_change(octree_bodies *set, const octree_body *body, found_body *found)
+{
+    return find(set, body, set, found);
 }
 
 static bool has_crowded_leaf_below(const node *n)

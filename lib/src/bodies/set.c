@@ -5,6 +5,7 @@
 #include "two_bodies.h"
 #include "../exact/float_mode.h"
 #include "../query/search.h"
+#include "../tree/undo.h"
 #include "../tree/walk.h"
 
 #include <stdlib.h>
@@ -164,8 +165,35 @@ static octree_point make_point(const level *l, uint32_t row, const octree_body *
     return (octree_point){{body->position[0], body->position[1], body->position[2]}, make_point_id(l, row, body->half)};
 }
 
-/* The row is written before the tree is changed. If the change of the tree fails, the row is removed again, which needs
- * no memory. */
+/* Insert the point of a body that is not stored, and for which there is room. The row is written before the tree is
+ * changed. If the change of the tree fails, the row is removed again, which needs no memory. */
+static octree_status insert_new_body(octree_bodies *set, unsigned number, const octree_body *body, found_body *place)
+{
+    level *l = &set->levels[number];
+    const uint32_t row = rows_add(&set->rows, body);
+    const octree_point point = make_point(l, row, body);
+    const octree_status status = insert_along_path(l->tree, &place->at.path, &point, place->code);
+    if (status != OCTREE_OK) {
+        rows_remove(&set->rows, row);
+        return status;
+    }
+    change_reach(set, number, body->half, 1);
+    fit_path(l, &place->at.path, &point, true);
+    return OCTREE_OK;
+}
+
+/* Under OCTREE_AUTO, the tree of a level may be rebuilt with another capacity. */
+static void tune_level(octree_bodies *set, unsigned number)
+{
+    const level *l = &set->levels[number];
+    const size_t capacity = l->tree->def.leaf_capacity;
+    const unsigned begun = begin_set_callbacks(set); /* the executor */
+    tune_if_due(l->tree);
+    end_callbacks(begun);
+    if (l->tree->def.leaf_capacity != capacity)
+        fit_all(l);
+}
+
 octree_status octree_bodies_insert(octree_bodies *bodies, const octree_body *body)
 {
     RETURN_IN_DEFAULT_MODE(octree_status, octree_bodies_insert, bodies, body);
@@ -176,24 +204,18 @@ octree_status octree_bodies_insert(octree_bodies *bodies, const octree_body *bod
     const unsigned number = find_level(bodies, added.half);
     status = create_level(bodies, number);
     if (status == OCTREE_OK)
-        status = rows_reserve(&bodies->rows, 1);
-    if (status == OCTREE_OK && find_row_for_change(bodies, &added) != ROW_NONE)
-        status = OCTREE_DUPLICATE;
+        status = is_running_callback(bodies->levels[number].tree) ? OCTREE_BUSY : rows_reserve(&bodies->rows, 1);
     if (status != OCTREE_OK)
         return status;
-    const uint32_t row = rows_add(&bodies->rows, &added);
-    const unsigned begun = begin_set_callbacks(bodies); /* under OCTREE_AUTO, the executor */
-    const octree_point point = make_point(&bodies->levels[number], row, &added);
-    status = octree_insert(bodies->levels[number].tree, point.position, point.id);
-    end_callbacks(begun);
-    if (status != OCTREE_OK) {
-        rows_remove(&bodies->rows, row);
-        return status;
+    found_body place;
+    if (find_body_for_change(bodies, &added, &place))
+        return OCTREE_DUPLICATE;
+    status = insert_new_body(bodies, number, &added, &place);
+    if (status == OCTREE_OK) {
+        tune_level(bodies, number);
+        rebuild_if_due(bodies);
     }
-    fit_changes(&bodies->levels[number], &point, 1, true);
-    change_reach(bodies, number, added.half, 1);
-    rebuild_if_due(bodies);
-    return OCTREE_OK;
+    return status;
 }
 
 octree_status octree_bodies_remove(octree_bodies *bodies, const octree_body *body)
@@ -204,24 +226,33 @@ octree_status octree_bodies_remove(octree_bodies *bodies, const octree_body *bod
         return status;
     const octree_body removed = *body;
     const unsigned number = find_level(bodies, removed.half);
-    const uint32_t row = find_row_for_change(bodies, &removed);
-    if (row == ROW_NONE)
+    const level *l = &bodies->levels[number];
+    found_body found;
+    if (!find_body_for_change(bodies, &removed, &found))
         return OCTREE_NOT_FOUND;
-    const octree_point point = make_point(&bodies->levels[number], row, &removed);
-    status = octree_remove(bodies->levels[number].tree, point.position, point.id);
+    if (is_running_callback(l->tree))
+        return OCTREE_BUSY;
+    const octree_point point = stored_point(&found.at);
+    status = remove_along_path(l->tree, &found.at, found.code);
     if (status == OCTREE_OK) {
-        fit_changes(&bodies->levels[number], &point, 1, false);
+        fit_path(l, &found.at.path, &point, false);
         change_reach(bodies, number, removed.half, -1);
-        rows_remove(&bodies->rows, row);
+        rows_remove(&bodies->rows, found.row);
     }
     return status;
 }
 
-static octree_status move_within_level(octree *tree, const octree_point *from, const octree_point *to)
+/* Move a point whose two places were found. */
+static octree_status move_within_level(octree *tree, found_body *from, const found_body *to,
+                                       const octree_point *leaving, const octree_point *arriving)
 {
-    const octree_status status = octree_move(tree, from->position, from->id, to->position);
-    if (status == OCTREE_OK && to->id != from->id)
-        replace_point_id(tree, to->position, from->id, to->id);
+    single_move m = {.old = *leaving, .moved = *arriving, .from = from->code, .to = to->code};
+    if (is_running_callback(tree))
+        return OCTREE_BUSY;
+    m.moved.id = leaving->id;
+    const octree_status status = move_along_paths(tree, &m, &from->at, &to->at.path, NULL);
+    if (status == OCTREE_OK && arriving->id != leaving->id)
+        replace_point_id(tree, arriving->position, leaving->id, arriving->id);
     return status;
 }
 
@@ -241,49 +272,51 @@ static octree_status move_to_level(octree *old, const octree_point *from, octree
     return status;
 }
 
-/* Move the point of a body, perhaps from one level to another. */
-static octree_status move_point(octree_bodies *set, const octree_body *from, const octree_body *to, uint32_t row)
+/* Move the point of a body, perhaps from one level to another. `from` and `to` are the body's places before and after
+ * the move. */
+static octree_status move_point(octree_bodies *set, const octree_body *old, const octree_body *moved, found_body *from,
+                                const found_body *to)
 {
-    const unsigned number = find_level(set, to->half);
-    level *old = &set->levels[find_level(set, from->half)], *new = &set->levels[number];
-    const octree_point leaving = make_point(old, row, from), arriving = make_point(new, row, to);
+    const unsigned number = find_level(set, moved->half);
+    level *l = &set->levels[find_level(set, old->half)], *next = &set->levels[number];
+    const octree_point leaving = make_point(l, from->row, old), arriving = make_point(next, from->row, moved);
     octree_status status = create_level(set, number);
     if (status == OCTREE_OK)
-        status = old == new ? move_within_level(old->tree, &leaving, &arriving)
-                            : move_to_level(old->tree, &leaving, new->tree, &arriving);
+        status = l == next ? move_within_level(l->tree, from, to, &leaving, &arriving)
+                           : move_to_level(l->tree, &leaving, next->tree, &arriving);
     if (status != OCTREE_OK)
         return status;
-    fit_changes(old, &leaving, 1, false);
-    fit_changes(new, &arriving, 1, true);
+    fit_changes(l, &leaving, 1, false);
+    fit_changes(next, &arriving, 1, true);
     return OCTREE_OK;
 }
 
-octree_status find_moved_row(octree_bodies *set, const octree_body *from, const octree_body *to, uint32_t *row)
+/* Check a move, and find the places of the moved body before and after. */
+static octree_status find_moved_body(octree_bodies *set, const octree_body *from, const octree_body *to,
+                                     found_body *old, found_body *moved)
 {
     octree_status status = check_body(set, from);
     if (status == OCTREE_OK)
         status = check_body(set, to);
     if (status != OCTREE_OK)
         return status;
-    *row = find_row_for_change(set, from);
-    if (*row == ROW_NONE)
+    if (!find_body_for_change(set, from, old))
         return OCTREE_NOT_FOUND;
-    const uint32_t other = find_row_for_change(set, to);
-    return other == ROW_NONE || other == *row ? OCTREE_OK : OCTREE_DUPLICATE;
+    return !find_body_for_change(set, to, moved) || moved->row == old->row ? OCTREE_OK : OCTREE_DUPLICATE;
 }
 
 octree_status octree_bodies_move(octree_bodies *bodies, const octree_body *from, const octree_body *to)
 {
     RETURN_IN_DEFAULT_MODE(octree_status, octree_bodies_move, bodies, from, to);
-    uint32_t row;
+    found_body here, there;
     octree_status status = check_set_change(bodies);
     if (status == OCTREE_OK)
-        status = find_moved_row(bodies, from, to, &row);
+        status = find_moved_body(bodies, from, to, &here, &there);
     if (status != OCTREE_OK)
         return status;
     const octree_body old = *from, moved = *to;
     const unsigned begun = begin_set_callbacks(bodies);
-    status = move_point(bodies, &old, &moved, row);
+    status = move_point(bodies, &old, &moved, &here, &there);
     end_callbacks(begun);
     if (status != OCTREE_OK)
         return status;
@@ -291,7 +324,7 @@ octree_status octree_bodies_move(octree_bodies *bodies, const octree_body *from,
         change_reach(bodies, find_level(bodies, old.half), old.half, -1);
         change_reach(bodies, find_level(bodies, moved.half), moved.half, 1);
     }
-    rows_replace(&bodies->rows, row, &moved);
+    rows_replace(&bodies->rows, here.row, &moved);
     return OCTREE_OK;
 }
 
@@ -319,7 +352,8 @@ bool octree_bodies_contain(const octree_bodies *bodies, const octree_body *body)
         return octree_contains(bodies->points, body->position, body->id) &&
                is_same_position(load_body(bodies, &point, &stored)->half, body->half);
     }
-    return find_row(bodies, body) != ROW_NONE;
+    found_body found;
+    return find_body(bodies, body, &found);
 }
 
 const octree *octree_bodies_level(const octree_bodies *bodies, unsigned level, double reach[3])
@@ -394,7 +428,8 @@ static const char *check_row(inspection *s, const octree_point *point)
         return "a body is in the wrong level";
     if (make_point_id(&s->set->levels[s->number], row, body->half) != point->id)
         return "the id of a point has other half extents than its row";
-    if (find_row(s->set, body) != row)
+    found_body found;
+    if (!find_body(s->set, body, &found) || found.row != row)
         return "a body is not found";
     change_reach(s->counted, s->number, body->half, 1);
     return NULL;

@@ -103,9 +103,6 @@ octree_status check_half_extents(const double half[3]);
 /* Check the numbers of a body. Returns OK, NULL_ARGUMENT, NOT_FINITE, OUTSIDE or BAD_SIZE. */
 octree_status check_body(const octree_bodies *set, const octree_body *body);
 
-/* Check a move, and find the row of the moved body. Returns the statuses of check_body(), NOT_FOUND or DUPLICATE. */
-octree_status find_moved_row(octree_bodies *set, const octree_body *from, const octree_body *to, uint32_t *row);
-
 /* Check whether a set can be changed. Returns OK, NULL_ARGUMENT, BAD_OPTION (it shows points) or BUSY. */
 octree_status check_set_change(const octree_bodies *set);
 
