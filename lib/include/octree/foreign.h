@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* foreign.h - the nodes of a foreign index: a user's own spatial index whose answers and nodes are checked.
+/* foreign.h - the nodes and the pairs of a foreign index: a user's own spatial index whose answers are checked.
  *
  * The nodes of a kd-tree, an R-tree, a bounding volume hierarchy, an octree or a grid are all boxes with parents. A
  * game shows these nodes (octree_session.foreign, octree_input.foreign), and shows which nodes queries visited and
- * pruned (octree_query.visits). It also lists the nodes that are provably wrong (octree_foreign_state).
+ * pruned (octree_query.visits). It also lists the nodes that are provably wrong (octree_foreign_state). A game compares
+ * the overlapping pairs that the index found (octree_session.foreign_pairs) with the exact pairs.
  */
 #ifndef OCTREE_FOREIGN_H
 #define OCTREE_FOREIGN_H
@@ -159,6 +160,22 @@ typedef struct octree_foreign_state {
                                               appeared */
     size_t kind_count;
 } octree_foreign_state;
+
+/* Two bodies whose boxes have a common point. The player of OCTREE_PLAYER_KEYS is in no pair: octree_tick.hits lists
+ * what its box touches. */
+typedef struct octree_pair {
+    uint64_t a, b; /* their ids, a < b */
+} octree_pair;
+
+/* All pairs of bodies that overlap at tick `tick`, as a foreign index found them. The boxes are closed: boxes that only
+ * touch overlap, too. */
+typedef struct octree_foreign_pairs {
+    uint64_t tick;
+    /* the pairs in any order; here `a` may also be the greater id. Null if pair_count is 0, which means that no bodies
+     * overlap */
+    const octree_pair *pairs;
+    size_t pair_count;
+} octree_foreign_pairs;
 
 #ifdef __cplusplus
 }

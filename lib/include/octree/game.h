@@ -144,6 +144,10 @@ typedef struct octree_session {
     /* the foreign trees, in ascending order of their ticks, at most one for each tick */
     const octree_foreign_tree *foreign;
     size_t foreign_count;
+    /* the pairs of a foreign index, in ascending order of their ticks, at most one list for each tick; they are judged
+     * also if `pairs` is false */
+    const octree_foreign_pairs *foreign_pairs;
+    size_t foreign_pairs_count;
     octree_sampled sampled; /* the seeds of the bodies, which session files store; the game does not read this member */
     /* true: each tick lists the pairs of bodies whose boxes have a common point. The pairs of n points at one position
      * are n^2 / 2 */
@@ -170,7 +174,7 @@ typedef enum octree_event {
     OCTREE_EVENT_FULL = 8,    /* a leaf was full, so that the player's step was taken back, or a body was refused */
     OCTREE_EVENT_SPLIT = 16,  /* at least one leaf became an inner node */
     OCTREE_EVENT_MERGED = 32, /* at least one inner node became a leaf or disappeared */
-    OCTREE_EVENT_WRONG = 64,  /* an answer or a node of the foreign index is wrong */
+    OCTREE_EVENT_WRONG = 64,  /* an answer, a node or the pairs of the foreign index are wrong */
     /* the boxes of two bodies have a common point; only in a session with `pairs` */
     OCTREE_EVENT_OVERLAPPED = 128,
 } octree_event;
@@ -188,12 +192,6 @@ typedef struct octree_refusal {
     octree_status why;
     double position[3]; /* the position at which the point was to be stored; 0 for an edit that removes a point */
 } octree_refusal;
-
-/* Two bodies whose boxes have a common point. The player of OCTREE_PLAYER_KEYS is in no pair: octree_tick.hits lists
- * what its box touches. */
-typedef struct octree_pair {
-    uint64_t a, b; /* their ids, a < b */
-} octree_pair;
 
 /* A node that the collision test or the queries of a tick visited or pruned. */
 typedef struct octree_visit {
@@ -246,7 +244,7 @@ typedef struct octree_tick {
      * queries, in their order */
     const octree_answer *answers;
     size_t answer_count;
-    bool judged;                /* true: a foreign answer was compared with the exact answer at this tick or earlier */
+    bool judged; /* true: foreign answers or pairs were compared with the exact ones at this tick or earlier */
     const octree_visit *visits; /* the nodes that searches visited or pruned, each once, in pre-order */
     size_t visit_count;
     size_t touched[OCTREE_TRACE_KINDS]; /* touched[t]: the number of visits whose octree_visit.touch is t */
@@ -262,7 +260,8 @@ typedef struct octree_tick {
      * velocity, which bounces reverse */
     const octree_game_body *movers;
     size_t mover_count;
-    octree_foreign_state foreign; /* the nodes of the foreign index at this tick */
+    octree_foreign_state foreign;        /* the nodes of the foreign index at this tick */
+    octree_pair_judgement foreign_pairs; /* the judgement of the pairs that the foreign index found at this tick */
     /* the reason why the tick is a gap; null if the tick is not a gap. A gap has no events, and its other members keep
      * their values of the previous tick */
     const char *gap;
@@ -277,8 +276,8 @@ typedef struct octree_game octree_game;
  * Errors: NULL_ARGUMENT; those of octree_create; NOT_FINITE, OUTSIDE, BAD_SIZE (the player); DUPLICATE (two bodies with
  * one id, or a body with the player's id); BAD_KEY; BAD_OPTION; BAD_ORDER; NOT_FINITE, BAD_RANGE, BAD_SIZE (a query;
  * infinite boxes are allowed); NOT_FINITE, BAD_RANGE, BAD_TEXT (a shape); BAD_TEXT (a gap); those of
- * octree_foreign_check; TOO_MANY (more bodies than a tree can hold); NO_MEMORY. *game is then null. Cost: that of
- * octree_insert_many, and about 90 bytes for each body during the call. */
+ * octree_foreign_check; BAD_PAIR (a foreign pair has one id twice); TOO_MANY (more bodies than a tree can hold);
+ * NO_MEMORY. *game is then null. Cost: that of octree_insert_many, and about 90 bytes for each body during the call. */
 octree_status octree_game_create(const octree_session *session, octree_game **game);
 void octree_game_destroy(octree_game *game);
 
@@ -290,7 +289,7 @@ void octree_game_destroy(octree_game *game);
 octree_status octree_game_step(octree_game *game, char key);
 
 /* The input of one tick, for a program that makes its session while the game runs. The member `tick` of edits, queries,
- * shapes, gap and foreign nodes is not read. */
+ * shapes, gap, foreign nodes and foreign pairs is not read. */
 typedef struct octree_input {
     char key;                 /* the key of the tick; both '.' and 0 wait */
     const octree_edit *edits; /* the edits in the order in which they are applied */
@@ -302,6 +301,7 @@ typedef struct octree_input {
     const octree_gap *gap; /* if not null, the tick is a gap */
     /* the foreign nodes that are valid from this tick on; null: the foreign nodes stay as they are */
     const octree_foreign_tree *foreign;
+    const octree_foreign_pairs *foreign_pairs; /* the pairs that the foreign index found; null: no pairs are judged */
 } octree_input;
 
 /* Play one tick with this input instead of the session's input. The session's queries and shapes for every tick follow
@@ -309,12 +309,12 @@ typedef struct octree_input {
  * not needed after the call. A body whose position or velocity does not allow its edit causes no error: it becomes a
  * refusal of the tick.
  *
- * Errors: those of octree_game_step, BAD_OPTION, and those of octree_game_create for queries, shapes and foreign nodes.
- * On these errors nothing is played. */
+ * Errors: those of octree_game_step, BAD_OPTION, and those of octree_game_create for queries, shapes, foreign nodes and
+ * foreign pairs. On these errors nothing is played. */
 octree_status octree_game_play(octree_game *game, const octree_input *input);
 
 /* Check the input of a tick without playing the tick. Returns the status that octree_game_play would return; the key is
- * not checked. Cost: O(edits + queries + shapes), and that of octree_foreign_check. */
+ * not checked. Cost: O(edits + queries + shapes + foreign pairs), and that of octree_foreign_check. */
 octree_status octree_input_check(const octree_input *input);
 
 /* Play the session's next tick. Errors: those of octree_game_step; NOT_FOUND if the session has no further tick. */

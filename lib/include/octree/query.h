@@ -211,7 +211,7 @@ typedef enum octree_wrong_kind {
     OCTREE_WRONG_NONE,
     /* the answer contains an id that no point has at this tick, such as the id of a removed point */
     OCTREE_WRONG_UNKNOWN,
-    OCTREE_WRONG_DUPLICATE, /* the answer contains a point twice */
+    OCTREE_WRONG_DUPLICATE, /* the answer contains a point or a pair twice */
     OCTREE_WRONG_SKIPPED,   /* the answer contains a point that the query skips */
     /* only for neighbours: the number of neighbours is neither k nor, in a smaller tree, the number of points. For
      * rays and moving boxes, only if this is also true without the points that they miss */
@@ -265,6 +265,23 @@ typedef struct octree_judgement {
      * exact answer; infinite if an exact distance is 0 or if the answer is empty */
     double ratio;
 } octree_judgement;
+
+/* The result of comparing the pairs that a foreign index found with the exact pairs, as sets. All lists are sorted by
+ * `a` and then `b`, with a < b. */
+typedef struct octree_pair_judgement {
+    bool judged;             /* false: the foreign index gave no pairs at this tick, and the other members are 0 */
+    octree_wrong_kind wrong; /* NONE, UNKNOWN, DUPLICATE, MISSING or EXTRA */
+    /* for UNKNOWN: `a` is the lowest id that no body has, and `b` the id beside it; the player of OCTREE_PLAYER_KEYS is
+     * no body. For DUPLICATE: the lowest pair that is given twice, in whatever order of its ids */
+    octree_pair wrong_pair;
+    const octree_pair *given; /* the pairs of the foreign index */
+    size_t given_count;
+    size_t expected;            /* the number of exact pairs */
+    const octree_pair *missing; /* the exact pairs that are not given */
+    size_t missing_count;
+    const octree_pair *extra; /* the given pairs whose bodies do not overlap, each once; UNKNOWN pairs are left out */
+    size_t extra_count;
+} octree_pair_judgement;
 
 typedef struct octree_answer {
     octree_query_kind kind;

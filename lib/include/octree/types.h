@@ -35,7 +35,8 @@
     X(BUSY, "busy", "the tree cannot be changed inside its own visitor, tracer or task")                               \
     X(BAD_BUILD, "bad_build",                                                                                          \
       "the library was compiled with options that change arithmetic, such as -ffp-contract=fast or "                   \
-      "-funsafe-math-optimizations; compile it without them")
+      "-funsafe-math-optimizations; compile it without them")                                                          \
+    X(BAD_PAIR, "bad_pair", "a pair must consist of two different ids")
 
 typedef enum octree_status {
 #define OCTREE_STATUS_ENUM(name, word, text) OCTREE_##name,

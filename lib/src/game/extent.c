@@ -7,6 +7,7 @@
  * queries visit more nodes, which is what the frames then show.
  */
 #include "extent.h"
+#include "../audit/judge_pairs.h"
 #include "motion.h"
 
 #include <stdlib.h>
@@ -50,22 +51,33 @@ static bool list_pair(const octree_body *a, const octree_body *b, void *context)
     return !game->out_of_memory;
 }
 
-static int compare_pairs(const void *a, const void *b)
+/* Judge the pairs of a foreign index by the exact pairs, which game->pairs lists. Returns false if memory runs out. */
+static bool judge_foreign_pairs(octree_game *game, const octree_foreign_pairs *given)
 {
-    const octree_pair *p = a, *q = b;
-    return p->a != q->a ? (p->a > q->a) - (p->a < q->a) : (p->b > q->b) - (p->b < q->b);
+    const audited_points points = game_audited_points(game);
+    const pair_lists lists = {&game->memory, &game->given_pairs, &game->missing_pairs, &game->extra_pairs};
+    if (!judge_pairs(&lists, &points, given, &game->pairs, &game->tick.foreign_pairs))
+        return false;
+    game->tick.judged = true;
+    if (game->tick.foreign_pairs.wrong)
+        game->tick.events |= OCTREE_EVENT_WRONG;
+    return true;
 }
 
-bool game_list_pairs(octree_game *game)
+bool game_list_pairs(octree_game *game, const octree_foreign_pairs *given)
 {
     game->pairs.count = 0;
-    if (!game->session->pairs)
+    if (!game->session->pairs && !given)
         return true;
     game_update_reach(game);
     if (octree_bodies_pairs(&game->shown, NULL, list_pair, game) != OCTREE_OK || game->out_of_memory)
         return false;
     list_sort(&game->pairs, sizeof(octree_pair), compare_pairs);
-    if (game->pairs.count)
+    if (given && !judge_foreign_pairs(game, given))
+        return false;
+    if (!game->session->pairs)
+        game->pairs.count = 0;
+    else if (game->pairs.count)
         game->tick.events |= OCTREE_EVENT_OVERLAPPED;
     return true;
 }

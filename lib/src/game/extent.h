@@ -14,8 +14,8 @@ void game_show_bodies(octree_game *game);
  * game->shown. Cost: O(1), or O(bodies) if a body with extent was removed. */
 void game_update_reach(octree_game *game);
 
-/* List the pairs of bodies whose boxes have a common point, if the session wants them. Returns false if memory runs
- * out. */
-bool game_list_pairs(octree_game *game);
+/* List the pairs of bodies whose boxes have a common point, if the session wants them, and judge the pairs that a
+ * foreign index found, if `given` is not null. Returns false if memory runs out. */
+bool game_list_pairs(octree_game *game, const octree_foreign_pairs *given);
 
 #endif

@@ -293,7 +293,7 @@ static octree_status run_queries_and_publish_tick(octree_game *game, const octre
     if (game->tick.number == 0 && game->tick.has_player && !input->gap)
         ok = test_collision(game, game->tick.player);
     ok = ok && (input->gap ? game_finish_queries(game) : run_queries_and_list_shapes(game, input));
-    ok = ok && (input->gap || game_list_pairs(game)) && summarize_tree(game);
+    ok = ok && (input->gap || game_list_pairs(game, input->foreign_pairs)) && summarize_tree(game);
     if (ok) {
         game_settle_movers(game);
         publish_tick(game);
@@ -391,6 +391,7 @@ static void begin_tick(octree_game *game, char key)
     game->tick.events = 0;
     game->tick.edit_count = 0;
     game->judge.given.count = game->judge.wrong.count = 0;
+    game->tick.foreign_pairs = (octree_pair_judgement){.judged = false};
     foreign_begin_tick(&game->foreign);
 }
 

@@ -22,12 +22,16 @@
     X(pairs, pair_count, octree_pair)
 
 /* All lists that are emptied at the start of a tick: GAME_SHOWN_LISTS; hit_from, the positions of the hits before the
- * tick (only with swept collisions); and the points and neighbours of all answers. */
+ * tick (only with swept collisions); the points and neighbours of all answers; and the lists of the judgement of
+ * foreign pairs. */
 #define GAME_LISTS(X)                                                                                                  \
     GAME_SHOWN_LISTS(X)                                                                                                \
     X(hit_from, none, double[3])                                                                                       \
     X(found_points, none, octree_point)                                                                                \
-    X(found_neighbors, none, octree_neighbor)
+    X(found_neighbors, none, octree_neighbor)                                                                          \
+    X(given_pairs, none, octree_pair)                                                                                  \
+    X(missing_pairs, none, octree_pair)                                                                                \
+    X(extra_pairs, none, octree_pair)
 
 struct octree_game {
     const octree_session *session;

@@ -69,6 +69,16 @@ static octree_status check_gap(const octree_gap *gap)
     return *gap->why && is_printable_text(gap->why, sizeof gap->why) ? OCTREE_OK : OCTREE_BAD_TEXT;
 }
 
+static octree_status check_foreign_pairs(const octree_foreign_pairs *given)
+{
+    if (!given->pairs && given->pair_count)
+        return OCTREE_NULL_ARGUMENT;
+    for (size_t i = 0; i < given->pair_count; i++)
+        if (given->pairs[i].a == given->pairs[i].b)
+            return OCTREE_BAD_PAIR;
+    return OCTREE_OK;
+}
+
 octree_status octree_input_check(const octree_input *input)
 {
     RETURN_IN_DEFAULT_MODE(octree_status, octree_input_check, input);
@@ -85,6 +95,8 @@ octree_status octree_input_check(const octree_input *input)
         status = check_shape(&input->shapes[i]);
     if (status == OCTREE_OK && input->foreign)
         status = octree_foreign_check(input->foreign, NULL);
+    if (status == OCTREE_OK && input->foreign_pairs)
+        status = check_foreign_pairs(input->foreign_pairs);
     return status == OCTREE_OK && input->gap ? check_gap(input->gap) : status;
 }
 
@@ -132,6 +144,10 @@ octree_status game_check_session(const octree_session *s, const octree *tree)
         status = check_tick_order(s->foreign, sizeof *s->foreign, s->foreign_count, true);
     for (size_t i = 0; status == OCTREE_OK && i < s->foreign_count; i++)
         status = octree_foreign_check(&s->foreign[i], NULL);
+    if (status == OCTREE_OK)
+        status = check_tick_order(s->foreign_pairs, sizeof *s->foreign_pairs, s->foreign_pairs_count, true);
+    for (size_t i = 0; status == OCTREE_OK && i < s->foreign_pairs_count; i++)
+        status = check_foreign_pairs(&s->foreign_pairs[i]);
     return status;
 }
 
@@ -159,6 +175,8 @@ octree_input session_input(const octree_session *s, uint64_t tick)
     input.queries = find_items_of_tick(s->queries, sizeof *s->queries, s->query_count, tick, &input.query_count);
     input.shapes = find_items_of_tick(s->shapes, sizeof *s->shapes, s->shape_count, tick, &input.shape_count);
     input.foreign = find_items_of_tick(s->foreign, sizeof *s->foreign, s->foreign_count, tick, &found);
+    input.foreign_pairs =
+        find_items_of_tick(s->foreign_pairs, sizeof *s->foreign_pairs, s->foreign_pairs_count, tick, &found);
     return input;
 }
 

@@ -5,8 +5,8 @@
 
 #include "octree/game.h"
 
-/* Returns the session's input for a tick, or for OCTREE_EVERY_TICK: the edits, queries, shapes, gap and foreign nodes,
- * but not the player's key. Cost: O(log n) for n items in the session. */
+/* Returns the session's input for a tick, or for OCTREE_EVERY_TICK: the edits, queries, shapes, gap, foreign nodes
+ * and foreign pairs, but not the player's key. Cost: O(log n) for n items in the session. */
 octree_input session_input(const octree_session *session, uint64_t tick);
 
 /* Returns whether a key is one of the keys of game.h that play a tick: every key except q, which ends the session. */

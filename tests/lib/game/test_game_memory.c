@@ -52,7 +52,7 @@ static void a_random_game_survives_each_failure(void **state)
 enum { SWARM = 300 }; /* enough for moves that are made at once */
 
 /* Shapes, wrong answers of a program, a sweep, and a swarm that moves and shrinks. `half`: the bodies are boxes of this
- * size, and their pairs are listed. */
+ * size, and their pairs are listed and compared with wrong ones. */
 static void fail_each_of_a_swarm(double half)
 {
     static octree_game_body bodies[SWARM];
@@ -97,7 +97,11 @@ static void fail_each_of_a_swarm(double half)
         .query_count = sizeof queries / sizeof *queries,
         .shapes = shapes,
         .shape_count = sizeof shapes / sizeof *shapes};
+    static const octree_pair wrong_pairs[] = {{1, 2}, {2, 1}, {1, 5000}, {3, 299}, {7, 9}};
+    static const octree_foreign_pairs pairs[] = {{.tick = 1, .pairs = wrong_pairs, .pair_count = 5}, {.tick = 2}};
     session.pairs = half > 0;
+    session.foreign_pairs = pairs;
+    session.foreign_pairs_count = half > 0 ? 2 : 0;
     assert_true(fail_each(&session) > 20);
 }
 
