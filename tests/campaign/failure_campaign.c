@@ -57,6 +57,7 @@ static const char PREPARE[] =
     "{\"tick\": 1, \"edits\": [{\"insert\": {\"id\": 3, \"position\": [9, 9, 9]}}], "
     "\"foreign_nodes\": [{\"id\": 1, \"box\": {\"min\": [0, 0, 0], \"max\": [4, 4, 4]}, \"points\": [1, 7]}, "
     "{\"id\": 2, \"parent\": 1, \"box\": {\"min\": [0, 0, 0], \"max\": [4, 5, 4]}, \"kind\": \"leaf\"}], "
+    "\"pairs\": [[1, 2], [9, 3]], "
     "\"queries\": [{\"range\": {\"min\": [0, 0, 0], \"max\": [9, 9, 9]}, \"answer\": [1, 8], "
     "\"visited\": [1], \"pruned\": [2], \"hit\": []}, "
     "{\"nearest\": [0, 0, 0], \"answer\": [2]}], \"shapes\": [{\"label\": \"here\", \"at\": [1, 2, 3]}]}\\n"

@@ -52,6 +52,7 @@ static const filmed films[] = {
      "\"kind\": \"leaf\", \"mode\": \"float\"}]}\n"
      "{\"tick\": 1, \"edits\": [{\"insert\": {\"id\": 99, \"position\": [5, 5, 5], \"velocity\": [1, 0, 0], \"class\": "
      "6}}, {\"remove\": 17}, {\"move\": {\"id\": 40, \"position\": [0, 0, 0]}}, {\"remove\": 1000}], "
+     "\"pairs\": [[4, 3], [40, 1], [1, 40], [17, 1]], "
      "\"queries\": [{\"radius\": 25, \"at\": [0, 0, 0], \"answer\": [1, 99, 3], \"visited\": [1], \"pruned\": [2], "
      "\"hit\": [7]}, {\"range\": {\"min\": [-9, -9, -9], \"max\": [9, 9, 9]}, \"at\": \"player\", \"epsilon\": 0.5, "
      "\"bounds\": \"open\"}, "

@@ -50,16 +50,18 @@ static bool read_page(const command_option *option, const char *text, void *into
 static const command_option options[] = {
     {"allow", "LIMITS",
      "accept approximate answers within limits. ratio=1.01: a neighbour may be at most 1.01 times as far away as the "
-     "true neighbour. recall=0.99: the answers must name at least 0.99 of all true points. A comma separates two "
-     "limits. Always wrong are unknown ids, points named twice, points outside the query, points that the query "
-     "excludes, and wrong nodes. An empty answer to a neighbour query has an infinite ratio",
+     "true neighbour. recall=0.99: the answers must name at least 0.99 of all true points, and of all pairs. A comma "
+     "separates two limits. Always wrong are unknown ids, points or pairs named twice, points outside the query, "
+     "points "
+     "that the query excludes, pairs that do not overlap, and wrong nodes. An empty answer to a neighbour query has an "
+     "infinite ratio",
      .read = read_limits, OPTION_VALUE(arguments, limits)},
     {"html", "FILE.html|DIR",
      "write a page, FILE.html or DIR/audit.html: recall and ratio over time, with a link from every tick to its frame, "
      "and the worst cases",
      .read = read_page, OPTION_VALUE(arguments, outputs[HTML].path)},
-    {"junit", "FILE", "write JUnit XML with one test case for each kind of query", .read = read_file,
-     OPTION_VALUE(arguments, outputs[JUNIT].path)},
+    {"junit", "FILE", "write JUnit XML with one test case for each kind of query, the pairs and the nodes",
+     .read = read_file, OPTION_VALUE(arguments, outputs[JUNIT].path)},
     MAX_TICKS_OPTION(arguments, max_ticks),
     FORCE_OPTION(arguments, force, FORCE_FILES),
     JSON_OPTION(arguments, json,
@@ -161,17 +163,19 @@ const command command_audit = {
     .about =
         "Replay a session whose queries carry the answers of a foreign index (an index of your own), and compare each "
         "answer with "
-        "the exact one. For each kind of query this prints the number of answers and of wrong answers; the recall of "
+        "the exact one. The pairs of overlapping bodies that the index found at a tick are an answer, too. For each "
+        "kind "
+        "of query, and for the pairs, this prints the number of answers and of wrong answers; the recall of "
         "the answers (the share of the true points that they name); the ratio of a neighbour's distance to the "
         "distance of the true neighbour of the same rank (the worst ratio, and the largest ratio in the best 99 of 100 "
         "answers); the first tick with a wrong answer; the three "
         "worst cases with their numbers; and the wrong foreign nodes. If all missing or all extra points of an answer "
         "lie exactly on the boundary of a box or a ball, the report names the \"bounds\" that accept these points. "
         "Nothing is drawn and no file is changed. SESSION may be -, standard input; octreel help session shows how a "
-        "query carries an answer.\n",
+        "query carries an answer, and a tick the pairs.\n",
     .more = "One of --html FILE, --junit FILE and --json may write to standard output; FILE is then -.\n",
     .statuses = {"all answers are right, or within the limits of --allow", "wrong answers",
-                 "error, or the session has neither answers nor nodes of a foreign index"},
+                 "error, or the session has no answers, nodes or pairs of a foreign index"},
     .examples = "# print a table of right and wrong answers\n"
                 "octreel audit flight\n"
                 "# write the page flight/audit.html and a report for a CI job\n"

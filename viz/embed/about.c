@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* about.c - checks the queries, shapes and foreign nodes of a tick: see about.h. */
+/* about.c - checks the queries, shapes, foreign nodes and foreign pairs of a tick: see about.h. */
 #include "about.h"
 #include "octree/octree.h"
 #include "session_file.h"
@@ -29,6 +29,21 @@ static const char *find_query_error(const octree_query *query, octree_player_kin
     return status == OCTREE_OK ? NULL : octree_status_text(status);
 }
 
+static octreel_status check_pairs(const octree_foreign_pairs *found, octreel_error *error)
+{
+    if (!found->pairs && found->pair_count)
+        return status_fail(error, OCTREEL_NULL_ARGUMENT);
+    for (size_t i = 0; i < found->pair_count; i++) {
+        const octree_pair *pair = &found->pairs[i];
+        const octreel_status status = pair->a == pair->b                                           ? OCTREEL_BAD_PAIR
+                                      : pair->a >= SESSION_ID_LIMIT || pair->b >= SESSION_ID_LIMIT ? OCTREEL_BAD_ID
+                                                                                                   : OCTREEL_OK;
+        if (status != OCTREEL_OK)
+            return status_refuse(error, status, "pairs[%zu]: %s", i, octreel_status_text(status));
+    }
+    return OCTREEL_OK;
+}
+
 /* Check the queries and shapes one by one, so that the error can name the first invalid query or shape. */
 octreel_status tick_info_check(const octreel_tick_info *about, octree_player_kind player, octreel_error *error)
 {
@@ -47,7 +62,7 @@ octreel_status tick_info_check(const octreel_tick_info *about, octree_player_kin
         if (status != OCTREE_OK)
             return status_refuse(error, OCTREEL_BAD_SHAPE, "shapes[%zu]: %s", i, octree_status_text(status));
     }
-    return OCTREEL_OK;
+    return about->foreign_pairs ? check_pairs(about->foreign_pairs, error) : OCTREEL_OK;
 }
 
 /* Check the foreign nodes, and that their ids are below SESSION_ID_LIMIT, because larger ids do not fit into the

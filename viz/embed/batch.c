@@ -187,13 +187,21 @@ static bool copy_foreign(batch *b, const octree_foreign_tree *foreign)
     return true;
 }
 
+static bool copy_pairs(batch *b, const octree_foreign_pairs *pairs)
+{
+    b->has_pairs = foreign_pairs_duplicate(pairs, &b->pairs);
+    b->bytes += b->pairs.pair_count * sizeof *b->pairs.pairs;
+    return b->has_pairs;
+}
+
 batch *batch_make(const gap_list *gaps, const octreel_tick_info *about, const octree_foreign_tree *foreign)
 {
     batch *b = batch_make_gaps(gaps);
     if (!b)
         return NULL;
     b->is_gap = false;
-    if ((!about || copy_tick_info(b, about)) && (!foreign || copy_foreign(b, foreign)))
+    if ((!about || copy_tick_info(b, about)) && (!foreign || copy_foreign(b, foreign)) &&
+        (!about || !about->foreign_pairs || copy_pairs(b, about->foreign_pairs)))
         return b;
     batch_release(b);
     return NULL;
@@ -215,6 +223,7 @@ void batch_release(batch *b)
     free(b->queries);
     free(b->shapes);
     foreign_tree_release(&b->foreign);
+    foreign_pairs_release(&b->pairs);
     free(b);
 }
 

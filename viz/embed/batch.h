@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* batch.h - holds one tick of a program until it is recorded: the point changes since the tick before, the queries, the
- * shapes, the foreign nodes, and the gaps before the tick. Private to viz/embed. */
+ * shapes, the foreign nodes and pairs, and the gaps before the tick. Private to viz/embed. */
 #ifndef EMBED_BATCH_H
 #define EMBED_BATCH_H
 
@@ -77,11 +77,14 @@ typedef struct batch {
     /* true: the tick has new foreign nodes; false: the foreign nodes of the previous tick stay valid */
     bool has_foreign;
     octree_foreign_tree foreign;
+    bool has_pairs; /* true: the program's index found `pairs` at this tick */
+    octree_foreign_pairs pairs;
     size_t bytes; /* memory that the batch uses, in bytes */
 } batch;
 
-/* Make a batch with an accepted tick that has no changes yet. The gaps, queries, shapes and foreign nodes are copied.
- * `about` and `foreign` may be null. Returns null if memory runs out. Cost: O(gaps + queries + shapes + nodes). */
+/* Make a batch with an accepted tick that has no changes yet. The gaps, queries, shapes, foreign nodes and
+ * foreign pairs are copied. `about` and `foreign` may be null. Returns null if memory runs out. Cost: O(gaps + queries
+ * + shapes + nodes + pairs). */
 batch *batch_make(const gap_list *gaps, const octreel_tick_info *about, const octree_foreign_tree *foreign);
 
 /* Combine all changes of a point in the batch into one change, and sort the changes by id. */

@@ -11,14 +11,15 @@
 
 /* ---- Ticks -------------------------------------------------------------------------------------------------- */
 
-/* Set the tick number of a batch's queries, shapes and foreign nodes, because the program does not set this number. */
+/* Set the tick number of a batch's queries, shapes, foreign nodes and foreign pairs, because the program does not set
+ * this number. */
 static void set_tick_number(batch *b, uint64_t tick)
 {
     for (size_t i = 0; i < b->query_count; i++)
         b->queries[i].tick = tick;
     for (size_t i = 0; i < b->shape_count; i++)
         b->shapes[i].tick = tick;
-    b->foreign.tick = tick;
+    b->foreign.tick = b->pairs.tick = tick;
 }
 
 /* Returns an array with the points that a batch inserts; the caller frees it. */
@@ -60,6 +61,8 @@ static octreel_status film_first_tick(session_filmer *f, const batch *first, con
                                     .shape_count = gap ? 0 : first->shape_count,
                                     .foreign = &first->foreign,
                                     .foreign_count = first->has_foreign && !gap,
+                                    .foreign_pairs = &first->pairs,
+                                    .foreign_pairs_count = first->has_pairs && !gap,
                                     .gaps = gap,
                                     .gap_count = gap != NULL};
     film.folder = f->folder;
@@ -91,7 +94,8 @@ static octreel_status film_next_batch(session_filmer *f, const batch *b, bool ha
                                          .query_count = b->query_count,
                                          .shapes = b->shapes,
                                          .shape_count = b->shape_count,
-                                         .foreign = b->has_foreign ? &b->foreign : NULL});
+                                         .foreign = b->has_foreign ? &b->foreign : NULL,
+                                         .foreign_pairs = b->has_pairs ? &b->pairs : NULL});
 }
 
 /* Record the ticks that were refused before the tick of a batch. */

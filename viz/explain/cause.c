@@ -73,8 +73,18 @@ static void extend_span(cause_span *span, uint64_t count, uint64_t tick)
     span->last = tick;
 }
 
+/* The pairs that a foreign index found count as one answer. */
+static size_t count_wrong_answers(const octree_tick *tick)
+{
+    size_t worst;
+    return judgement_count_wrong(tick->answers, tick->answer_count, &worst) + (tick->foreign_pairs.wrong != 0);
+}
+
 static bool has_same_wrong_answers(const octree_tick *a, const octree_tick *b)
 {
+    const octree_pair_judgement *p = &a->foreign_pairs, *q = &b->foreign_pairs;
+    if (p->wrong != q->wrong || p->wrong_pair.a != q->wrong_pair.a || p->wrong_pair.b != q->wrong_pair.b)
+        return false;
     const size_t both = a->answer_count < b->answer_count ? a->answer_count : b->answer_count;
     for (size_t i = 0; i < both; i++) {
         const octree_judgement *x = &a->answers[i].judgement, *y = &b->answers[i].judgement;
@@ -86,9 +96,7 @@ static bool has_same_wrong_answers(const octree_tick *a, const octree_tick *b)
 
 static void count_wrong_answer_changes(cause_span wrong[WRONG_CHANGES], const octree_tick *a, const octree_tick *b)
 {
-    size_t worst;
-    const size_t before = judgement_count_wrong(a->answers, a->answer_count, &worst);
-    const size_t now = judgement_count_wrong(b->answers, b->answer_count, &worst);
+    const size_t before = count_wrong_answers(a), now = count_wrong_answers(b);
     if (now > before)
         extend_span(&wrong[WRONG_MORE], now - before, a->number);
     else if (now < before)

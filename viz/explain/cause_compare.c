@@ -329,7 +329,9 @@ static void compare_values(const cause_place *place, json_t *a, json_t *b)
     if (are_values_equal(place, a, b))
         return;
     const cause_rule rule = cause_rule_of(place->where);
-    if (json_is_array(a ? a : b) && (!a || !b || json_is_array(b))) {
+    /* an empty list and a missing one differ, but have no elements to compare */
+    const bool empty = json_array_size(a) == 0 && json_array_size(b) == 0;
+    if (!empty && json_is_array(a ? a : b) && (!a || !b || json_is_array(b))) {
         compare_lists(place, rule, a, b);
     } else if (json_is_object(a) && json_is_object(b) && rule != CAUSE_WHOLE && !json_object_get(a, "min")) {
         if (rule == CAUSE_ANSWERS) {

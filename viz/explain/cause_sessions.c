@@ -145,8 +145,9 @@ static void compare_key_presses(const octree_session *a, const octree_session *b
 
 /* ---- Everything else, as JSON ---------------------------------------------------------------------------------- */
 
-/* Write a session as lines of JSON. Points, key presses and "pairs" are left out, because they are compared separately:
- * the place "pairs" is that of a tick. The member "ticks" is written even if a session file would leave it out. */
+/* Write a session as lines of JSON. Points, key presses and the header's "pairs" are left out, because they are
+ * compared separately: the place "pairs" is that of a tick. The member "ticks" is written even if a session file would
+ * leave it out. */
 static char *write_session(const octree_session *session, bool sampled)
 {
     octree_session rest = *session;
@@ -214,6 +215,18 @@ static tick_line read_tick_line(const char *at)
     return (tick_line){strtoull(at + sizeof start - 1, NULL, 10), strcspn(at, "\n")};
 }
 
+/* Parse the line of a tick, and move *at to its end. The foreign pairs get a place of their own, because the place
+ * "pairs" is that of the pairs in ticks.jsonl. */
+static json_t *parse_tick_line(const char **at)
+{
+    json_t *object = parse_next_object(at);
+    json_t *pairs = json_object_get(object, "pairs");
+    json_object_del(object, "tick");
+    if (pairs && json_object_set(object, "session.foreign_pairs", pairs) == 0)
+        json_object_del(object, "pairs");
+    return object;
+}
+
 /* Compare the tick lines of two sessions. Both texts are read in the order of ticks, so that lines of the same tick
  * meet. Equal lines are not parsed, because a session may have many lines. */
 static void compare_tick_lines(cause_place place, const char *x, const char *y)
@@ -226,10 +239,8 @@ static void compare_tick_lines(cause_place place, const char *x, const char *y)
             y += b.size + 1;
             continue;
         }
-        json_t *const objects[2] = {in_a ? parse_next_object(&x) : NULL, in_b ? parse_next_object(&y) : NULL};
+        json_t *const objects[2] = {in_a ? parse_tick_line(&x) : NULL, in_b ? parse_tick_line(&y) : NULL};
         place.tick = in_a ? a.tick : b.tick;
-        json_object_del(objects[0], "tick");
-        json_object_del(objects[1], "tick");
         cause_compare_members(&place, objects[0], objects[1]);
         json_decref(objects[0]);
         json_decref(objects[1]);

@@ -25,6 +25,7 @@ static const struct {
     [SESSION_SHAPES] = {offsetof(octree_session, shapes), sizeof(octree_shape)},
     [SESSION_GAPS] = {offsetof(octree_session, gaps), sizeof(octree_gap)},
     [SESSION_FOREIGN] = {offsetof(octree_session, foreign), sizeof(octree_foreign_tree)},
+    [SESSION_PAIRS] = {offsetof(octree_session, foreign_pairs), sizeof(octree_foreign_pairs)},
     [BODIES] = {offsetof(octree_session, bodies), sizeof(octree_game_body)},
 };
 
@@ -59,7 +60,8 @@ octree_input session_collect_input(const octree_session *session)
                           .shapes = session->shapes,
                           .shape_count = session->shape_count,
                           .gap = session->gap_count ? session->gaps : NULL,
-                          .foreign = session->foreign_count ? session->foreign : NULL};
+                          .foreign = session->foreign_count ? session->foreign : NULL,
+                          .foreign_pairs = session->foreign_pairs_count ? session->foreign_pairs : NULL};
 }
 
 /* ---- Copying and freeing ------------------------------------------------------------------------------------ */
@@ -105,17 +107,34 @@ void query_release_ids(octree_query *query)
         free((uint64_t *)query->visits[met].ids);
 }
 
-/* Frees the memory that the queries and foreign trees of a session own, but not the arrays in which they are stored. */
+bool foreign_pairs_duplicate(const octree_foreign_pairs *from, octree_foreign_pairs *to)
+{
+    const void *pairs = from->pairs;
+    const bool whole = duplicate_items(&pairs, from->pair_count, sizeof *from->pairs);
+    *to = (octree_foreign_pairs){.tick = from->tick, .pairs = pairs, .pair_count = pairs ? from->pair_count : 0};
+    return whole;
+}
+
+void foreign_pairs_release(octree_foreign_pairs *pairs)
+{
+    free((octree_pair *)pairs->pairs);
+    *pairs = (octree_foreign_pairs){0};
+}
+
+/* Frees the memory that the queries, foreign trees and foreign pairs of a session own, but not the arrays in which they
+ * are stored. */
 static void release_owned_memory(const octree_session *session)
 {
     for (size_t i = 0; i < session->query_count; i++)
         query_release_ids((octree_query *)&session->queries[i]);
     for (size_t i = 0; i < session->foreign_count; i++)
         foreign_tree_release((octree_foreign_tree *)&session->foreign[i]);
+    for (size_t i = 0; i < session->foreign_pairs_count; i++)
+        foreign_pairs_release((octree_foreign_pairs *)&session->foreign_pairs[i]);
 }
 
-/* The queries and foreign trees of a session were copied bytewise, so they share memory with the originals. Gives
- * each copy its own memory. */
+/* The queries, foreign trees and foreign pairs of a session were copied bytewise, so they share memory with the
+ * originals. Gives each copy its own memory. */
 static bool duplicate_owned_memory(const octree_session *session)
 {
     bool whole = true;
@@ -123,6 +142,10 @@ static bool duplicate_owned_memory(const octree_session *session)
         whole = query_copy_ids((octree_query *)&session->queries[i]) && whole;
     for (size_t i = 0; i < session->foreign_count; i++)
         whole = foreign_tree_duplicate(&session->foreign[i], (octree_foreign_tree *)&session->foreign[i]) && whole;
+    for (size_t i = 0; i < session->foreign_pairs_count; i++) {
+        octree_foreign_pairs *pairs = (octree_foreign_pairs *)&session->foreign_pairs[i];
+        whole = foreign_pairs_duplicate(pairs, pairs) && whole;
+    }
     return whole;
 }
 
@@ -181,6 +204,10 @@ bool session_read_header(json_reader *r, json_t *object)
     session_loader *s = r->context;
     if (!json_object_get(object, "octreel"))
         return json_fail(r, NULL, "is not a session: the first object has no \"octreel\": \"session\"");
+    if (json_is_array(json_object_get(object, "pairs")))
+        return json_fail(r, &(json_place){NULL, "pairs", 0},
+                         "the header has true or false here; the pairs that your index found at a tick belong in the "
+                         "object of that tick, such as {\"tick\": 0, \"pairs\": [[1, 2]]}");
     return session_compute_world_from_file(r, object) &&
            json_read_members(r, object, NULL, session_header_members, &s->header);
 }
@@ -339,7 +366,8 @@ void session_write_header(const octree_session *session, const point_values *val
 void session_write_tick(uint64_t tick, const octree_input *input, const point_values *values, FILE *out)
 {
     json_writer writer = {.out = out, .context = values};
-    if (input->edit_count == 0 && input->query_count == 0 && input->shape_count == 0 && !input->gap && !input->foreign)
+    if (input->edit_count == 0 && input->query_count == 0 && input->shape_count == 0 && !input->gap &&
+        !input->foreign && !input->foreign_pairs)
         return;
     json_write_object(&writer, session_tick_members, &(session_tick){tick, *input});
     json_write_end_line(&writer);

@@ -69,12 +69,15 @@ void session_release(session_file *file);
  * O(size). */
 bool session_write(const octree_session *session, const point_values *values, FILE *out);
 
-/* query_copy_ids() replaces the lists of ids of a query by copies. foreign_tree_duplicate() writes a copy of *from to
- * *to, which may be the same tree. Both return false if memory runs out. The caller releases the copies in any case. */
+/* query_copy_ids() replaces the lists of ids of a query by copies. foreign_tree_duplicate() and
+ * foreign_pairs_duplicate() write a copy of *from to *to, which may be the same structure. All three return false if
+ * memory runs out. The caller releases the copies in any case. */
 bool query_copy_ids(octree_query *query);
 void query_release_ids(octree_query *query);
 bool foreign_tree_duplicate(const octree_foreign_tree *from, octree_foreign_tree *to);
 void foreign_tree_release(octree_foreign_tree *tree);
+bool foreign_pairs_duplicate(const octree_foreign_pairs *from, octree_foreign_pairs *to);
+void foreign_pairs_release(octree_foreign_pairs *pairs);
 
 /* The value of a session's `ticks` while the number of its ticks is unknown. The header of such a session is written
  * without the member "ticks". */

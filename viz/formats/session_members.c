@@ -280,6 +280,7 @@ const json_member session_tick_members[] = {
     {"shapes", &session_items_codec, TICK(input.shapes), .about = &session_shapes,
      JSON_IF(session_tick, input.shape_count)},
     {"foreign_nodes", &session_nodes_codec, TICK(input.foreign), JSON_IF(session_tick, input.foreign)},
+    {"pairs", &session_pairs_codec, TICK(input.foreign_pairs), JSON_IF(session_tick, input.foreign_pairs)},
     {"gap", JSON_CODEC(read_gap, write_gap), TICK(input.gap), .about = "the reason of a gap", .size = OCTREE_GAP_TEXT,
      JSON_IF(session_tick, input.gap)},
     {0},

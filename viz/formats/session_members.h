@@ -31,7 +31,7 @@ typedef struct session_tick {
 } session_tick;
 
 /* The indices of the lists of a session. */
-enum { SESSION_EDITS, SESSION_QUERIES, SESSION_SHAPES, SESSION_GAPS, SESSION_FOREIGN, SESSION_LISTS };
+enum { SESSION_EDITS, SESSION_QUERIES, SESSION_SHAPES, SESSION_GAPS, SESSION_FOREIGN, SESSION_PAIRS, SESSION_LISTS };
 
 /* The state of reading the values of points (colours, intensities and classes). */
 typedef struct session_values {
@@ -78,8 +78,8 @@ bool session_move_header_lists(json_reader *r);
 /* Returns a session made of the header and the lists. Its arrays are not copied: the session_loader still owns them. */
 octree_session session_assemble(const session_loader *s, const session_list lists[SESSION_LISTS]);
 
-/* Returns an input that contains all edits, queries and shapes of a session, its first gap, and its first foreign
- * nodes. The caller passes a session that holds only the items of one tick. */
+/* Returns an input that contains all edits, queries and shapes of a session, its first gap, its first foreign nodes and
+ * its first foreign pairs. The caller passes a session that holds only the items of one tick. */
 octree_input session_collect_input(const octree_session *session);
 
 /* session_clear_lists() removes all items and frees the memory that the items own. session_release_lists() frees the
@@ -109,6 +109,9 @@ bool session_compute_world_from_file(json_reader *r, json_t *header);
 /* The codec of foreign nodes. Foreign nodes apply from their tick on. The codec reads and writes these nodes in an
  * octree_input. */
 extern const json_codec session_nodes_codec;
+
+/* The codec of the pairs that a foreign index found at a tick, in an octree_input. */
+extern const json_codec session_pairs_codec;
 
 /* The codecs of points and of velocities. Points are a list, a point file or a sample. Velocities are listed by the
  * ids of points. The codec of velocities only reads, because velocities are written together with the points. */

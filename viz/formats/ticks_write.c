@@ -87,7 +87,12 @@ static void write_changed_nodes(json_writer *w, const void *from)
         write_count_and_digest(w, addresses.count, addresses.items, addresses.count);
 }
 
-/* Writes pairs of bodies as [a, b]. A pair consists of two words. */
+/* Writes a pair of bodies as [a, b]. A pair consists of two words. */
+static void write_pair(json_writer *w, const void *from)
+{
+    json_ids.write(w, &(json_counted_array){from, 2});
+}
+
 static void write_pairs(json_writer *w, const void *from)
 {
     const json_counted_array pairs = json_get_counted_array(from);
@@ -97,12 +102,8 @@ static void write_pairs(json_writer *w, const void *from)
         return;
     }
     json_write_begin_array(w);
-    for (size_t i = 0; i < pairs.count; i++) {
-        json_write_begin_array(w);
-        json_write_integer(w, ids[2 * i]);
-        json_write_integer(w, ids[2 * i + 1]);
-        json_write_end_array(w);
-    }
+    for (size_t i = 0; i < pairs.count; i++)
+        write_pair(w, &ids[2 * i]);
     json_write_end_array(w);
 }
 
@@ -305,6 +306,31 @@ static const json_member foreign_members[] = {
     {0},
 };
 
+/* ---- Foreign pairs ----------------------------------------------------------------------------------------- */
+
+static bool has_wrong_pair(const void *structure)
+{
+    const octree_wrong_kind wrong = ((const octree_pair_judgement *)structure)->wrong;
+    return wrong && wrong <= OCTREE_WRONG_DUPLICATE;
+}
+
+#define PAIRS(member) .offset = offsetof(octree_pair_judgement, member)
+
+static const json_member foreign_pairs_members[] = {
+    {"given", WRITE(write_pairs), PAIRS(given)},
+    {"wrong", &json_choice, PAIRS(wrong), .names = wrong_name},
+    {"wrong_pair", WRITE(write_pair), PAIRS(wrong_pair), .is_set = has_wrong_pair},
+    {"expected", &json_size, PAIRS(expected)},
+    {"missing", WRITE(write_pairs), PAIRS(missing), JSON_IF(octree_pair_judgement, missing_count)},
+    {"extra", WRITE(write_pairs), PAIRS(extra), JSON_IF(octree_pair_judgement, extra_count)},
+    {0},
+};
+
+void tick_write_foreign_pairs(json_writer *w, const octree_pair_judgement *pairs)
+{
+    json_write_object(w, foreign_pairs_members, pairs);
+}
+
 /* ---- The line ----------------------------------------------------------------------------------------------- */
 
 static void write_key(json_writer *w, const void *from)
@@ -345,6 +371,8 @@ static const json_member line_members[] = {
     {"hits", WRITE(write_point_ids), TICK(hits)},
     {"hit_cost", &json_structure, TICK(hit_cost), .members = cost_members},
     {"pairs", WRITE(write_pairs), TICK(pairs), JSON_IF(octree_tick, pair_count)},
+    {"foreign_pairs", &json_structure, TICK(foreign_pairs), .given = offsetof(octree_tick, foreign_pairs.judged),
+     .members = foreign_pairs_members},
     {"answers", WRITE(write_answers), .offset = 0},
     {"visits", &json_structure, .offset = 0, .members = visit_members},
     {"foreign_nodes", &json_structure, TICK(foreign), .given = offsetof(octree_tick, foreign.given),

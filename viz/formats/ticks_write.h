@@ -37,6 +37,9 @@ void tick_write_query_parameters(json_writer *w, const octree_answer *answer);
 /* Writes an answer as an object with one member. The name of the member is the kind of the answer's query. */
 void tick_write_answer(json_writer *w, const octree_answer *answer);
 
+/* Writes the member "foreign_pairs" of a tick. w->context is a tick_extras. */
+void tick_write_foreign_pairs(json_writer *w, const octree_pair_judgement *pairs);
+
 /* Prints a digest as sixteen hexadecimal digits. Returns `text`. */
 #define DIGEST_TEXT 17
 char *digest_print(uint64_t digest, char text[DIGEST_TEXT]);

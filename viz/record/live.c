@@ -68,6 +68,8 @@ static octree_input make_first_input(const octree_session *session)
         .queries = session->queries, .shapes = session->shapes, .gap = octree_session_gap(session, 0)};
     if (session->foreign_count && session->foreign->tick == 0)
         input.foreign = session->foreign;
+    if (session->foreign_pairs_count && session->foreign_pairs->tick == 0)
+        input.foreign_pairs = session->foreign_pairs;
     while (input.query_count < session->query_count && session->queries[input.query_count].tick == 0)
         input.query_count++;
     while (input.shape_count < session->shape_count && session->shapes[input.shape_count].tick == 0)

@@ -33,17 +33,31 @@
 
 /* ---- Counting ----------------------------------------------------------------------------------------------- */
 
-static bool format_answer(const octree_answer *answer, char **text)
+const octree_query_traits *audit_kind_about(int kind)
 {
+    static const octree_query_traits pairs = {.name = "pairs"};
+    return kind == AUDIT_PAIRS ? &pairs : octree_query_about((octree_query_kind)kind);
+}
+
+/* Format the answer of a tick with the index `place`, or the pairs if `place` is SIZE_MAX. */
+static bool format_answer(const octree_tick *tick, size_t place, char **text)
+{
+    const tick_extras extras = {.frame = NULL};
     text_stream s;
-    if (text_stream_begin(&s))
-        tick_write_answer(&(json_writer){.out = s.stream}, answer);
+    json_writer w = {.context = &extras};
+    if (text_stream_begin(&s)) {
+        w.out = s.stream;
+        if (place == SIZE_MAX)
+            tick_write_foreign_pairs(&w, &tick->foreign_pairs);
+        else
+            tick_write_answer(&w, &tick->answers[place]);
+    }
     return text_stream_end(&s, text);
 }
 
 static void copy_points(octree_point to[AUDIT_POINTS], const octree_point *from, size_t count)
 {
-    if (count > 0)
+    if (from)
         memcpy(to, from, (count < AUDIT_POINTS ? count : AUDIT_POINTS) * sizeof *to);
 }
 
@@ -76,14 +90,14 @@ static bool is_worse(const audit_case *c, const audit_case *than)
 }
 
 /* Keep a wrong answer if it is among the AUDIT_WORST worst ones. Returns false if memory runs out. */
-static bool insert_into_worst_answers(audit_kind *kind, audit_case c, const octree_answer *answer)
+static bool insert_into_worst_answers(audit_kind *kind, audit_case c, const octree_tick *tick)
 {
     size_t at = kind->worst_count;
     while (at > 0 && is_worse(&c, &kind->worst[at - 1]))
         at--;
     if (at == AUDIT_WORST)
         return true;
-    if (!format_answer(answer, &c.answer))
+    if (!format_answer(tick, c.place, &c.answer))
         return false;
     copy_points(c.missing, c.made.missing, c.made.missing_count);
     copy_points(c.extra, c.made.extra, c.made.extra_count);
@@ -138,32 +152,47 @@ static bool is_wrong_only_on_boundary(const octree_judgement *made)
 }
 
 /* Count one wrong answer. Returns false if memory runs out. */
-static bool add_wrong_answer(audit_kind *kind, audit_case c, const octree_answer *answer)
+static bool add_wrong_answer(audit_kind *kind, audit_case c, const octree_tick *tick)
 {
     if (kind->wrong++ == 0)
         kind->first_wrong = c.tick;
     kind->on_boundary += is_wrong_only_on_boundary(&c.made);
     kind->beyond += !c.allowed;
-    return insert_into_worst_answers(kind, c, answer);
+    return insert_into_worst_answers(kind, c, tick);
 }
 
-static bool add_answer(audit_report *report, uint64_t tick, size_t place, const octree_answer *answer)
+/* Count one answer of a kind. `place` is the index of the answer in the tick, or SIZE_MAX for pairs. */
+static bool add_answer(audit_report *report, int of, const octree_tick *tick, size_t place,
+                       const octree_judgement *made)
 {
-    audit_kind *kind = &report->kinds[answer->kind];
-    const octree_judgement *made = &answer->judgement;
+    audit_kind *kind = &report->kinds[of];
     kind->asked++;
     report->asked++;
     kind->expected += made->expected;
     kind->missing += made->missing_count;
     kind->extra += made->extra_count;
     kind->wrong_by_kind[made->wrong]++;
-    if (!add_answer_to_tick(kind, tick, made) ||
-        (octree_query_about(answer->kind)->neighbors && !append_ratio(kind, made->ratio)))
+    if (!add_answer_to_tick(kind, tick->number, made) ||
+        (audit_kind_about(of)->neighbors && !append_ratio(kind, made->ratio)))
         return false;
     if (!made->wrong)
         return true;
     report->wrong++;
-    return add_wrong_answer(kind, (audit_case){tick, place, is_allowed(made, &report->limits), .made = *made}, answer);
+    return add_wrong_answer(kind, (audit_case){tick->number, place, is_allowed(made, &report->limits), .made = *made},
+                            tick);
+}
+
+/* Count the pairs of a tick as an answer. */
+static bool add_pairs(audit_report *report, const octree_tick *tick)
+{
+    const octree_pair_judgement *pairs = &tick->foreign_pairs;
+    const octree_judgement made = {.judged = pairs->judged,
+                                   .wrong = pairs->wrong,
+                                   .given_count = pairs->given_count,
+                                   .expected = pairs->expected,
+                                   .missing_count = pairs->missing_count,
+                                   .extra_count = pairs->extra_count};
+    return !made.judged || add_answer(report, AUDIT_PAIRS, tick, SIZE_MAX, &made);
 }
 
 static void copy_first_wrong_nodes(audit_nodes *nodes, const octree_tick *tick)
@@ -195,12 +224,14 @@ static void add_wrong_nodes(audit_nodes *nodes, const octree_tick *tick)
 static bool add_tick(audit_report *report, const octree_tick *tick)
 {
     report->ticks++;
-    for (size_t i = 0; !tick->gap && i < tick->answer_count; i++)
-        if (tick->answers[i].judgement.judged && !add_answer(report, tick->number, i, &tick->answers[i]))
+    if (tick->gap)
+        return true;
+    for (size_t i = 0; i < tick->answer_count; i++)
+        if (tick->answers[i].judgement.judged &&
+            !add_answer(report, (int)tick->answers[i].kind, tick, i, &tick->answers[i].judgement))
             return false;
-    if (!tick->gap)
-        add_wrong_nodes(&report->nodes, tick);
-    return true;
+    add_wrong_nodes(&report->nodes, tick);
+    return add_pairs(report, tick);
 }
 
 /* ---- Playing ------------------------------------------------------------------------------------------------ */
@@ -229,13 +260,14 @@ static bool play_session(const char *path, const octree_session *session, const 
         return error_set(error, "%s: cannot be played: %s", file_display_name(path), octree_status_text(status));
     const bool done = play_and_count(game, watch, report, error);
     octree_game_destroy(game);
-    for (int kind = 0; kind < OCTREE_QUERY_KINDS; kind++)
+    for (int kind = 0; kind < AUDIT_KINDS; kind++)
         if (report->kinds[kind].ratio_count > 1)
             qsort(report->kinds[kind].ratios, report->kinds[kind].ratio_count, sizeof(double), compare_float64);
     if (done && report->asked == 0 && !report->nodes.given)
-        return error_set(
-            error, "%s: nothing to audit: the played ticks have neither foreign nodes nor a query with an \"answer\"",
-            file_display_name(path));
+        return error_set(error,
+                         "%s: nothing to audit: the played ticks have neither foreign nodes nor \"pairs\" nor a query "
+                         "with an \"answer\"",
+                         file_display_name(path));
     return done;
 }
 
@@ -255,7 +287,7 @@ bool audit_replay(const char *path, const audit_limits *limits, uint64_t max_tic
 
 void audit_release(audit_report *report)
 {
-    for (int i = 0; i < OCTREE_QUERY_KINDS; i++) {
+    for (int i = 0; i < AUDIT_KINDS; i++) {
         audit_kind *kind = &report->kinds[i];
         free(kind->ratios);
         free(kind->ticks);
@@ -326,7 +358,7 @@ bool audit_kind_passes(const audit_kind *kind, const audit_limits *limits)
 bool audit_passes(const audit_report *report)
 {
     bool passes = report->nodes.wrong == 0;
-    for (int i = 0; i < OCTREE_QUERY_KINDS; i++)
+    for (int i = 0; i < AUDIT_KINDS; i++)
         passes = passes && audit_kind_passes(&report->kinds[i], &report->limits);
     return passes;
 }

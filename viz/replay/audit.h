@@ -11,6 +11,9 @@
 #define AUDIT_WORST 3
 #define AUDIT_POINTS 4
 
+/* The kinds of answers: those of the queries, and the pairs of overlapping bodies that the index found at a tick. */
+enum { AUDIT_PAIRS = OCTREE_QUERY_KINDS, AUDIT_KINDS };
+
 /* The errors that an approximate index may make. `ratio`: a neighbour may be at most `ratio` times as far away as the
  * true neighbour of the same rank. `recall`: the answers of a query kind must name at least this share of all true
  * points; the other points may be missing, or farther neighbours may be named instead.
@@ -25,15 +28,16 @@ typedef struct audit_limits {
 /* A wrong answer. */
 typedef struct audit_case {
     uint64_t tick;
-    size_t place; /* index of the answer among the answers of its tick in ticks.jsonl */
+    size_t place; /* index of the answer among the answers of its tick in ticks.jsonl; SIZE_MAX for pairs */
     /* True: the wrong answer is within the limits when judged alone. Many such answers together may still violate the
      * recall limit. */
     bool allowed;
     octree_judgement made; /* the judgement of the answer; its lists of points are not kept */
     /* The first AUDIT_POINTS points that are missing in the answer, and the first AUDIT_POINTS points that are
-     * extra. */
+     * extra. Not set for pairs. */
     octree_point missing[AUDIT_POINTS], extra[AUDIT_POINTS];
-    /* The JSON object of ticks.jsonl with the query, the exact answer and the given answer; owned by this struct. */
+    /* The JSON object of ticks.jsonl with the query, the exact answer and the given answer, or with the pairs; owned by
+     * this struct. */
     char *answer;
 } audit_case;
 
@@ -43,7 +47,7 @@ typedef struct audit_tick {
     double ratio; /* the largest ratio of a neighbour in these answers */
 } audit_tick;
 
-/* The sums over all answers to one kind of query. */
+/* The sums over all answers to one kind of query, or over the pairs of all ticks. For pairs, "point" means a pair. */
 typedef struct audit_kind {
     uint64_t asked, wrong; /* number of answers; number of wrong answers */
     /* `expected`: number of points in the exact answers; `missing`: number of these points that the foreign answers
@@ -78,18 +82,21 @@ typedef struct audit_nodes {
 
 typedef struct audit_report {
     audit_limits limits;
-    audit_kind kinds[OCTREE_QUERY_KINDS];
+    audit_kind kinds[AUDIT_KINDS];
     audit_nodes nodes;
     uint64_t ticks, asked, wrong; /* number of ticks, of answers and of wrong answers */
 } audit_report;
 
 /* Replay the recording or session at a path and compare its foreign answers with the exact ones. Returns false with an
- * error on failure, and also if the session has neither answers nor foreign nodes, or more than `max_ticks` ticks (0:
- * SESSION_MOST_PLAYED). Release the report after a failure too. `watch` may be null; its keep_going() is not called.
- * Cost: the time to play the session. Memory: 8 bytes per answer, and 48 bytes per tick and kind of query. */
+ * error on failure, and also if the session has no answers, foreign nodes or foreign pairs, or more than `max_ticks`
+ * ticks (0: SESSION_MOST_PLAYED). Release the report after a failure too. `watch` may be null; its keep_going() is not
+ * called. Cost: the time to play the session. Memory: 8 bytes per answer, and 48 bytes per tick and kind of query. */
 bool audit_replay(const char *path, const audit_limits *limits, uint64_t max_ticks, const watcher *watch,
                   audit_report *report, octreel_error *error);
 void audit_release(audit_report *report);
+
+/* Returns the name and the other traits of a kind of answer. Of the traits of pairs, only the name is set. */
+const octree_query_traits *audit_kind_about(int kind);
 
 /* Returns a percentile of the ratios: the smallest stored ratio that at least the share `share` of all answers, such as
  * 0.99, does not exceed. Returns 1 if there are no answers. */

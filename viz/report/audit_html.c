@@ -209,10 +209,14 @@ static void write_links(const page *p, uint64_t tick, link_target target)
     fputs(frame || viewer ? ")" : "", p->out);
 }
 
-/* Return the first missing point of a wrong answer. If no point is missing, return the first extra point. */
+/* Return the first missing point of a wrong answer. If no point is missing, return the first extra point. Return no
+ * target for pairs. */
 static link_target find_wrong_point(const audit_case *c)
 {
-    const octree_point *first = c->made.missing_count ? c->missing : c->made.extra_count ? c->extra : NULL;
+    const octree_point *first = c->place == SIZE_MAX    ? NULL
+                                : c->made.missing_count ? c->missing
+                                : c->made.extra_count   ? c->extra
+                                                        : NULL;
     return first ? (link_target){"point", first->id} : (link_target){0};
 }
 
@@ -255,7 +259,7 @@ static void write_nodes(const page *p, const audit_nodes *nodes)
 static void write_kind(const page *p, int of)
 {
     const audit_kind *kind = &p->verdict->report->kinds[of];
-    const octree_query_traits *about = octree_query_about((octree_query_kind)of);
+    const octree_query_traits *about = audit_kind_about(of);
     fprintf(p->out, "<section%s><h2>%s</h2>\n<p>",
             audit_kind_passes(kind, &p->verdict->report->limits) ? "" : " class=\"fails\"", about->name);
     audit_print_kind(p->out, p->verdict, of);
@@ -296,7 +300,7 @@ bool audit_print_page(FILE *out, const audit_verdict *verdict, const char *from)
         return false;
     fwrite(audit_page_head, 1, audit_page_head_size, out);
     write_head(&p);
-    for (int i = 0; i < OCTREE_QUERY_KINDS; i++)
+    for (int i = 0; i < AUDIT_KINDS; i++)
         if (verdict->report->kinds[i].asked)
             write_kind(&p, i);
     if (verdict->report->nodes.given)

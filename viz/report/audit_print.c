@@ -28,8 +28,15 @@ static const char *format_share(double share, char text[NUMBER_TEXT])
     return text;
 }
 
-static const char *reason_words(octree_wrong_kind kind)
+/* Returns why an answer is wrong. With `pairs`, the answer is a list of pairs. */
+static const char *reason_words(octree_wrong_kind kind, bool pairs)
 {
+    static const char *const of_pairs[OCTREE_WRONG_KINDS] = {
+        [OCTREE_WRONG_UNKNOWN] = "names an id that no body has",
+        [OCTREE_WRONG_DUPLICATE] = "names a pair twice",
+        [OCTREE_WRONG_MISSING] = "pairs are missing",
+        [OCTREE_WRONG_EXTRA] = "pairs that do not overlap",
+    };
     static const char *const words[OCTREE_WRONG_KINDS] = {
         [OCTREE_WRONG_NONE] = "right",
         [OCTREE_WRONG_UNKNOWN] = "names an id that no point has",
@@ -40,7 +47,7 @@ static const char *reason_words(octree_wrong_kind kind)
         [OCTREE_WRONG_MISSING] = "points are missing",
         [OCTREE_WRONG_EXTRA] = "points outside the query",
     };
-    return words[kind];
+    return pairs && of_pairs[kind] ? of_pairs[kind] : words[kind];
 }
 
 /* Print a list of points: "; missing 3 at (1, 2, 3), 4 at (5, 6, 7) and 2 more". `what` is the first word, here
@@ -90,7 +97,12 @@ static const char *measures_of(const octree_query_traits *about)
 void audit_print_wrong_answer(FILE *out, const audit_case *c, const octree_query_traits *about)
 {
     char text[AUDIT_RATIO_TEXT];
-    fprintf(out, "answers[%zu]: %s", c->place, reason_words(c->made.wrong));
+    if (c->place == SIZE_MAX) {
+        fprintf(out, "foreign_pairs: %s; %zu missing, %zu extra", reason_words(c->made.wrong, true),
+                c->made.missing_count, c->made.extra_count);
+        return;
+    }
+    fprintf(out, "answers[%zu]: %s", c->place, reason_words(c->made.wrong, false));
     if (c->made.wrong <= OCTREE_WRONG_SKIPPED)
         fprintf(out, " (%" PRIu64 ")", c->made.wrong_id);
     if (c->made.wrong == OCTREE_WRONG_COUNT)
@@ -151,7 +163,7 @@ void audit_print_summary(FILE *out, const audit_verdict *v)
 void audit_print_kind(FILE *out, const audit_verdict *v, int of)
 {
     const audit_kind *kind = &v->report->kinds[of];
-    const octree_query_traits *about = octree_query_about((octree_query_kind)of);
+    const octree_query_traits *about = audit_kind_about(of);
     char recall[NUMBER_TEXT], ratios[2][AUDIT_RATIO_TEXT];
     fprintf(out, "%s: %" PRIu64 " asked, %" PRIu64 " wrong, recall %s", about->name, kind->asked, kind->wrong,
             format_share(audit_recall(kind), recall));
@@ -167,7 +179,7 @@ void audit_print_kind(FILE *out, const audit_verdict *v, int of)
     for (int i = OCTREE_WRONG_NONE + 1; i < OCTREE_WRONG_KINDS; i++)
         if (kind->wrong_by_kind[i])
             fprintf(out, "; %" PRIu64 " time%s: %s", kind->wrong_by_kind[i], plural_ending(kind->wrong_by_kind[i]),
-                    reason_words((octree_wrong_kind)i));
+                    reason_words((octree_wrong_kind)i, of == AUDIT_PAIRS));
     if (kind->on_boundary)
         fprintf(out, "; %" PRIu64 " time%s: wrong only on the boundary of the %s", kind->on_boundary,
                 plural_ending(kind->on_boundary), about->region);
@@ -214,7 +226,7 @@ void audit_print_text(FILE *out, const audit_verdict *v)
     fputs(": ", out);
     audit_print_summary(out, v);
     putc('\n', out);
-    for (int i = 0; i < OCTREE_QUERY_KINDS; i++) {
+    for (int i = 0; i < AUDIT_KINDS; i++) {
         const audit_kind *kind = &v->report->kinds[i];
         if (!kind->asked)
             continue;
@@ -223,7 +235,7 @@ void audit_print_text(FILE *out, const audit_verdict *v)
         for (size_t j = 0; j < kind->worst_count; j++) {
             const audit_case *c = &kind->worst[j];
             fprintf(out, "  tick %" PRIu64 ", ", c->tick);
-            audit_print_wrong_answer(out, c, octree_query_about((octree_query_kind)i));
+            audit_print_wrong_answer(out, c, audit_kind_about(i));
             fprintf(out, "\n    %s\n", c->answer);
         }
     }
@@ -255,7 +267,8 @@ static void write_case(json_writer *w, const audit_case *c, bool neighbors)
 {
     json_write_begin_object(w);
     json_write_integer_member(w, "tick", c->tick);
-    json_write_integer_member(w, "place", c->place);
+    if (c->place != SIZE_MAX)
+        json_write_integer_member(w, "place", c->place);
     json_write_text_member(w, "wrong", octree_wrong_name(c->made.wrong));
     if (c->made.rank)
         json_write_integer_member(w, "rank", c->made.rank);
@@ -263,8 +276,8 @@ static void write_case(json_writer *w, const audit_case *c, bool neighbors)
         json_write_number_member(w, "ratio", c->made.ratio);
     json_write_integer_member(w, "missing", c->made.missing_count);
     json_write_integer_member(w, "extra", c->made.extra_count);
-    write_points(w, "missing_points", c->missing, c->made.missing_count);
-    write_points(w, "extra_points", c->extra, c->made.extra_count);
+    write_points(w, "missing_points", c->missing, c->place == SIZE_MAX ? 0 : c->made.missing_count);
+    write_points(w, "extra_points", c->extra, c->place == SIZE_MAX ? 0 : c->made.extra_count);
     if (c->made.on_boundary) {
         json_write_text_member(w, "on_boundary", octree_wrong_name(c->made.on_boundary));
         json_write_text_member(w, "accepting_bounds", octree_bounds_name(c->made.accepting));
@@ -278,7 +291,7 @@ static void write_case(json_writer *w, const audit_case *c, bool neighbors)
 static void write_kind(json_writer *w, const audit_verdict *v, int of)
 {
     const audit_kind *kind = &v->report->kinds[of];
-    const octree_query_traits *about = octree_query_about((octree_query_kind)of);
+    const octree_query_traits *about = audit_kind_about(of);
     json_begin_object_member(w, about->name);
     json_write_integer_member(w, "asked", kind->asked);
     json_write_integer_member(w, "wrong", kind->wrong);
@@ -345,7 +358,7 @@ void audit_print_json(FILE *out, const audit_verdict *v)
     json_write_integer_member(w, "asked", report->asked);
     json_write_integer_member(w, "wrong", report->wrong);
     json_begin_object_member(w, "kinds");
-    for (int i = 0; i < OCTREE_QUERY_KINDS; i++)
+    for (int i = 0; i < AUDIT_KINDS; i++)
         if (report->kinds[i].asked)
             write_kind(w, v, i);
     json_write_end_object(w);

@@ -20,7 +20,7 @@ typedef struct audit_verdict {
 void audit_print_text(FILE *out, const audit_verdict *verdict);
 void audit_print_json(FILE *out, const audit_verdict *verdict);
 
-/* Write JUnit XML: a test case for each kind of query, and one for the nodes. */
+/* Write JUnit XML: a test case for each kind of query, one for the pairs, and one for the nodes. */
 void audit_print_junit(FILE *out, const audit_verdict *verdict);
 
 /* Write a self-contained HTML page: charts of recall and ratio over the ticks, and the worst cases. Each point of a
@@ -54,9 +54,9 @@ void audit_print_limits(FILE *out, const char *before, const audit_limits *limit
 void audit_print_nodes_head(FILE *out, const audit_nodes *nodes);
 void audit_print_wrong_nodes(FILE *out, const audit_nodes *nodes, octree_wrong_node_kind kind);
 
-/* Print a wrong answer to a query of the kind `about`: the index of the answer in its tick, why the answer is wrong,
- * and its missing and extra points. If other bounds of the query, open or closed, would make the answer right, print
- * these bounds. */
+/* Print a wrong answer to a query of the kind `about`, or wrong pairs: the index of the answer in its tick, why the
+ * answer is wrong, and its missing and extra points. If other bounds of the query, open or closed, would make the
+ * answer right, print these bounds. */
 void audit_print_wrong_answer(FILE *out, const audit_case *c, const octree_query_traits *about);
 
 #endif

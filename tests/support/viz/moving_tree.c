@@ -126,6 +126,15 @@ static void grow_nodes(moving_tree *m)
     m->queries[0].visits[OCTREE_NODE_VISITED] = (octree_ids){m->met, 3};
 }
 
+/* Pairs that are mostly wrong; in some ticks the program has none. */
+static void find_pairs(moving_tree *m)
+{
+    for (size_t i = 0; i < 2 && m->count > 2; i++)
+        m->found[i] = (octree_pair){m->points[i].id, m->points[i + 1].id};
+    m->pairs = (octree_foreign_pairs){.tick = 44, .pairs = m->found, .pair_count = m->count % 3};
+    m->about.foreign_pairs = m->count > 2 && m->count % 4 ? &m->pairs : NULL;
+}
+
 void moving_tree_make(moving_tree *m, octree_full_leaf full_leaf, uint64_t seed)
 {
     *m = (moving_tree){.random = seed, .tree = make_tree(cube(-REACH, REACH), 1, 2, full_leaf)};
@@ -136,6 +145,7 @@ void moving_tree_make(moving_tree *m, octree_full_leaf full_leaf, uint64_t seed)
     ask(m);
     show(m);
     grow_nodes(m);
+    find_pairs(m);
 }
 
 void moving_tree_release(moving_tree *m)
@@ -151,6 +161,7 @@ void moving_tree_step(moving_tree *m)
     ask(m);
     show(m);
     grow_nodes(m);
+    find_pairs(m);
 }
 
 octreel_recorder_def small_recorder(const moving_tree *m, const char *folder)

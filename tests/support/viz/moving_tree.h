@@ -18,6 +18,8 @@ typedef struct moving_tree {
     octree_foreign_node nodes[3]; /* of a foreign index: a root and two leaves */
     uint64_t listed[MOVING_TREE_MOST], met[3];
     octree_foreign_tree foreign;
+    octree_pair found[2]; /* the pairs of a foreign index: the first three points, which rarely overlap */
+    octree_foreign_pairs pairs;
     octreel_tick_info about;
 } moving_tree;
 

@@ -482,13 +482,99 @@ static void page_rounds_numbers_for_people(void **state)
     command_release(&result);
 }
 
+/* Points 1 and 4 are at one position. The pairs are right in tick 0 and wrong in three others. */
+static const char pairs[] =
+    "{\"octreel\":\"session\",\"version\":2,\"player\":null,\"points\":[[1,0,0,1],[2,0,0,2],[1,0,0,4]],\"ticks\":3}\n"
+    "{\"tick\":0,\"pairs\":[[4,1]]}\n{\"tick\":1,\"pairs\":[[1,2],[1,4],[4,2]]}\n{\"tick\":2,\"pairs\":[]}\n"
+    "{\"tick\":3,\"pairs\":[[1,9],[1,4],[4,1]]}\n";
+#define PAIRS_LINE                                                                                                     \
+    "pairs: 4 asked, 3 wrong, recall 0.75, 1 missing, 2 extra; first wrong at tick 1; 1 time: names an id that no "    \
+    "body has; 1 time: pairs are missing; 1 time: pairs that do not overlap"
+#define EXTRA_PAIRS                                                                                                    \
+    "tick 1, foreign_pairs: pairs that do not overlap; 0 missing, 2 extra\n    {\"given\": [[1, 2], [1, 4], [2, 4]], " \
+    "\"wrong\": \"extra\", \"expected\": 1, \"extra\": [[1, 2], [2, 4]]}\n"
+
+static void wrong_pairs_are_reported_and_exit_status_is_1(void **state)
+{
+    const place session = write_session_text(state, pairs), film = place_in(*state, "film");
+    command_result result = run_octreel(NULL, "audit %s", session.path);
+    assert_int_equal(result.status, 1);
+    assert_non_null(strstr(result.out, ": 4 answers in 4 ticks, 3 wrong\n" PAIRS_LINE "\n  " EXTRA_PAIRS));
+    assert_non_null(strstr(result.out, "  tick 2, foreign_pairs: pairs are missing; 1 missing, 0 extra\n"));
+    command_release(&result);
+    result = run_octreel(NULL, "audit %s --junit -", session.path);
+    assert_int_equal(result.status, 1);
+    assert_non_null(strstr(result.out, "name=\"pairs\""));
+    assert_non_null(strstr(result.out, PAIRS_LINE "\">" PAIRS_LINE "\ntick 1, foreign_pairs: pairs that do not "));
+    command_release(&result);
+    result = run_octreel(NULL, "record %s --size 64x48 -o %s", session.path, film.path);
+    assert_done(&result);
+    command_release(&result);
+    result = run_octreel(NULL, "verify %s", film.path);
+    assert_done(&result);
+    command_release(&result);
+    result = run_octreel(NULL, "audit %s --html %s", film.path, film.path);
+    assert_int_equal(result.status, 1);
+    command_release(&result);
+    char *page = file_read(place_in(*state, "film/audit.html").path, NULL);
+    assert_non_null(strstr(page, "<section class=\"fails\"><h2>pairs</h2>\n<p>" PAIRS_LINE "</p>"));
+    assert_non_null(strstr(page, "<li>tick 1 (<a href=\"./frame_000001.png\">frame</a>, <a "
+                                 "href=\"./index.html#t=1\">page</a>), foreign_pairs: pairs that do not overlap; "));
+    free(page);
+}
+
+static void audit_of_pairs_is_in_the_json(void **state)
+{
+    const place session = write_session_text(state, pairs);
+    command_result result = run_octreel(NULL, "audit %s --json", session.path);
+    assert_int_equal(result.status, 1);
+    json_t *all = json_read(result.out), *found = json_object_get(json_object_get(all, "kinds"), "pairs");
+    assert_true(json_is_false(json_object_get(all, "right")) && json_is_false(json_object_get(found, "passes")));
+    assert_true(json_number_value(json_object_get(all, "wrong")) == 3);
+    assert_true(json_number_value(json_object_get(found, "recall")) == 0.75);
+    assert_true(json_object_size(json_object_get(found, "faults")) == 3);
+    const json_t *worst = json_array_get(json_object_get(found, "worst"), 0);
+    assert_string_equal(json_string_value(json_object_get(worst, "wrong")), "extra");
+    assert_null(json_object_get(worst, "place"));
+    assert_true(json_array_size(json_object_get(json_object_get(worst, "answer"), "extra")) == 2);
+    json_decref(all);
+    command_release(&result);
+}
+
+/* A limit of the recall allows missing pairs, but no other errors. */
+static void recall_allows_missing_pairs(void **state)
+{
+    static const char *const rows[] = {"\"pairs\":[]", "\"pairs\":[[1,2]]", "\"pairs\":[[1,4],[4,1]]"};
+    for (int i = 0; i < 3; i++) {
+        char text[400];
+        snprintf(text, sizeof text,
+                 "{\"octreel\":\"session\",\"version\":2,\"player\":null,\"points\":[[1,0,0,1],[2,0,0,2],[1,0,0,4]]}\n"
+                 "{\"tick\":0,%s}\n{\"tick\":1,\"pairs\":[[1,4]]}\n",
+                 rows[i]);
+        const place session = write_session_text(state, text);
+        command_result result = run_octreel(NULL, "audit %s --allow recall=0.5", session.path);
+        assert_int_equal(result.status, i > 0);
+        command_release(&result);
+    }
+}
+
+/* The list of each tick is right. */
+static void right_pairs_have_exit_status_0(void **state)
+{
+    const place session = write_session_text(state, START "{\"tick\":1,\"pairs\":[]}\n{\"tick\":2,\"pairs\":[]}\n");
+    command_result result = run_octreel(NULL, "audit %s", session.path);
+    assert_done(&result);
+    assert_non_null(strstr(result.out, ": 2 answers in 4 ticks, all right\n"
+                                       "pairs: 2 asked, 0 wrong, recall 1, 0 missing, 0 extra\n"));
+    command_release(&result);
+}
+
 static void session_without_answers_is_refused(void **state)
 {
     const place session = write_session_text(state, START "{\"tick\":1,\"queries\":[{\"nearest\":[0,0,0]}]}");
     command_result result = run_octreel(NULL, "audit %s", session.path);
-    assert_trouble(
-        &result,
-        "session.json: nothing to audit: the played ticks have neither foreign nodes nor a query with an \"answer\"");
+    assert_trouble(&result, "session.json: nothing to audit: the played ticks have neither foreign nodes nor \"pairs\" "
+                            "nor a query with an \"answer\"");
     result = run_octreel(NULL, "audit %s.none", session.path);
     assert_trouble(&result, "no such file");
 }
@@ -574,6 +660,10 @@ int main(void)
         IN_FOLDER(long_lists_of_missing_points_are_counted),
         IN_FOLDER(wrong_nodes_link_to_their_ticks),
         IN_FOLDER(page_rounds_numbers_for_people),
+        IN_FOLDER(wrong_pairs_are_reported_and_exit_status_is_1),
+        IN_FOLDER(audit_of_pairs_is_in_the_json),
+        IN_FOLDER(recall_allows_missing_pairs),
+        IN_FOLDER(right_pairs_have_exit_status_0),
         IN_FOLDER(session_without_answers_is_refused),
         IN_FOLDER(recording_keeps_answers_and_their_judgements),
         IN_FOLDER(diff_names_answers_that_became_wrong),

@@ -72,6 +72,9 @@ static const text_bomb sessions[] = {
     {"ticks of an edit", HEAD "}", "{\"tick\":@,\"edits\":[{\"remove\":1}]}", ""},
     {"ticks of a shape", HEAD "}", "{\"tick\":@,\"shapes\":[{\"point\":[0,0,0]}]}", ""},
     {"ticks of nodes", HEAD "}", "{\"tick\":@,\"foreign_nodes\":[]}", ""},
+    {"pairs", HEAD "}{\"tick\":1,\"pairs\":[[0,1]", ",[0,1]", "]}"},
+    {"empty pairs", HEAD "}{\"tick\":1,\"pairs\":[[0,1]", ",[]", "]}"},
+    {"ticks of pairs", HEAD "}", "{\"tick\":@,\"pairs\":[]}", ""},
     {"gaps", HEAD "}", "{\"tick\":@,\"gap\":\"a\"}", ""},
 };
 

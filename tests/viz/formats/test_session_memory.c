@@ -38,6 +38,8 @@ static const char *const texts[] = {
     "\"queries\": [{\"knearest\": 2, \"at\": [0, 0, 0]}]}\n"
     "{\"tick\": 2, \"queries\": [{\"radius\": 3, \"at\": [1, 1, 1], \"answer\": [0, 1], \"visited\": [1], "
     "\"pruned\": [2, 3]}, {\"range\": {\"min\": [0, 0, 0], \"max\": [5, 5, 5]}, \"answer\": []}]}\n",
+    HEADER
+    "\"points\": [[1, 2, 3], [1, 2, 3]]}\n{\"tick\": 0, \"pairs\": []}\n{\"tick\": 1, \"pairs\": [[2, 1], [5, 6]]}\n",
 };
 
 enum { TEXTS = sizeof texts / sizeof texts[0], CASES = TEXTS + 2 };

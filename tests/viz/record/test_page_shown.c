@@ -426,6 +426,35 @@ static void wrong_answers_and_foreign_nodes_are_told_first(void **state)
     free(text);
 }
 
+static void foreign_pairs_are_told_in_a_sentence(void **state)
+{
+    skip_without_browser();
+    const driven *d = *state;
+#define TICK(number, wrong, rest)                                                                                      \
+    "{\"tick\": " #number ", \"key\": null, \"player\": null, \"events\": [], \"foreign_pairs\": {\"given\": "         \
+    "[[1, 2], [3, 4]], \"wrong\": \"" wrong "\", \"expected\": 2" rest "}}\n"
+    const place film = recording_by_hand(d, "pairs",
+                                         TICK(0, "none", "") TICK(1, "missing",
+                                                                  ", \"missing\": [[5, 6]], "
+                                                                  "\"extra\": {\"count\": 300}")
+                                             TICK(2, "unknown", ", \"wrong_pair\": [7, 1]")
+                                                 TICK(3, "duplicate", ", \"wrong_pair\": [1, 2]"));
+#undef TICK
+    static const char *const sentences[] = {
+        "The foreign index found all pairs of bodies that overlap: 2",
+        "Wrong foreign pairs, 2 given; 1 missing: point 5 and point 6; 300 extra",
+        "Wrong foreign pairs, 2 given; it names 7, which is no body",
+        "Wrong foreign pairs, 2 given; it names point 1 and point 2 twice",
+    };
+    for (int i = 0; i < 4; i++) {
+        char at[8];
+        snprintf(at, sizeof at, "t=%d", i);
+        char *text = text_of(d, film.path, at);
+        assert_has(text, sentences[i]);
+        free(text);
+    }
+}
+
 static void recording_without_ticks_says_so(void **state)
 {
     skip_without_browser();
@@ -473,6 +502,7 @@ int main(void)
         cmocka_unit_test(tick_without_a_frame_shows_the_previous_frame_and_says_so),
         cmocka_unit_test(page_tolerates_unexpected_members),
         cmocka_unit_test(wrong_answers_and_foreign_nodes_are_told_first),
+        cmocka_unit_test(foreign_pairs_are_told_in_a_sentence),
         cmocka_unit_test(recording_without_ticks_says_so),
         cmocka_unit_test(curves_of_two_trees_are_distinguishable),
     };

@@ -82,7 +82,8 @@ extern "C" {
     X(NOTHING, "there is no tick to record")                                                                           \
     X(NO_RING, "the recorder has no ring")                                                                             \
     X(NO_MEMORY, "out of memory")                                                                                      \
-    X(GAPS, "the recording is complete, but refused ticks are gaps in it")
+    X(GAPS, "the recording is complete, but refused ticks are gaps in it")                                             \
+    X(BAD_PAIR, "a foreign pair has one id twice")
 
 typedef enum octreel_status {
 #define OCTREEL_STATUS_ENUM(name, text) OCTREEL_##name,
@@ -186,6 +187,9 @@ typedef struct octreel_tick_info {
     /* The nodes of the program's own index, valid from this tick on. Null: the nodes are the same as at the previous
      * tick. The queries' `visits` name the nodes that a query visited, left out or found points in. */
     const octree_foreign_tree *foreign;
+    /* The pairs that the program's own index found at this tick, to be compared with the exact pairs. Null: no pairs
+     * are compared at this tick. A recorder's points have no extents, so only points at equal positions overlap. */
+    const octree_foreign_pairs *foreign_pairs;
 } octreel_tick_info;
 
 /* Open a recorder: copy the definition and create the folder. On failure *recorder is null and *error, which may be
@@ -209,8 +213,8 @@ octreel_status octreel_recorder_open(const octreel_recorder_def *def, octreel_re
  * change. After NO_MEMORY no change is kept: pass the tick again.
  *
  * Errors: NULL_ARGUMENT, OTHER_TREE, TWO_SOURCES, DUPLICATE_ID, BAD_ID, BAD_POINT, NO_POINT, BAD_QUERY, BAD_SHAPE,
- * BAD_NODE, BUSY, CLOSED, NO_MEMORY; of the worker: CANNOT_DRAW, BAD_FOLDER (the folder is no longer as it was when the
- * recorder was opened), BROKEN.
+ * BAD_NODE, BAD_PAIR, BUSY, CLOSED, NO_MEMORY; of the worker: CANNOT_DRAW, BAD_FOLDER (the folder is no longer as it
+ * was when the recorder was opened), BROKEN.
  *
  * Cost by source of the points (q is the number of queries and shapes):
  *    - a tree of which at most an eighth changes in a tick: O(changes + q), some hundred nanoseconds per change. The
@@ -218,7 +222,7 @@ octreel_status octreel_recorder_open(const octreel_recorder_def *def, octreel_re
  *    - a tree of which more than an eighth changes, or that is new to the recorder, or was tuned, compacted or
  *      cleared; and a list: O(nodes + n + q), and 96 bytes per point.
  *    - changes: O(changes log changes + q), and up to 128 bytes per point. The first changes after a list cost more.
- *    - in addition, m foreign nodes: O(m log m).
+ *    - in addition, m foreign nodes or pairs: O(m log m).
  * A tick's changes use memory until the tick is filmed. */
 octreel_status octreel_recorder_tick(octreel_recorder *recorder, const octree *tree, const octreel_tick_info *about);
 

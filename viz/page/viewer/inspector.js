@@ -6,7 +6,7 @@
 /* The members of a tick, and of the objects in it, that are shown in words. Every other member is shown as a row with
  * its name, so that a new member needs no change here. */
 const TOLD_MEMBERS = ["tick", "key", "player", "events", "from", "attempt", "hits", "hit_cost", "answers", "visits",
-                      "foreign_nodes", "refusals", "splits", "merges", "tree", "frame", "scene", "gap"];
+                      "foreign_nodes", "foreign_pairs", "refusals", "splits", "merges", "tree", "frame", "scene", "gap"];
 const COST_MEMBERS = ["nodes", "leaves", "points", "pruned", "taken"];
 const ANSWER_MEMBERS = ["ids", "neighbors", "id", "position", "distance", "t", "cost", "judged", "bounds", "skip",
                         "epsilon"];

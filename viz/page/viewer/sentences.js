@@ -260,6 +260,13 @@ function describeWrongNodes({foreign_nodes: foreign})
     return rest > 0 ? [...said, ["wrong", `${counted(rest, "more wrong foreign node")}`]] : said;
 }
 
+function pairLink([a, b])
+{
+    const made = element("span", pointLink(a));
+    made.append(" and ", pointLink(b));
+    return made;
+}
+
 /* Bodies whose boxes overlap: a list of pairs of ids, or the number of pairs if there were too many to list. */
 function describePairs({pairs = []})
 {
@@ -268,14 +275,29 @@ function describePairs({pairs = []})
         return [];
     if (!Array.isArray(pairs))
         return [["overlapped", `${counted(count, "pair")} of bodies overlap`]];
-    const one = ([a, b]) => {
-        const made = element("span", pointLink(a));
-        made.append(" and ", pointLink(b));
-        return made;
-    };
     if (count === 1)
-        return [["overlapped", "The boxes of ", one(pairs[0]), " overlap"]];
-    return [["overlapped", `${grouped(count)} pairs of boxes overlap: `, ...enumerated(pairs, one, 4)]];
+        return [["overlapped", "The boxes of ", pairLink(pairs[0]), " overlap"]];
+    return [["overlapped", `${grouped(count)} pairs of boxes overlap: `, ...enumerated(pairs, pairLink, 4)]];
+}
+
+/* The pairs of bodies that a foreign index found, and what is wrong with them. */
+function describeForeignPairs({foreign_pairs: found})
+{
+    if (!found)
+        return [];
+    const {wrong = "none", wrong_pair: [a, b] = [], given = [], missing = [], extra = []} = found, said = [];
+    const countOf = pairs => pairs.count ?? listLength(pairs);
+    if (wrong === "none")
+        return [["", `The foreign index found all pairs of bodies that overlap: ${grouped(countOf(given))}`]];
+    if (wrong === "unknown")
+        said.push(`; it names ${textOf(a)}, which is no body`);
+    if (wrong === "duplicate")
+        said.push("; it names ", pairLink([a, b]), " twice");
+    for (const [word, pairs] of [["missing", missing], ["extra", extra]])
+        if (countOf(pairs))
+            said.push(`; ${grouped(countOf(pairs))} ${word}`,
+                      ...(Array.isArray(pairs) ? [": ", ...enumerated(pairs, pairLink, 4)] : []));
+    return [["wrong", `Wrong foreign pairs, ${grouped(countOf(given))} given`, ...said]];
 }
 
 /* ---- A tick ------------------------------------------------------------------------------------------------------ */
@@ -289,6 +311,7 @@ function describeTick(tick, more)
     const look = {...more, at: id => more.at(id) ?? known.get(id)};
     return [
         ...describeWrongAnswers(tick),
+        ...describeForeignPairs(tick),
         ...describeWrongNodes(tick),
         ...(tick.gap === undefined ? [] : [["", `Gap, nothing was played: ${textOf(tick.gap)}`]]),
         ...describeStep(tick, look),
