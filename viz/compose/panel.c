@@ -182,6 +182,18 @@ static void write_wrong_answers(pen *p, const layer_source *in)
     p->name = ROLE_FAINT;
 }
 
+/* Write the error of the pairs that the foreign index found. */
+static void write_wrong_pairs(pen *p, const layer_source *in)
+{
+    char words[JUDGEMENT_TEXT];
+    if (!in->tick->foreign_pairs.wrong)
+        return;
+    p->name = ROLE_WRONG;
+    write_row(p, "wrong", "", "pairs");
+    write_row(p, "", "", "%s", pair_judgement_text(&in->tick->foreign_pairs, words));
+    p->name = ROLE_FAINT;
+}
+
 /* Write the number of wrong foreign nodes, and the error of the first wrong node. */
 static void write_wrong_nodes(pen *p, const layer_source *in)
 {
@@ -445,13 +457,14 @@ static void write_tick_rows(pen *p, const layer_source *in)
     write_player(p, in);
     write_statistics(p, in, &tick->stats);
     write_view_limits(p);
-    if (tick->hit_count || tick->pair_count || in->answer_count || tick->refusal_count)
+    if (tick->hit_count || tick->pair_count || tick->foreign_pairs.wrong || in->answer_count || tick->refusal_count)
         write_separator_line(p);
     if (tick->hit_count)
         write_ids(p, "box hits", tick->hits, tick->hit_count);
     if (tick->pair_count)
         write_row(p, "overlaps", "", "%zu pair%s", tick->pair_count, plural_ending(tick->pair_count));
     write_wrong_answers(p, in);
+    write_wrong_pairs(p, in);
     write_wrong_nodes(p, in);
     write_answers(p, in);
     write_refusals(p, tick);
@@ -478,6 +491,7 @@ static void add_corner_lines(scene *s, const layer_source *in, const char *title
         write_line(&p, ROLE_TEXT, title);
         write_events(&p, in);
         write_wrong_answers(&p, in);
+        write_wrong_pairs(&p, in);
         write_wrong_nodes(&p, in);
     }
     write_view_limits(&p);

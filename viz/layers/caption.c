@@ -210,6 +210,11 @@ static void append_answers(words *w, const layer_source *in)
         begin_phrase(w);
         append(w, "%zu foreign answer%s wrong", wrong, wrong == 1 ? " is" : "s are");
     }
+    if (in->tick && in->tick->foreign_pairs.wrong) {
+        char words[JUDGEMENT_TEXT];
+        begin_phrase(w);
+        append(w, "foreign pairs: %s", pair_judgement_text(&in->tick->foreign_pairs, words));
+    }
 }
 
 /* ---- A caption ----------------------------------------------------------------------------------------------- */

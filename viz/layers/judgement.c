@@ -21,14 +21,12 @@ static void print_ratio(double ratio, char text[JUDGEMENT_TEXT])
         snprintf(text, JUDGEMENT_TEXT, "%s times as far", number_format(ratio, 3, number));
 }
 
-static void print_point_counts(const octree_judgement *judgement, char text[JUDGEMENT_TEXT])
+static void print_counts(size_t missing, size_t extra, char text[JUDGEMENT_TEXT])
 {
-    if (judgement->missing_count && judgement->extra_count)
-        snprintf(text, JUDGEMENT_TEXT, "%zu missing, %zu extra", judgement->missing_count, judgement->extra_count);
-    else if (judgement->missing_count)
-        snprintf(text, JUDGEMENT_TEXT, "%zu missing", judgement->missing_count);
+    if (missing && extra)
+        snprintf(text, JUDGEMENT_TEXT, "%zu missing, %zu extra", missing, extra);
     else
-        snprintf(text, JUDGEMENT_TEXT, "%zu extra", judgement->extra_count);
+        snprintf(text, JUDGEMENT_TEXT, "%zu %s", missing ? missing : extra, missing ? "missing" : "extra");
 }
 
 const char *judgement_text(const octree_judgement *judgement, char text[JUDGEMENT_TEXT])
@@ -51,12 +49,24 @@ const char *judgement_text(const octree_judgement *judgement, char text[JUDGEMEN
         break;
     case OCTREE_WRONG_MISSING:
     case OCTREE_WRONG_EXTRA:
-        print_point_counts(judgement, text);
+        print_counts(judgement->missing_count, judgement->extra_count, text);
         break;
     default:
         snprintf(text, JUDGEMENT_TEXT, "right");
         break;
     }
+    return text;
+}
+
+const char *pair_judgement_text(const octree_pair_judgement *judgement, char text[JUDGEMENT_TEXT])
+{
+    const octree_pair *pair = &judgement->wrong_pair;
+    if (judgement->wrong == OCTREE_WRONG_UNKNOWN)
+        snprintf(text, JUDGEMENT_TEXT, "no body has id %" PRIu64, pair->a);
+    else if (judgement->wrong == OCTREE_WRONG_DUPLICATE)
+        snprintf(text, JUDGEMENT_TEXT, "%" PRIu64 " and %" PRIu64 " twice", pair->a, pair->b);
+    else
+        print_counts(judgement->missing_count, judgement->extra_count, text);
     return text;
 }
 

@@ -13,6 +13,10 @@
  * Write "right" if the answer has no error. Return `text`. */
 const char *judgement_text(const octree_judgement *judgement, char text[JUDGEMENT_TEXT]);
 
+/* The same for the pairs of a foreign index, such as "1 missing, 2 extra" or "1 and 2 twice". The pairs must
+ * be wrong. */
+const char *pair_judgement_text(const octree_pair_judgement *judgement, char text[JUDGEMENT_TEXT]);
+
 /* Return whether one answer is worse than another. The ratio of distances is compared first, then the number of missing
  * and extra points. */
 bool judgement_is_worse(const octree_judgement *judgement, const octree_judgement *than);

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* wrong_layer.c - the layer of wrong foreign answers and wrong foreign nodes. It marks missing and extra points. It
+/* wrong_layer.c - the layer of wrong foreign answers, nodes and pairs. It marks missing and extra points and pairs. It
  * draws a ring around each wrong answer. The ring has a fixed size on screen, so that it is visible even if the answer
  * is small in the world. */
 #include "foreign_nodes.h"
 #include "judgement.h"
 #include "layer_type.h"
 #include "layout.h"
+#include "wrong_pairs.h"
 
 #include <string.h>
 
@@ -38,7 +39,7 @@ static bool can_have_wrong_answers(const octree_session *session)
     for (size_t i = 0; i < session->query_count; i++)
         if (session->queries[i].answered)
             return true;
-    return session->foreign_count > 0;
+    return session->foreign_count > 0 || session->foreign_pairs_count > 0;
 }
 
 /* Find the middle of an answer's ring: the first missing or extra point. If there is none, the middle is the query's
@@ -66,10 +67,15 @@ static void mark_points(scene *s, const octree_point *points, size_t count, scen
         text_space_reserve_mark(occupied, s, points[i].position, style.width);
 }
 
+static unsigned mark_size(size_t missing, size_t extra)
+{
+    return missing + extra <= FEW_MARKS ? MARK : MARK / 2;
+}
+
 static void mark_wrong_answer(scene *s, const octree_answer *answer, size_t place, unsigned ring, text_space *occupied)
 {
     const octree_judgement *judgement = &answer->judgement;
-    const unsigned size = judgement->missing_count + judgement->extra_count <= FEW_MARKS ? MARK : MARK / 2;
+    const unsigned size = mark_size(judgement->missing_count, judgement->extra_count);
     const scene_style extra = make_layer_style(LAYER_WRONG, STROKE_SOLID, size);
     const scene_style missing = make_role_style(LAYER_WRONG, ROLE_MISSED, STROKE_SOLID, size);
     double at[3];
@@ -118,7 +124,12 @@ static void add_wrong_answers(scene *s, const layer_source *in, view_layer layer
     for (size_t i = 0; i < in->answer_count; i++)
         if (in->answers[i].judgement.wrong)
             mark_wrong_answer(s, &in->answers[i], i, few || i == worst ? RING : RING / 2, &occupied);
+    const octree_pair_judgement *pairs = has_wrong_pairs(in) ? &in->tick->foreign_pairs : NULL;
+    if (pairs)
+        mark_wrong_pairs(s, in, mark_size(pairs->missing_count, pairs->extra_count), RING, &occupied);
     mark_wrong_foreign_nodes(s, &marks, &occupied);
+    if (pairs)
+        left_out += !label_wrong_pairs(s, in, RING, &occupied);
     for (size_t i = 0; i < in->answer_count; i++)
         if (in->answers[i].judgement.wrong && (few || i == worst))
             left_out += !add_answer_label(s, &in->answers[i], i, &occupied);
@@ -133,12 +144,14 @@ static void add_wrong_legend(legend *l, const layer_source *in)
         missing += in->answers[i].judgement.missing_count;
         extra += in->answers[i].judgement.extra_count;
     }
-    if (judgement_count_wrong(in->answers, in->answer_count, &worst))
+    if (judgement_count_wrong(in->answers, in->answer_count, &worst) || has_ring_of_pairs(in))
         legend_add(l, SIGN_RING, "wrong answer");
     if (missing)
         legend_add(l, SIGN_TRIANGLE, "missing point")->role = ROLE_MISSED;
     if (extra)
         legend_add(l, SIGN_WEDGE, "extra point");
+    if (has_wrong_pairs(in))
+        add_wrong_pairs_legend(l, in);
     if (shows_foreign_nodes(in) && in->tick->foreign.wrong_count)
         legend_add(l, SIGN_DASHES, "wrong node");
 }
@@ -186,6 +199,8 @@ static void describe_mark(description *d, const described_element *element)
 {
     if (is_foreign_element(element->id)) {
         describe_wrong_foreign_node(d, element);
+    } else if (is_pair_element(element->id)) {
+        describe_wrong_pair(d, element);
     } else if (element->kind == SCENE_MARKER && element->shape == SHAPE_RING) {
         append_text(d, "the ring around ");
         append_wrong_answer(d, UINT64_MAX - element->id);

@@ -48,7 +48,7 @@
     X(SHAPES, "shapes", "shapes",                                                                                      \
       "the session's shapes, which are not in the tree: boxes, segments, points and labels", ROLE_SHAPE, false, true)  \
     X(WRONG, "wrong", "wrong answers",                                                                                 \
-      "wrong answers and wrong nodes of a foreign index, and missing and extra points", ROLE_WRONG, false, true)       \
+      "wrong answers, nodes and pairs of a foreign index, and missing and extra points", ROLE_WRONG, false, true)      \
     X(BROKEN, "broken", "the broken node", "the node in which the validator finds a broken invariant", ROLE_WARNING,   \
       false, true)                                                                                                     \
     X(TEXT, "text", "text", "the text column, the caption, the legend and all labels", ROLE_TEXT, false, true)         \

@@ -86,6 +86,24 @@ static void captions_count_what_is_many(void **state)
     octree_game_destroy(game);
 }
 
+static void caption_tells_how_foreign_pairs_are_wrong(void **state)
+{
+    (void)state;
+    static const octree_game_body bodies[] = {{.id = 1, .half = {1, 1, 1}}, {.id = 2, .position = {1, 1, 1}}};
+    const octree_foreign_pairs none = {.tick = 1};
+    octree_session session = small_session(bodies, 2);
+    session.player.kind = OCTREE_PLAYER_NONE;
+    session.foreign_pairs = &none;
+    session.foreign_pairs_count = 1;
+    session.ticks = 1;
+    octree_game *game = start_game(&session);
+    char text[CAPTION_TEXT];
+    play_tick(game);
+    caption_of(game, text);
+    assert_string_equal(text, "foreign pairs: 1 missing");
+    octree_game_destroy(game);
+}
+
 static void caption_names_the_reason_of_a_gap(void **state)
 {
     (void)state;
@@ -107,6 +125,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(captions_of_the_default_session_are_exact),
         cmocka_unit_test(captions_count_what_is_many),
+        cmocka_unit_test(caption_tells_how_foreign_pairs_are_wrong),
         cmocka_unit_test(caption_names_the_reason_of_a_gap),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
