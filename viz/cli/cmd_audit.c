@@ -52,8 +52,8 @@ static const command_option options[] = {
      "accept approximate answers within limits. ratio=1.01: a neighbour may be at most 1.01 times as far away as the "
      "true neighbour. recall=0.99: the answers must name at least 0.99 of all true points, and of all pairs. A comma "
      "separates two limits. Always wrong are unknown ids, points or pairs named twice, points outside the query, "
-     "points "
-     "that the query excludes, pairs that do not overlap, and wrong nodes. An empty answer to a neighbour query has an "
+     "points that the query excludes, pairs that do not overlap, and wrong nodes. An empty answer to a neighbour query "
+     "has an "
      "infinite ratio",
      .read = read_limits, OPTION_VALUE(arguments, limits)},
     {"html", "FILE.html|DIR",
@@ -164,8 +164,7 @@ const command command_audit = {
         "Replay a session whose queries carry the answers of a foreign index (an index of your own), and compare each "
         "answer with "
         "the exact one. The pairs of overlapping bodies that the index found at a tick are an answer, too. For each "
-        "kind "
-        "of query, and for the pairs, this prints the number of answers and of wrong answers; the recall of "
+        "kind of query, and for the pairs, this prints the number of answers and of wrong answers; the recall of "
         "the answers (the share of the true points that they name); the ratio of a neighbour's distance to the "
         "distance of the true neighbour of the same rank (the worst ratio, and the largest ratio in the best 99 of 100 "
         "answers); the first tick with a wrong answer; the three "

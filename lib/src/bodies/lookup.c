@@ -39,7 +39,8 @@ static void find_in_leaf(const octree_bodies *set, const level *l, const octree_
     const uint64_t steps = make_point_id(l, 0, body->half);
     for (uint32_t i = 0; (i = find_x(points, i, leaf->count, body->position[0])) < leaf->count; i++) {
         const uint32_t row = row_of_point(&points[i]);
-        if ((uint64_t)row << ROW_SHIFT == points[i].id - steps && is_same_body(row_at(&set->rows, row), body)) {
+        if ((uint64_t)row << ROW_SHIFT == points[i].id - steps &&
+            is_same_position(points[i].position, body->position) && is_same_body(row_at(&set->rows, row), body)) {
             found->row = row;
             found->at.index = i;
             return;

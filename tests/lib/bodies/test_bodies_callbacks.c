@@ -47,6 +47,34 @@ static void callbacks_cannot_change_the_set(void **state)
     octree_bodies_destroy(set);
 }
 
+/* The trees of the levels are the set's. */
+static bool change_inside_level(const octree_point *point, void *context)
+{
+    octree_bodies *set = context;
+    octree_body body;
+    octree_bodies_at(set, point, &body);
+    const octree_body other = body_at(1, 1, 1, body.half[0], 99);
+    assert_int_equal(octree_bodies_insert(set, &other), OCTREE_BUSY);
+    assert_int_equal(octree_bodies_remove(set, &body), OCTREE_BUSY);
+    assert_int_equal(octree_bodies_move(set, &body, &other), OCTREE_BUSY);
+    return true;
+}
+
+static void visitors_of_a_level_cannot_change_the_set(void **state)
+{
+    (void)state;
+    octree_bodies *set = make_body_set(cube(-8, 8), 2);
+    const octree_body body = body_at(0, 0, 0, 0, 1);
+    const octree_box all = cube(-8, 8);
+    assert_int_equal(octree_bodies_insert(set, &body), OCTREE_OK);
+    const octree *level = octree_bodies_level(set, OCTREE_BODY_LEVELS - 1, NULL);
+    assert_int_equal(octree_count(level), 1);
+    assert_int_equal(octree_range(level, &all, change_inside_level, set), OCTREE_OK);
+    assert_true(octree_bodies_contain(set, &body));
+    assert_int_equal(octree_bodies_count(set), 1);
+    octree_bodies_destroy(set);
+}
+
 /* An executor that tries to change the set whose bulk change it runs. */
 static octree_bodies *set_in_change;
 static size_t runs;
@@ -116,6 +144,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(callbacks_cannot_change_the_set),
+        cmocka_unit_test(visitors_of_a_level_cannot_change_the_set),
         cmocka_unit_test(executors_cannot_change_the_set),
         cmocka_unit_test(a_set_of_points_lives_inside_a_visit_of_its_tree),
     };

@@ -1,0 +1,116 @@
+/* SPDX-License-Identifier: MIT */
+/* test_bodies_lookup.c - bodies are found with and without the hash table of a set, which octree_bodies_memory() shows.
+ */
+#include "fixture.h"
+
+#include "body_sets.h"
+#include "octree/sample.h"
+
+enum { BODIES = 5000, CROWD = 3000, SLOT = 8 };
+
+static octree_body random_small_body(uint64_t *seed, uint64_t id)
+{
+    octree_body body = {.id = id};
+    for (int k = 0; k < 3; k++) {
+        body.position[k] = 16 * octree_random_unit(seed) - 8;
+        body.half[k] = 0.1 * octree_random_unit(seed);
+    }
+    return body;
+}
+
+static octree_bodies *make_full_set(octree_body *bodies)
+{
+    uint64_t seed = 1;
+    octree_bodies *set = make_body_set(cube(-8, 8), 16);
+    for (uint64_t i = 0; i < BODIES; i++)
+        bodies[i] = random_small_body(&seed, i);
+    assert_int_equal(octree_bodies_insert_many(set, bodies, BODIES, NULL, NULL), OCTREE_OK);
+    return set;
+}
+
+static void assert_finds_all(const octree_bodies *set, const octree_body *bodies, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        octree_body other = bodies[i];
+        assert_true(octree_bodies_contain(set, &other));
+        other.half[1] += 0.001;
+        assert_false(octree_bodies_contain(set, &other));
+    }
+    assert_null(octree_bodies_check(set));
+}
+
+static void bulk_changes_need_a_table_and_a_first_insertion_does_not_keep_it(void **state)
+{
+    (void)state;
+    static octree_body bodies[BODIES];
+    octree_bodies *set = make_full_set(bodies);
+    const size_t lean = octree_bodies_memory(set);
+    assert_finds_all(set, bodies, BODIES);
+    assert_int_equal(octree_bodies_remove(set, &bodies[7]), OCTREE_OK);
+    assert_int_equal(octree_bodies_insert(set, &bodies[7]), OCTREE_OK);
+    assert_true(octree_bodies_memory(set) < lean + BODIES);
+    assert_int_equal(octree_bodies_remove_many(set, &bodies[9], 1, NULL, NULL), OCTREE_OK);
+    assert_int_equal(octree_bodies_insert_many(set, &bodies[9], 1, NULL, NULL), OCTREE_OK);
+    assert_true(octree_bodies_memory(set) > lean + SLOT * BODIES);
+    assert_finds_all(set, bodies, BODIES);
+    assert_int_equal(octree_bodies_insert(set, &bodies[9]), OCTREE_DUPLICATE);
+    assert_int_equal(octree_bodies_compact(set), OCTREE_OK);
+    assert_true(octree_bodies_memory(set) < lean + BODIES);
+    assert_finds_all(set, bodies, BODIES);
+    octree_bodies_destroy(set);
+}
+
+/* Bodies at one place, which differ in their ids. */
+static void make_crowd(octree_body crowd[CROWD])
+{
+    for (uint64_t i = 0; i < CROWD; i++)
+        crowd[i] = body_at(1, 2, 3, 0.05, BODIES + i);
+}
+
+static void crowds_are_found_by_a_table(void **state)
+{
+    (void)state;
+    static octree_body bodies[BODIES], crowd[CROWD];
+    octree_bodies *set = make_full_set(bodies);
+    const size_t lean = octree_bodies_memory(set);
+    make_crowd(crowd);
+    for (size_t i = 0; i < CROWD; i++) {
+        assert_int_equal(octree_bodies_insert(set, &crowd[i]), OCTREE_OK);
+        assert_int_equal(octree_bodies_insert(set, &crowd[i / 2]), OCTREE_DUPLICATE);
+    }
+    assert_true(octree_bodies_memory(set) > lean + CROWD * sizeof(octree_body) + SLOT * BODIES);
+    assert_finds_all(set, crowd, CROWD);
+    for (size_t i = 0; i < CROWD; i += 2)
+        assert_int_equal(octree_bodies_remove(set, &crowd[i]), OCTREE_OK);
+    for (size_t i = 0; i < CROWD; i++)
+        assert_int_equal(octree_bodies_contain(set, &crowd[i]), i % 2);
+    assert_finds_all(set, bodies, BODIES);
+    octree_bodies_destroy(set);
+}
+
+static void crowds_of_a_first_insertion_keep_the_table(void **state)
+{
+    (void)state;
+    static octree_body crowd[CROWD];
+    octree_bodies *set = make_body_set(cube(-8, 8), 16);
+    make_crowd(crowd);
+    assert_int_equal(octree_bodies_insert_many(set, crowd, CROWD, NULL, NULL), OCTREE_OK);
+    const size_t bytes = octree_bodies_memory(set);
+    const octree_body moved = body_at(2, 2, 2, 0.05, BODIES);
+    assert_int_equal(octree_bodies_move(set, &crowd[0], &moved), OCTREE_OK);
+    assert_int_equal(octree_bodies_move(set, &crowd[0], &moved), OCTREE_NOT_FOUND);
+    assert_int_equal(octree_bodies_move(set, &moved, &crowd[1]), OCTREE_DUPLICATE);
+    assert_true(octree_bodies_memory(set) < bytes + SLOT * CROWD);
+    assert_finds_all(set, crowd + 1, CROWD - 1);
+    octree_bodies_destroy(set);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(bulk_changes_need_a_table_and_a_first_insertion_does_not_keep_it),
+        cmocka_unit_test(crowds_are_found_by_a_table),
+        cmocka_unit_test(crowds_of_a_first_insertion_keep_the_table),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
