@@ -15,7 +15,7 @@ void fit_all(const level *l);
 void fit_changes(const level *l, const octree_point *points, size_t count, bool adds);
 void fit_moves(const level *l, const octree_point *points, const double (*to)[3], size_t count);
 
-/* Update the boxes after a point was added at the end of a path, or removed from there. */
+/* Update the boxes after insert_along_path() or remove_along_path(), with that path. */
 void fit_path(const level *l, const path *p, const octree_point *point, bool adds);
 
 /* Returns whether the known boxes of a level are those of its bodies. */

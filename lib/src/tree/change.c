@@ -223,21 +223,9 @@ static octree_status insert_at_end_of_path(octree *tree, const path *p, const oc
     return OCTREE_OK;
 }
 
-/* After a change, shorten a path to the nodes that still exist, and continue it to its code. */
-static void mend_path(path *p, uint64_t code)
+octree_status insert_along_path(octree *tree, const path *p, const octree_point *point, uint64_t code)
 {
-    const unsigned depth = p->depth;
-    p->depth = 0;
-    while (p->depth < depth && path_end(p)->octants >> morton_octant(code, p->depth) & 1)
-        p->depth++;
-    extend_path(p, code);
-}
-
-octree_status insert_along_path(octree *tree, path *p, const octree_point *point, uint64_t code)
-{
-    const octree_status status = insert_at_end_of_path(tree, p, point, code, true, NULL);
-    extend_path(p, code);
-    return status;
+    return insert_at_end_of_path(tree, p, point, code, true, NULL);
 }
 
 octree_status insert_point(octree *tree, const octree_point *point, uint64_t code, bool may_split)
@@ -329,13 +317,22 @@ static void remove_found_point(octree *tree, const found_point *found, node *spa
     tree->version++;
 }
 
+/* Shorten a path to the nodes that still exist after a removal. */
+static void shorten_path(path *p, uint64_t code)
+{
+    const unsigned depth = p->depth;
+    p->depth = 0;
+    while (p->depth < depth && path_end(p)->octants >> morton_octant(code, p->depth) & 1)
+        p->depth++;
+}
+
 octree_status remove_along_path(octree *tree, found_point *found, uint64_t code)
 {
     node spare;
     if (!allocate_merged_leaf(tree, found, &spare))
         return OCTREE_NO_MEMORY;
     remove_found_point(tree, found, &spare, NULL);
-    mend_path(&found->path, code);
+    shorten_path(&found->path, code);
     return OCTREE_OK;
 }
 

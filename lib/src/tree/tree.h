@@ -130,12 +130,12 @@ static inline octree_point stored_point(const found_point *found)
 /* Find a pair (position, id). Returns false if the tree does not have the pair. */
 bool find_point(const octree *tree, const double position[3], uint64_t id, found_point *found);
 
-/* Insert a point at the end of the path to its code, and continue the path to the point. Returns the statuses of
- * insert_point(). The change log must be off. Under OCTREE_AUTO the caller calls tune_if_due(). */
-octree_status insert_along_path(octree *tree, path *p, const octree_point *point, uint64_t code);
+/* Insert a point at the end of the path to its code. The last node of the path may then have new nodes below. Returns
+ * the statuses of insert_point(). The change log must be off. Under OCTREE_AUTO the caller calls tune_if_due(). */
+octree_status insert_along_path(octree *tree, const path *p, const octree_point *point, uint64_t code);
 
-/* Remove a point that was found, and shorten the path to the place of the point. `code` is its Morton code. Returns OK
- * or NO_MEMORY. The change log must be off. */
+/* Remove a point that was found, and shorten the path to the nodes that still exist. `code` is the point's Morton code.
+ * Returns OK or NO_MEMORY. The change log must be off. */
 octree_status remove_along_path(octree *tree, found_point *found, uint64_t code);
 
 /* Give a stored point another id. The pair of the position and the new id is not stored. The change log does not list
