@@ -79,9 +79,9 @@ octree_status octree_bodies_move(octree_bodies *bodies, const octree_body *from,
 /* Insert, remove or move many bodies, with the same result as single calls in the given order. statuses[i] receives the
  * status of bodies[i], and *changed the number of statuses OK; both may be null. If memory runs out, the bodies whose
  * status is OK are changed, and all others are as before.
- * Errors: NULL_ARGUMENT, BUSY, NO_MEMORY, TOO_MANY. Cost: that of the bulk changes of octree.h. The first of these
- * calls makes a hash table of all bodies, 10 to 15 bytes a body, which later changes keep; a call that fills an empty
- * set drops the table again. */
+ * Errors: NULL_ARGUMENT, BUSY, NO_MEMORY, TOO_MANY. Cost: that of the bulk changes of octree.h. The first call
+ * that changes a sixteenth of the bodies or more makes a hash table of all bodies, 10 to 15 bytes a body, which the set
+ * keeps; a call that fills an empty set drops the table again. */
 octree_status octree_bodies_insert_many(octree_bodies *bodies, const octree_body *added, size_t count,
                                         octree_status *statuses, size_t *changed);
 octree_status octree_bodies_remove_many(octree_bodies *bodies, const octree_body *removed, size_t count,

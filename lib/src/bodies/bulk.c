@@ -10,7 +10,8 @@
  * A move that changes the level of a body, or the half extents in the id of its point, is made alone, after the
  * collected changes.
  *
- * Cost: that of the bulk calls, and one cache miss in the hash table for each body. The first call hashes all rows.
+ * Cost: that of the bulk calls, and one cache miss in the hash table for each body. The first call of many bodies
+ * hashes all rows.
  */
 #include "../exact/float_mode.h"
 #include "../exact/point.h"
@@ -183,6 +184,34 @@ static void prefetch_row_of(const bulk *b, size_t index, size_t count)
         rows_prefetch(&b->set->rows, &b->from[index + PREFETCH_AHEAD]);
 }
 
+/* ---- Few changes --------------------------------------------------------------------------------------------- */
+
+/* Hashing the rows of a set for the first time costs as much as a change of a sixteenth of its bodies. So calls of
+ * fewer bodies make single changes. */
+enum { HASHING_CHANGES = 16 };
+
+static bool are_few(const octree_bodies *set, size_t count)
+{
+    return !rows_are_hashed(&set->rows) && count < set->rows.count / HASHING_CHANGES;
+}
+
+/* Change bodies one by one: move them, or call `change` for each. Returns the first status that is due to a lack of
+ * room, or OK. */
+static octree_status change_one_by_one(bulk *b, size_t count, size_t *changed,
+                                       octree_status change(octree_bodies *set, const octree_body *body))
+{
+    for (size_t i = 0; i < count; i++) {
+        const octree_status status =
+            b->moved ? octree_bodies_move(b->set, &b->from[i], &b->moved[i]) : change(b->set, &b->from[i]);
+        set_status(b, i, status);
+        if (b->failure == OCTREE_OK && (status == OCTREE_NO_MEMORY || status == OCTREE_TOO_MANY))
+            b->failure = status;
+    }
+    if (changed)
+        *changed = b->changed;
+    return b->failure;
+}
+
 /* ---- Insert ------------------------------------------------------------------------------------------------- */
 
 static octree_status insert_points(const level *l, const octree_point *points, const double (*to)[3], size_t count)
@@ -234,10 +263,12 @@ octree_status octree_bodies_insert_many(octree_bodies *bodies, const octree_body
 {
     RETURN_IN_DEFAULT_MODE(octree_status, octree_bodies_insert_many, bodies, added, count, statuses, changed);
     octree_status status = check_bulk(bodies, added, count, changed);
+    bulk b = {.set = bodies, .from = added, .statuses = statuses};
+    if (status == OCTREE_OK && are_few(bodies, count))
+        return change_one_by_one(&b, count, changed, octree_bodies_insert);
     if (status == OCTREE_OK)
         status = rows_reserve(&bodies->rows, count);
     const bool first = status == OCTREE_OK && bodies->rows.count == 0 && !rows_are_hashed(&bodies->rows);
-    bulk b = {.set = bodies, .from = added, .statuses = statuses};
     if (status == OCTREE_OK && !begin_bulk(&b, count, count))
         status = OCTREE_NO_MEMORY;
     if (status != OCTREE_OK)
@@ -295,6 +326,8 @@ octree_status octree_bodies_remove_many(octree_bodies *bodies, const octree_body
     RETURN_IN_DEFAULT_MODE(octree_status, octree_bodies_remove_many, bodies, removed, count, statuses, changed);
     octree_status status = check_bulk(bodies, removed, count, changed);
     bulk b = {.set = bodies, .from = removed, .statuses = statuses};
+    if (status == OCTREE_OK && are_few(bodies, count))
+        return change_one_by_one(&b, count, changed, octree_bodies_remove);
     if (status == OCTREE_OK && !begin_bulk(&b, count, 0))
         status = OCTREE_NO_MEMORY;
     if (status != OCTREE_OK)
@@ -377,6 +410,8 @@ octree_status octree_bodies_move_many(octree_bodies *bodies, const octree_body *
     if (status == OCTREE_OK && count > 0 && !to)
         status = OCTREE_NULL_ARGUMENT;
     bulk b = {.set = bodies, .from = from, .moved = to, .statuses = statuses};
+    if (status == OCTREE_OK && are_few(bodies, count))
+        return change_one_by_one(&b, count, changed, NULL);
     if (status == OCTREE_OK && !begin_bulk(&b, count, 0))
         status = OCTREE_NO_MEMORY;
     if (status != OCTREE_OK)

@@ -6,7 +6,7 @@
 #include "body_sets.h"
 #include "octree/sample.h"
 
-enum { BODIES = 5000, CROWD = 3000, SLOT = 8 };
+enum { BODIES = 5000, MANY = BODIES / 16, CROWD = 3000, SLOT = 8 };
 
 static octree_body random_small_body(uint64_t *seed, uint64_t id)
 {
@@ -50,8 +50,8 @@ static void bulk_changes_need_a_table_and_a_first_insertion_does_not_keep_it(voi
     assert_int_equal(octree_bodies_insert(set, &bodies[7]), OCTREE_OK);
     assert_true(octree_bodies_memory(set) < lean + BODIES);
     assert_int_equal(octree_bodies_remove(set, &bodies[8]), OCTREE_OK); /* a free row is not in the table */
-    assert_int_equal(octree_bodies_remove_many(set, &bodies[9], 1, NULL, NULL), OCTREE_OK);
-    assert_int_equal(octree_bodies_insert_many(set, &bodies[9], 1, NULL, NULL), OCTREE_OK);
+    assert_int_equal(octree_bodies_remove_many(set, &bodies[9], MANY, NULL, NULL), OCTREE_OK);
+    assert_int_equal(octree_bodies_insert_many(set, &bodies[9], MANY, NULL, NULL), OCTREE_OK);
     assert_true(octree_bodies_memory(set) > lean + SLOT * BODIES);
     assert_false(octree_bodies_contain(set, &bodies[8]));
     assert_int_equal(octree_bodies_insert(set, &bodies[8]), OCTREE_OK);
@@ -60,6 +60,36 @@ static void bulk_changes_need_a_table_and_a_first_insertion_does_not_keep_it(voi
     assert_int_equal(octree_bodies_compact(set), OCTREE_OK);
     assert_true(octree_bodies_memory(set) < lean + BODIES);
     assert_finds_all(set, bodies, BODIES);
+    octree_bodies_destroy(set);
+}
+
+/* A table would take time and memory for all bodies. */
+static void few_changes_in_one_call_need_no_table(void **state)
+{
+    (void)state;
+    enum { FEW = 100 };
+    static octree_body bodies[BODIES];
+    octree_body moved[FEW];
+    octree_status statuses[FEW];
+    size_t changed = 7;
+    octree_bodies *set = make_full_set(bodies);
+    const size_t lean = octree_bodies_memory(set);
+    for (size_t i = 0; i < FEW; i++) {
+        moved[i] = bodies[i];
+        moved[i].position[0] = -moved[i].position[0];
+    }
+    assert_int_equal(octree_bodies_move_many(set, bodies, moved, FEW, statuses, &changed), OCTREE_OK);
+    assert_int_equal(changed, FEW);
+    assert_int_equal(octree_bodies_remove_many(set, bodies, FEW, statuses, &changed), OCTREE_OK);
+    assert_int_equal(changed, 0);
+    assert_int_equal(statuses[FEW - 1], OCTREE_NOT_FOUND);
+    assert_int_equal(octree_bodies_remove_many(set, moved, FEW / 2, NULL, NULL), OCTREE_OK);
+    assert_int_equal(octree_bodies_insert_many(set, moved, FEW, statuses, &changed), OCTREE_OK);
+    assert_int_equal(changed, FEW / 2);
+    assert_int_equal(statuses[FEW - 1], OCTREE_DUPLICATE);
+    assert_true(octree_bodies_memory(set) < lean + BODIES);
+    assert_finds_all(set, moved, FEW);
+    assert_finds_all(set, bodies + FEW, BODIES - FEW);
     octree_bodies_destroy(set);
 }
 
@@ -81,8 +111,8 @@ static void crowds_are_found_by_a_table(void **state)
         assert_int_equal(octree_bodies_insert(set, &crowd[i / 2]), OCTREE_DUPLICATE);
     }
     const size_t bytes = octree_bodies_memory(set); /* with the table, which a bulk change would make */
-    assert_int_equal(octree_bodies_remove_many(set, &bodies[0], 1, NULL, NULL), OCTREE_OK);
-    assert_int_equal(octree_bodies_insert(set, &bodies[0]), OCTREE_OK);
+    assert_int_equal(octree_bodies_remove_many(set, bodies, BODIES, NULL, NULL), OCTREE_OK);
+    assert_int_equal(octree_bodies_insert_many(set, bodies, BODIES, NULL, NULL), OCTREE_OK);
     assert_true(octree_bodies_memory(set) < bytes + SLOT * BODIES);
     assert_finds_all(set, crowd, CROWD);
     for (size_t i = 0; i < CROWD; i += 2)
@@ -114,6 +144,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bulk_changes_need_a_table_and_a_first_insertion_does_not_keep_it),
+        cmocka_unit_test(few_changes_in_one_call_need_no_table),
         cmocka_unit_test(crowds_are_found_by_a_table),
         cmocka_unit_test(crowds_of_a_first_insertion_keep_the_table),
     };
