@@ -4,6 +4,7 @@
 #include "fixture.h"
 
 #include "body_sets.h"
+#include "counting_allocator.h"
 #include "octree/sample.h"
 
 enum { BODIES = 5000, MANY = BODIES / 16, CROWD = 3000, SLOT = 8 };
@@ -93,6 +94,40 @@ static void few_changes_in_one_call_need_no_table(void **state)
     octree_bodies_destroy(set);
 }
 
+/* The bodies whose status is OK are changed, and the call tells that others are not. */
+static void few_changes_without_memory_report_it(void **state)
+{
+    (void)state;
+    enum { FEW = 300 };
+    static octree_body bodies[BODIES];
+    octree_body added[FEW];
+    octree_status statuses[FEW];
+    counting_allocator counts = {0};
+    octree_bodies *set;
+    uint64_t seed = 2;
+    size_t changed, kept = 0;
+    octree_def def = define(cube(-8, 8), 16, 21, OCTREE_GROW);
+    def.allocator = counting_allocator_use(&counts);
+    assert_int_equal(octree_bodies_create(&def, &set), OCTREE_OK);
+    for (uint64_t i = 0; i < BODIES; i++)
+        bodies[i] = random_small_body(&seed, i);
+    for (uint64_t i = 0; i < FEW; i++)
+        added[i] = random_small_body(&seed, BODIES + i);
+    assert_int_equal(octree_bodies_insert_many(set, bodies, BODIES, NULL, NULL), OCTREE_OK);
+    counting_allocator_fail_at(&counts, 0);
+    counts.fail_until = SIZE_MAX;
+    assert_int_equal(octree_bodies_insert_many(set, added, FEW, statuses, &changed), OCTREE_NO_MEMORY);
+    counting_allocator_stop_failing(&counts);
+    for (size_t i = 0; i < FEW; i++) {
+        assert_int_equal(octree_bodies_contain(set, &added[i]), statuses[i] == OCTREE_OK);
+        kept += statuses[i] == OCTREE_OK;
+    }
+    assert_true(changed == kept && kept > 0 && kept < FEW);
+    assert_null(octree_bodies_check(set));
+    octree_bodies_destroy(set);
+    assert_all_returned(&counts);
+}
+
 /* Bodies at one place, which differ in their ids. */
 static void make_crowd(octree_body crowd[CROWD])
 {
@@ -145,6 +180,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bulk_changes_need_a_table_and_a_first_insertion_does_not_keep_it),
         cmocka_unit_test(few_changes_in_one_call_need_no_table),
+        cmocka_unit_test(few_changes_without_memory_report_it),
         cmocka_unit_test(crowds_are_found_by_a_table),
         cmocka_unit_test(crowds_of_a_first_insertion_keep_the_table),
     };

@@ -51,6 +51,28 @@ static void nothing_is_played_in_a_gap_and_the_next_tick_has_its_own_number(void
     octree_game_destroy(game);
 }
 
+/* A body with a velocity stays where it was, and moves on after the gap as if there had been none. */
+static void movers_are_listed_in_a_gap_where_they_were(void **state)
+{
+    (void)state;
+    const octree_gap gap = {2, "the queue is full"};
+    const octree_game_body mover = {.id = 1, .velocity = {1, 0, 0}};
+    octree_session session = small_session(&mover, 1);
+    session.ticks = 3;
+    session.gaps = &gap;
+    session.gap_count = 1;
+    octree_game *game = start_game(&session);
+    const double known[] = {0, 1, 1, 3};
+    for (uint64_t number = 0; number <= 3; number++) {
+        const octree_tick *tick = octree_game_tick(game);
+        assert_int_equal(tick->mover_count, 1);
+        assert_true(tick->movers[0].position[0] == known[number] && tick->movers[0].velocity[0] == 1);
+        if (number < 3)
+            assert_int_equal(octree_game_advance(game), OCTREE_OK);
+    }
+    octree_game_destroy(game);
+}
+
 static void tick_0_may_be_a_gap(void **state)
 {
     (void)state;
@@ -104,6 +126,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(nothing_is_played_in_a_gap_and_the_next_tick_has_its_own_number),
+        cmocka_unit_test(movers_are_listed_in_a_gap_where_they_were),
         cmocka_unit_test(tick_0_may_be_a_gap),
         cmocka_unit_test(a_gap_is_given_as_it_comes_too),
         cmocka_unit_test(gaps_out_of_order_and_without_a_text_are_refused),
