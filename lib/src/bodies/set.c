@@ -280,14 +280,20 @@ static octree_status move_point(octree_bodies *set, const octree_body *old, cons
     const unsigned number = find_level(set, moved->half);
     level *l = &set->levels[find_level(set, old->half)], *next = &set->levels[number];
     const octree_point leaving = make_point(l, from->row, old), arriving = make_point(next, from->row, moved);
+    const bool stays_in_leaf = l == next && path_end(&from->at.path) == path_end(&to->at.path);
     octree_status status = create_level(set, number);
     if (status == OCTREE_OK)
         status = l == next ? move_within_level(l->tree, from, to, &leaving, &arriving)
                            : move_to_level(l->tree, &leaving, next->tree, &arriving);
     if (status != OCTREE_OK)
         return status;
-    fit_changes(l, &leaving, 1, false);
-    fit_changes(next, &arriving, 1, true);
+    if (stays_in_leaf) { /* then no node has changed */
+        fit_path(l, &to->at.path, &leaving, false);
+        fit_path(l, &to->at.path, &arriving, true);
+    } else {
+        fit_changes(l, &leaving, 1, false);
+        fit_changes(next, &arriving, 1, true);
+    }
     return OCTREE_OK;
 }
 
