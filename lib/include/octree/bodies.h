@@ -63,9 +63,9 @@ void octree_bodies_destroy(octree_bodies *bodies);
 /* Remove all bodies. Errors: NULL_ARGUMENT, BUSY. Cost: O(memory blocks). */
 octree_status octree_bodies_clear(octree_bodies *bodies);
 
-/* Insert a body. Cost: O(D + M); O(n log n) whenever a set that was filled in bulk has grown fourfold. Errors:
- * NULL_ARGUMENT, NOT_FINITE, OUTSIDE (the position), BAD_SIZE (half < 0), DUPLICATE, NO_MEMORY, TOO_MANY, BUSY; the set
- * is then unchanged. */
+/* Insert a body. Cost: O(D + M); O(n log n) whenever a set that was filled in bulk has grown fourfold, and O(n) once if
+ * more than 64 bodies share a leaf, because a hash table then finds bodies. Errors: NULL_ARGUMENT, NOT_FINITE, OUTSIDE
+ * (the position), BAD_SIZE (half < 0), DUPLICATE, NO_MEMORY, TOO_MANY, BUSY; the set is then unchanged. */
 octree_status octree_bodies_insert(octree_bodies *bodies, const octree_body *body);
 
 /* Remove the body with this position, these half extents and this id. Cost: O(D + M). Errors: those of insertion, and
@@ -79,9 +79,9 @@ octree_status octree_bodies_move(octree_bodies *bodies, const octree_body *from,
 /* Insert, remove or move many bodies, with the same result as single calls in the given order. statuses[i] receives the
  * status of bodies[i], and *changed the number of statuses OK; both may be null. If memory runs out, the bodies whose
  * status is OK are changed, and all others are as before.
- * Errors: NULL_ARGUMENT, BUSY, NO_MEMORY, TOO_MANY. Cost: that of the bulk changes of octree.h. The first call
- * that changes a sixteenth of the bodies or more makes a hash table of all bodies, 10 to 15 bytes a body, which the set
- * keeps; a call that fills an empty set drops the table again. */
+ * Errors: NULL_ARGUMENT, BUSY, NO_MEMORY, TOO_MANY. Cost: that of the bulk changes of octree.h. The first call that
+ * changes a sixteenth of the bodies or more makes the hash table, 10 to 15 bytes a body, which the set keeps; a call
+ * that fills an empty set drops it again. */
 octree_status octree_bodies_insert_many(octree_bodies *bodies, const octree_body *added, size_t count,
                                         octree_status *statuses, size_t *changed);
 octree_status octree_bodies_remove_many(octree_bodies *bodies, const octree_body *removed, size_t count,

@@ -167,7 +167,8 @@ static octree_point make_point(const level *l, uint32_t row, const octree_body *
 
 /* Insert the point of a body that is not stored, and for which there is room. The row is written before the tree is
  * changed. If the change of the tree fails, the row is removed again, which needs no memory. */
-static octree_status insert_new_body(octree_bodies *set, unsigned number, const octree_body *body, found_body *place)
+static octree_status insert_new_body(octree_bodies *set, unsigned number, const octree_body *body,
+                                     const found_body *place)
 {
     level *l = &set->levels[number];
     const uint32_t row = rows_add(&set->rows, body);
