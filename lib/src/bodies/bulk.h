@@ -1,0 +1,14 @@
+/* SPDX-License-Identifier: MIT */
+/* bulk.h - what all changes of many bodies share. Private. */
+#ifndef OCTREE_BODY_BULK_H
+#define OCTREE_BODY_BULK_H
+
+#include "set.h"
+
+/* Check the arguments that all bulk calls share, and set *changed to 0. */
+octree_status check_bulk(const octree_bodies *set, const octree_body *bodies, size_t count, size_t *changed);
+
+/* Report the failure of a whole call in the status of each body. Returns the status. */
+octree_status refuse_all(octree_status status, octree_status *statuses, size_t count);
+
+#endif
