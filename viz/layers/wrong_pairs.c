@@ -41,7 +41,7 @@ bool has_wrong_pairs(const layer_source *in)
 }
 
 /* Find the position of the ring: the first missing or extra pair or, if there is none, the pair that is given twice, or
- * the body beside an unknown id. Return false if there is no such body. */
+ * the body beside an unknown id. Return false if that body does not exist either. */
 static bool find_ring_position(const layer_source *in, double at[3])
 {
     const octree_pair_judgement *made = &in->tick->foreign_pairs;

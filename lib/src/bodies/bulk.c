@@ -185,8 +185,8 @@ static void prefetch_row_of(const bulk *b, size_t index, size_t count)
 
 /* ---- Few changes --------------------------------------------------------------------------------------------- */
 
-/* Hashing the rows of a set for the first time costs as much as a change of a sixteenth of its bodies. So calls of
- * fewer bodies make single changes. */
+/* Hashing the rows of a set for the first time costs about as much as a change of a sixteenth of its bodies. So calls
+ * of fewer bodies make single changes. */
 enum { HASHING_CHANGES = 16 };
 
 static bool are_few(const octree_bodies *set, size_t count)
@@ -366,9 +366,7 @@ static void finish_move(bulk *b, const pending *p, bool made)
 static octree_status find_moved_row(const octree_bodies *set, const octree_body *from, const octree_body *to,
                                     uint32_t *row)
 {
-    octree_status status = check_body(set, from);
-    if (status == OCTREE_OK)
-        status = check_body(set, to);
+    const octree_status status = check_move(set, from, to);
     if (status != OCTREE_OK)
         return status;
     *row = rows_find(&set->rows, from);

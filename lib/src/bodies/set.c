@@ -151,6 +151,12 @@ octree_status check_body(const octree_bodies *set, const octree_body *body)
     return status == OCTREE_OK ? check_half_extents(body->half) : status;
 }
 
+octree_status check_move(const octree_bodies *set, const octree_body *from, const octree_body *to)
+{
+    const octree_status status = check_body(set, from);
+    return status == OCTREE_OK ? check_body(set, to) : status;
+}
+
 static octree_status check_change_of_body(const octree_bodies *set, const octree_body *body)
 {
     const octree_status status = check_set_change(set);
@@ -300,9 +306,7 @@ static octree_status move_point(octree_bodies *set, const octree_body *old, cons
 static octree_status find_moved_body(octree_bodies *set, const octree_body *from, const octree_body *to,
                                      found_body *old, found_body *moved)
 {
-    octree_status status = check_body(set, from);
-    if (status == OCTREE_OK)
-        status = check_body(set, to);
+    const octree_status status = check_move(set, from, to);
     if (status != OCTREE_OK)
         return status;
     if (!find_body_for_change(set, from, old))

@@ -103,6 +103,9 @@ octree_status check_half_extents(const double half[3]);
 /* Check the numbers of a body. Returns OK, NULL_ARGUMENT, NOT_FINITE, OUTSIDE or BAD_SIZE. */
 octree_status check_body(const octree_bodies *set, const octree_body *body);
 
+/* Check the numbers of a body before and after a move. Returns the statuses of check_body(). */
+octree_status check_move(const octree_bodies *set, const octree_body *from, const octree_body *to);
+
 /* Check whether a set can be changed. Returns OK, NULL_ARGUMENT, BAD_OPTION (it shows points) or BUSY. */
 octree_status check_set_change(const octree_bodies *set);
 

@@ -24,7 +24,7 @@ typedef struct float_frame {
 typedef struct snapshot {
     arena *memory;
     float_frame frame;
-    size_t capacity;            /* a node with at most so many bodies is not divided, nor is a leaf */
+    size_t capacity;            /* a leaf is not divided, nor is a node with at most this number of bodies */
     list clusters;              /* of clusters; the first is the root */
     const octree_body **bodies; /* in the order of the leaves of the tree, and in each leaf sorted */
     octree_body *made;          /* the bodies of a set that shows points, which has no rows; else null */

@@ -326,14 +326,22 @@ static void shorten_path(path *p, uint64_t code)
         p->depth++;
 }
 
-octree_status remove_along_path(octree *tree, found_point *found, uint64_t code)
+/* Remove a point that was found. Returns OK or NO_MEMORY. */
+static octree_status allocate_and_remove(octree *tree, const found_point *found)
 {
     node spare;
     if (!allocate_merged_leaf(tree, found, &spare))
         return OCTREE_NO_MEMORY;
     remove_found_point(tree, found, &spare, NULL);
-    shorten_path(&found->path, code);
     return OCTREE_OK;
+}
+
+octree_status remove_along_path(octree *tree, found_point *found, uint64_t code)
+{
+    const octree_status status = allocate_and_remove(tree, found);
+    if (status == OCTREE_OK)
+        shorten_path(&found->path, code);
+    return status;
 }
 
 void replace_point_id(octree *tree, const double position[3], uint64_t id, uint64_t new_id)
@@ -370,14 +378,10 @@ void cancel_removal(octree *tree, prepared_removal *r)
 octree_status remove_point(octree *tree, octree_point *point)
 {
     found_point found;
-    node spare;
     if (!find_point(tree, point->position, point->id, &found))
         return OCTREE_NOT_FOUND;
-    if (!allocate_merged_leaf(tree, &found, &spare))
-        return OCTREE_NO_MEMORY;
     *point = stored_point(&found);
-    remove_found_point(tree, &found, &spare, NULL);
-    return OCTREE_OK;
+    return allocate_and_remove(tree, &found);
 }
 
 octree_status octree_remove(octree *tree, const double position[3], uint64_t id)
