@@ -12,16 +12,6 @@
 
 enum { BODIES = 1500, QUERIES = 100 };
 
-static octree_body small_body(uint64_t *seed, uint64_t id)
-{
-    octree_body body = {.id = id};
-    for (int k = 0; k < 3; k++) {
-        body.position[k] = 16 * octree_random_unit(seed) - 8;
-        body.half[k] = 0.2 * octree_random_unit(seed);
-    }
-    return body;
-}
-
 static octree_cost cost_of_queries(const octree_bodies *set)
 {
     uint64_t seed = 8;
@@ -36,7 +26,7 @@ static octree_cost cost_of_queries(const octree_bodies *set)
         const octree_region region = random_region(NUMBERS_SMOOTH, kind, &seed, half_spaces);
         assert_int_equal(octree_bodies_search(set, &region, &how, count_body, &count), OCTREE_OK);
         random_target(NUMBERS_SMOOTH, &seed, target);
-        const octree_body near = small_body(&seed, 0);
+        const octree_body near = small_body(0.2, &seed, 0);
         const octree_region ball = {.kind = OCTREE_REGION_BALL,
                                     .center = {near.position[0], near.position[1], near.position[2]},
                                     .radius = 0.2};
@@ -68,12 +58,12 @@ static void boxes_follow_bulk_changes_of_all_sizes(void **state)
     for (uint32_t capacity = 1; capacity <= 16; capacity += 5) {
         octree_bodies *set = make_body_set(cube(-8, 8), capacity);
         for (size_t i = 0; i < BODIES; i++)
-            bodies[i] = small_body(&seed, i);
+            bodies[i] = small_body(0.2, &seed, i);
         assert_int_equal(octree_bodies_insert_many(set, bodies, BODIES, NULL, NULL), OCTREE_OK);
         for (size_t round = 0; round < 150; round++) {
             const size_t count = round < 10 ? 60 - round : 1 + round % 12;
             for (size_t i = 0; i < count; i++) {
-                moved[i] = small_body(&seed, i);
+                moved[i] = small_body(0.2, &seed, i);
                 if (i % 4) /* bodies that keep their size are moved in bulk, others one by one */
                     memcpy(moved[i].half, bodies[i].half, sizeof moved[i].half);
             }
@@ -100,7 +90,7 @@ static void assert_cost_of_detour(uint32_t capacity)
     uint64_t seed = 5;
     octree_bodies *direct = make_body_set(cube(-8, 8), capacity), *detour = make_body_set(cube(-8, 8), capacity);
     for (size_t i = 0; i < BODIES; i++)
-        bodies[i] = small_body(&seed, i);
+        bodies[i] = small_body(0.2, &seed, i);
     for (size_t i = 0; i < BODIES / 2; i++)
         assert_int_equal(octree_bodies_insert(direct, &bodies[i]), OCTREE_OK);
     for (size_t i = BODIES; i-- > 0;)
@@ -108,7 +98,7 @@ static void assert_cost_of_detour(uint32_t capacity)
     for (size_t i = BODIES / 2; i < BODIES; i++)
         assert_int_equal(octree_bodies_remove(detour, &bodies[i]), OCTREE_OK);
     for (size_t i = 0; i < BODIES / 2; i += 3) {
-        const octree_body elsewhere = small_body(&seed, i);
+        const octree_body elsewhere = small_body(0.2, &seed, i);
         assert_int_equal(octree_bodies_move(detour, &bodies[i], &elsewhere), OCTREE_OK);
         assert_int_equal(octree_bodies_move(detour, &elsewhere, &bodies[i]), OCTREE_OK);
     }
@@ -132,10 +122,10 @@ static void body_that_moves_twice_in_a_call_leaves_no_trace(void **state)
     uint64_t seed = 6;
     octree_bodies *direct = make_body_set(cube(-8, 8), 6), *detour = make_body_set(cube(-8, 8), 6);
     for (size_t i = 0; i < BODIES; i++)
-        bodies[i] = small_body(&seed, i);
+        bodies[i] = small_body(0.2, &seed, i);
     assert_int_equal(octree_bodies_insert_many(detour, bodies, BODIES, NULL, NULL), OCTREE_OK);
     for (size_t i = 0; i < BODIES; i++) {
-        octree_body way[3] = {bodies[i], small_body(&seed, i), small_body(&seed, i)};
+        octree_body way[3] = {bodies[i], small_body(0.2, &seed, i), small_body(0.2, &seed, i)};
         for (int k = 1; k < 3; k++)
             memcpy(way[k].half, way[0].half, sizeof way[k].half);
         assert_int_equal(octree_bodies_move_many(detour, way, way + 1, 2, NULL, NULL), OCTREE_OK);
@@ -164,7 +154,7 @@ static void flat_bodies_have_flat_boxes(void **state)
     uint64_t seed = 7;
     octree_bodies *set = make_body_set(cube(-8, 8), 8);
     for (uint64_t id = 0; id < 400; id++) {
-        octree_body plate = small_body(&seed, id);
+        octree_body plate = small_body(0.2, &seed, id);
         plate.position[2] = 0.1;
         plate.half[0] = plate.half[1] = 0.2; /* all in one level, whose root is no leaf */
         plate.half[2] = 0.01;

@@ -9,22 +9,12 @@
 
 enum { BODIES = 5000, MANY = BODIES / 16, CROWD = 3000, SLOT = 8 };
 
-static octree_body random_small_body(uint64_t *seed, uint64_t id)
-{
-    octree_body body = {.id = id};
-    for (int k = 0; k < 3; k++) {
-        body.position[k] = 16 * octree_random_unit(seed) - 8;
-        body.half[k] = 0.1 * octree_random_unit(seed);
-    }
-    return body;
-}
-
 static octree_bodies *make_full_set(octree_body *bodies)
 {
     uint64_t seed = 1;
     octree_bodies *set = make_body_set(cube(-8, 8), 16);
     for (uint64_t i = 0; i < BODIES; i++)
-        bodies[i] = random_small_body(&seed, i);
+        bodies[i] = small_body(0.1, &seed, i);
     assert_int_equal(octree_bodies_insert_many(set, bodies, BODIES, NULL, NULL), OCTREE_OK);
     return set;
 }
@@ -110,9 +100,9 @@ static void few_changes_without_memory_report_it(void **state)
     def.allocator = counting_allocator_use(&counts);
     assert_int_equal(octree_bodies_create(&def, &set), OCTREE_OK);
     for (uint64_t i = 0; i < BODIES; i++)
-        bodies[i] = random_small_body(&seed, i);
+        bodies[i] = small_body(0.1, &seed, i);
     for (uint64_t i = 0; i < FEW; i++)
-        added[i] = random_small_body(&seed, BODIES + i);
+        added[i] = small_body(0.1, &seed, BODIES + i);
     assert_int_equal(octree_bodies_insert_many(set, bodies, BODIES, NULL, NULL), OCTREE_OK);
     counting_allocator_fail_at(&counts, 0);
     counts.fail_until = SIZE_MAX;

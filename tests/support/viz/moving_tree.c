@@ -197,6 +197,16 @@ octreel_recorder *open_recorder(const octreel_recorder_def *def)
     return recorder;
 }
 
+octreel_recorder *open_recorder_without_frames(const char *folder, size_t ring)
+{
+    octreel_recorder_def def = octreel_recorder_def_default();
+    def.folder = folder;
+    def.tree.world = cube(-8, 8);
+    def.every = 0;
+    def.ring = ring;
+    return open_recorder(&def);
+}
+
 void close_recorder(octreel_recorder *recorder)
 {
     if (octreel_recorder_close(recorder) != OCTREEL_OK)

@@ -60,6 +60,9 @@ void record_steps(octreel_recorder *recorder, moving_tree *m, int ticks);
 /* Open a recorder; the test fails with the error if that fails. */
 octreel_recorder *open_recorder(const octreel_recorder_def *def);
 
+/* Open a recorder of ticks without frames, with a ring of this size, in the world [-8, 8]^3. */
+octreel_recorder *open_recorder_without_frames(const char *folder, size_t ring);
+
 /* Close and destroy a recorder; the test fails with the error if that fails. */
 void close_recorder(octreel_recorder *recorder);
 

@@ -97,6 +97,14 @@ size_t for_each_line(const char *folder, void (*visit)(const char *line, size_t 
     return number;
 }
 
+void assert_noted_lines(const char *folder, void (*note)(const char *line, size_t number, void *text),
+                        const char *expected)
+{
+    char noted[64] = "";
+    for_each_line(folder, note, noted);
+    assert_string_equal(noted, expected);
+}
+
 static void parse_line(const char *line, size_t number, void *context)
 {
     json_t *object = json_read(line);

@@ -40,4 +40,9 @@ void assert_nothing_half_written(const char *folder);
  * number of lines. */
 size_t for_each_line(const char *folder, void (*visit)(const char *line, size_t number, void *context), void *context);
 
+/* Call note() for each line of ticks.jsonl; it appends to a text of up to 63 characters, its context. The test fails
+ * unless the text is as expected. */
+void assert_noted_lines(const char *folder, void (*note)(const char *line, size_t number, void *text),
+                        const char *expected);
+
 #endif

@@ -448,20 +448,26 @@ static void long_lists_of_missing_points_are_counted(void **state)
     command_release(&result);
 }
 
+/* Record a session with wrong answers, audit the recording, and return the audit's page, which the caller frees. */
+static char *film_and_audit(void **state, const place *session)
+{
+    const place film = place_in(*state, "film");
+    command_result result = run_octreel(NULL, "record %s --size 64x48 -o %s", session->path, film.path);
+    assert_done(&result);
+    command_release(&result);
+    result = run_octreel(NULL, "audit %s --html %s", film.path, film.path);
+    assert_int_equal(result.status, 1);
+    command_release(&result);
+    return file_read(place_in(*state, "film/audit.html").path, NULL);
+}
+
 /* The first wrong node of each kind links to its tick. */
 static void wrong_nodes_link_to_their_ticks(void **state)
 {
     const place session =
         write_session_text(state, START "{\"tick\":1,\"foreign_nodes\":[{\"id\":7,\"box\":{\"min\":[0,0,0],\"max\":"
                                         "[9,9,9]},\"points\":[1,2,2]}]}\n");
-    const place film = place_in(*state, "film");
-    command_result result = run_octreel(NULL, "record %s --size 64x48 -o %s", session.path, film.path);
-    assert_done(&result);
-    command_release(&result);
-    result = run_octreel(NULL, "audit %s --html %s", film.path, film.path);
-    assert_int_equal(result.status, 1);
-    command_release(&result);
-    char *page = file_read(place_in(*state, "film/audit.html").path, NULL);
+    char *page = film_and_audit(state, &session);
     assert_non_null(strstr(page, "<li>3 times: it lists a point more than once (tick 1, node 7, point 2) (<a "
                                  "href=\"./frame_000001.png\">frame</a>, <a "
                                  "href=\"./index.html#t=1&amp;select=foreign+7\">page</a>)</li>"));
@@ -507,16 +513,10 @@ static void wrong_pairs_are_reported_and_exit_status_is_1(void **state)
     assert_non_null(strstr(result.out, "name=\"pairs\""));
     assert_non_null(strstr(result.out, PAIRS_LINE "\">" PAIRS_LINE "\ntick 1, foreign_pairs: pairs that do not "));
     command_release(&result);
-    result = run_octreel(NULL, "record %s --size 64x48 -o %s", session.path, film.path);
-    assert_done(&result);
-    command_release(&result);
+    char *page = film_and_audit(state, &session);
     result = run_octreel(NULL, "verify %s", film.path);
     assert_done(&result);
     command_release(&result);
-    result = run_octreel(NULL, "audit %s --html %s", film.path, film.path);
-    assert_int_equal(result.status, 1);
-    command_release(&result);
-    char *page = file_read(place_in(*state, "film/audit.html").path, NULL);
     assert_non_null(strstr(page, "<section class=\"fails\"><h2>pairs</h2>\n<p>" PAIRS_LINE "</p>"));
     assert_non_null(strstr(page, "<li>tick 1 (<a href=\"./frame_000001.png\">frame</a>, <a "
                                  "href=\"./index.html#t=1\">page</a>), foreign_pairs: pairs that do not overlap; "));

@@ -21,16 +21,6 @@ static const octree_foreign_node halves[] = {
 static const octree_foreign_tree two_leaves = {.nodes = halves, .node_count = 3},
                                  one_node = {.nodes = halves, .node_count = 1}, no_node = {.nodes = NULL};
 
-static octreel_recorder *open_small(const char *folder, size_t ring)
-{
-    octreel_recorder_def def = octreel_recorder_def_default();
-    def.folder = folder;
-    def.tree.world = cube(-8, 8);
-    def.every = 0;
-    def.ring = ring;
-    return open_recorder(&def);
-}
-
 /* Record a query for the nearest point on the left, which prunes one leaf. */
 static octreel_status tick(octreel_recorder *recorder, const octree_foreign_tree *foreign, uint64_t pruned)
 {
@@ -58,17 +48,10 @@ static void note_nodes(const char *line, size_t number, void *context)
              nodes ? nodes + strlen(counted) : "-");
 }
 
-static void assert_nodes(const place *folder, const char *expected)
-{
-    char told[64] = "";
-    for_each_line(folder->path, note_nodes, told);
-    assert_string_equal(told, expected);
-}
-
 static void nodes_are_recorded_with_ticks_and_checked(void **state)
 {
     const place folder = place_in(*state, "film"), again = place_in(*state, "again");
-    octreel_recorder *recorder = open_small(folder.path, 0);
+    octreel_recorder *recorder = open_recorder_without_frames(folder.path, 0);
     assert_int_equal(tick(recorder, NULL, 0), OCTREEL_OK);
     assert_int_equal(tick(recorder, &two_leaves, 3), OCTREEL_OK);
     assert_int_equal(tick(recorder, NULL, 2), OCTREEL_OK); /* prunes the leaf that holds the answer */
@@ -76,18 +59,18 @@ static void nodes_are_recorded_with_ticks_and_checked(void **state)
     assert_int_equal(tick(recorder, &two_leaves, 3), OCTREEL_OK);
     assert_int_equal(tick(recorder, &no_node, 0), OCTREEL_OK);
     close_recorder(recorder);
-    assert_nodes(&folder, "-3W313W0");
+    assert_noted_lines(folder.path, note_nodes, "-3W313W0");
     assert_films_again(&folder, &again, 6);
 }
 
 static void nodes_of_tick_0_are_recorded(void **state)
 {
     const place folder = place_in(*state, "film"), again = place_in(*state, "again");
-    octreel_recorder *recorder = open_small(folder.path, 0);
+    octreel_recorder *recorder = open_recorder_without_frames(folder.path, 0);
     assert_int_equal(tick(recorder, &two_leaves, 3), OCTREEL_OK);
     assert_int_equal(tick(recorder, NULL, 3), OCTREEL_OK);
     close_recorder(recorder);
-    assert_nodes(&folder, "33");
+    assert_noted_lines(folder.path, note_nodes, "33");
     assert_films_again(&folder, &again, 2);
 }
 
@@ -95,13 +78,13 @@ static void nodes_of_tick_0_are_recorded(void **state)
 static void ring_remembers_the_current_nodes(void **state)
 {
     const place folder = place_in(*state, "film"), again = place_in(*state, "again");
-    octreel_recorder *recorder = open_small(NULL, 2);
+    octreel_recorder *recorder = open_recorder_without_frames(NULL, 2);
     assert_int_equal(tick(recorder, &two_leaves, 0), OCTREEL_OK);
     for (int i = 0; i < 5; i++)
         assert_int_equal(tick(recorder, NULL, 3), OCTREEL_OK);
     assert_int_equal(octreel_recorder_write(recorder, folder.path, NULL), OCTREEL_OK);
     close_recorder(recorder);
-    assert_nodes(&folder, "33");
+    assert_noted_lines(folder.path, note_nodes, "33");
     assert_films_again(&folder, &again, 2);
 }
 
@@ -110,14 +93,14 @@ static void nodes_of_a_refused_tick_are_recorded_with_the_next(void **state)
     const place folder = place_in(*state, "film"), again = place_in(*state, "again");
     const octree_query bad = {.kind = OCTREE_QUERY_NEAREST, .target = {NAN}};
     octreel_tick_info about = {.queries = &bad, .query_count = 1, .foreign = &two_leaves};
-    octreel_recorder *recorder = open_small(folder.path, 0);
+    octreel_recorder *recorder = open_recorder_without_frames(folder.path, 0);
     assert_int_equal(octreel_recorder_tick(recorder, NULL, &about), OCTREEL_BAD_QUERY);
     assert_int_equal(tick(recorder, NULL, 3), OCTREEL_OK);
     assert_int_equal(octreel_recorder_tick(recorder, NULL, &about), OCTREEL_BAD_QUERY);
     assert_int_equal(tick(recorder, &one_node, 0), OCTREEL_OK);
     assert_int_equal(octreel_recorder_close(recorder), OCTREEL_GAPS);
     octreel_recorder_destroy(recorder);
-    assert_nodes(&folder, "-3-1");
+    assert_noted_lines(folder.path, note_nodes, "-3-1");
     assert_films_again(&folder, &again, 4);
 }
 
@@ -134,7 +117,7 @@ static void invalid_nodes_are_refused_with_their_index(void **state)
 {
     const place folder = place_in(*state, "film");
     uint64_t large = UINT64_C(1) << 53;
-    octreel_recorder *recorder = open_small(folder.path, 0);
+    octreel_recorder *recorder = open_recorder_without_frames(folder.path, 0);
     assert_bad(recorder, (octree_foreign_node){.id = 1}, "nodes[1]: ");
     assert_bad(recorder, (octree_foreign_node){.id = 2, .box = {{NAN}, {0}}}, "nodes[1]: ");
     assert_bad(recorder, (octree_foreign_node){.id = 2, .has_parent = true, .parent = 2}, "nodes[1]: ");

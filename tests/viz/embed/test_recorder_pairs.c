@@ -12,16 +12,6 @@
 /* 10 and 11 are at one position. */
 static const octree_point points[] = {{{4, 0, 0}, 10}, {{4, 0, 0}, 11}, {{-4, 0, 0}, 12}};
 
-static octreel_recorder *open_small(const char *folder, size_t ring)
-{
-    octreel_recorder_def def = octreel_recorder_def_default();
-    def.folder = folder;
-    def.tree.world = cube(-8, 8);
-    def.every = 0;
-    def.ring = ring;
-    return open_recorder(&def);
-}
-
 /* Record a tick. The list and its pairs are overwritten after the call. */
 static octreel_status tick(octreel_recorder *recorder, const octree_pair *found, size_t count)
 {
@@ -45,37 +35,30 @@ static void note_pairs(const char *line, size_t number, void *context)
     strcat(noted, !strstr(line, "\"foreign_pairs\"") ? "-" : strstr(line, "\"extra\": [[10, 12]]") ? "W" : ".");
 }
 
-static void assert_pairs(const place *folder, const char *expected)
-{
-    char noted[64] = "";
-    for_each_line(folder->path, note_pairs, noted);
-    assert_string_equal(noted, expected);
-}
-
 static void pairs_are_recorded_with_their_tick_only(void **state)
 {
     const place folder = place_in(*state, "film"), again = place_in(*state, "again");
-    octreel_recorder *recorder = open_small(folder.path, 0);
+    octreel_recorder *recorder = open_recorder_without_frames(folder.path, 0);
     assert_int_equal(tick(recorder, right, 1), OCTREEL_OK);
     assert_int_equal(tick(recorder, NULL, 0), OCTREEL_OK);
     assert_int_equal(tick(recorder, wrong, 2), OCTREEL_OK);
     assert_int_equal(tick(recorder, right, 0), OCTREEL_OK);
     close_recorder(recorder);
-    assert_pairs(&folder, ".-W.");
+    assert_noted_lines(folder.path, note_pairs, ".-W.");
     assert_films_again(&folder, &again, 4);
 }
 
 static void ring_forgets_pairs_of_earlier_ticks(void **state)
 {
     const place folder = place_in(*state, "film"), again = place_in(*state, "again");
-    octreel_recorder *recorder = open_small(NULL, 2);
+    octreel_recorder *recorder = open_recorder_without_frames(NULL, 2);
     for (int i = 0; i < 3; i++)
         assert_int_equal(tick(recorder, wrong, 2), OCTREEL_OK);
     assert_int_equal(tick(recorder, NULL, 0), OCTREEL_OK);
     assert_int_equal(tick(recorder, right, 1), OCTREEL_OK);
     assert_int_equal(octreel_recorder_write(recorder, folder.path, NULL), OCTREEL_OK);
     close_recorder(recorder);
-    assert_pairs(&folder, "-.");
+    assert_noted_lines(folder.path, note_pairs, "-.");
     assert_films_again(&folder, &again, 2);
 }
 
@@ -90,7 +73,7 @@ static void assert_refused(octreel_recorder *recorder, octree_pair pair, octreel
 static void invalid_pairs_are_refused_with_their_index(void **state)
 {
     const place folder = place_in(*state, "film"), again = place_in(*state, "again");
-    octreel_recorder *recorder = open_small(folder.path, 0);
+    octreel_recorder *recorder = open_recorder_without_frames(folder.path, 0);
     assert_refused(recorder, (octree_pair){7, 7}, OCTREEL_BAD_PAIR, "pairs[1]: a foreign pair has one id twice");
     assert_refused(recorder, (octree_pair){7, UINT64_C(1) << 53}, OCTREEL_BAD_ID,
                    "pairs[1]: an id is 2^53 or larger, which session files cannot store");
@@ -101,7 +84,7 @@ static void invalid_pairs_are_refused_with_their_index(void **state)
     assert_int_equal(tick(recorder, wrong, 2), OCTREEL_OK);
     assert_int_equal(octreel_recorder_close(recorder), OCTREEL_GAPS);
     octreel_recorder_destroy(recorder);
-    assert_pairs(&folder, "----W");
+    assert_noted_lines(folder.path, note_pairs, "----W");
     assert_films_again(&folder, &again, 5);
 }
 

@@ -14,16 +14,6 @@
 #define ROOT "{\"id\":9,\"box\":{\"min\":[-10,-10,-10],\"max\":[10,10,10]}}"
 #define LEAF(rest) "{\"id\":4,\"parent\":9,\"box\":{\"min\":[0,-1,-1],\"max\":[10,1,1]}" rest "}"
 
-static void assert_refuses(const char *text, const char *sentence)
-{
-    session_file file;
-    octreel_error error = {""};
-    if (session_parse("s.json", "", text, strlen(text), &file, &error))
-        fail_msg("accepted instead of: %s", sentence);
-    assert_string_equal(error.text, sentence);
-    assert_int_equal(file.session.foreign_count, 0);
-}
-
 static void nodes_are_read_with_all_members(void **state)
 {
     (void)state;
@@ -79,33 +69,35 @@ static void nodes_and_visits_survive_the_round_trip(void **state)
 static void invalid_nodes_are_refused_with_line_and_member(void **state)
 {
     (void)state;
-    assert_refuses(HEADER ",\n\"foreign_nodes\":{}}",
-                   "s.json:3: foreign_nodes: expected a list of nodes, found an object");
-    assert_refuses(HEADER ",\n\"foreign_nodes\":[" ROOT ",\n5]}",
-                   "s.json:4: foreign_nodes[1]: expected an object, found 5");
-    assert_refuses(HEADER ",\"foreign_nodes\":[{\"id\":5}]}",
-                   "s.json:2: foreign_nodes[0]: the member \"box\" is missing");
-    assert_refuses(HEADER ",\"foreign_nodes\":[" ROOT ",\n" ROOT "]}",
-                   "s.json:3: foreign_nodes[1]: id 9 already belongs to another node");
-    assert_refuses(HEADER "}\n{\"tick\":1,\"foreign_nodes\":[" LEAF("") "]}",
-                   "s.json:3: foreign_nodes[0]: the parent of node 4 is 9, but this list has no such node");
-    assert_refuses(HEADER ",\"foreign_nodes\":[{\"id\":1,\"parent\":2,\"box\":{\"min\":[0,0,0],\"max\":[0,0,0]}},\n"
-                          "{\"id\":2,\"parent\":1,\"box\":{\"min\":[0,0,0],\"max\":[0,0,0]}}]}",
-                   "s.json:2: foreign_nodes[0]: node 1 is its own ancestor");
-    assert_refuses(HEADER ",\"foreign_nodes\":[]}\n{\"tick\":0,\"foreign_nodes\":[]}",
-                   "s.json:3: foreign_nodes: the header already has the nodes of tick 0");
-    assert_refuses(
+    assert_session_refused(HEADER ",\n\"foreign_nodes\":{}}",
+                           "s.json:3: foreign_nodes: expected a list of nodes, found an object");
+    assert_session_refused(HEADER ",\n\"foreign_nodes\":[" ROOT ",\n5]}",
+                           "s.json:4: foreign_nodes[1]: expected an object, found 5");
+    assert_session_refused(HEADER ",\"foreign_nodes\":[{\"id\":5}]}",
+                           "s.json:2: foreign_nodes[0]: the member \"box\" is missing");
+    assert_session_refused(HEADER ",\"foreign_nodes\":[" ROOT ",\n" ROOT "]}",
+                           "s.json:3: foreign_nodes[1]: id 9 already belongs to another node");
+    assert_session_refused(HEADER "}\n{\"tick\":1,\"foreign_nodes\":[" LEAF("") "]}",
+                           "s.json:3: foreign_nodes[0]: the parent of node 4 is 9, but this list has no such node");
+    assert_session_refused(HEADER
+                           ",\"foreign_nodes\":[{\"id\":1,\"parent\":2,\"box\":{\"min\":[0,0,0],\"max\":[0,0,0]}},\n"
+                           "{\"id\":2,\"parent\":1,\"box\":{\"min\":[0,0,0],\"max\":[0,0,0]}}]}",
+                           "s.json:2: foreign_nodes[0]: node 1 is its own ancestor");
+    assert_session_refused(HEADER ",\"foreign_nodes\":[]}\n{\"tick\":0,\"foreign_nodes\":[]}",
+                           "s.json:3: foreign_nodes: the header already has the nodes of tick 0");
+    assert_session_refused(
         HEADER ",\"foreign_nodes\":[" LEAF(",\"points\":[1,-1]") "]}",
         "s.json:2: foreign_nodes[0].points[1]: expected a whole number from 0 to 9007199254740991, found -1");
-    assert_refuses(HEADER ",\"foreign_nodes\":[" LEAF(",\"points\":7") "]}",
-                   "s.json:2: foreign_nodes[0].points: expected a list of ids, found 7");
-    assert_refuses(HEADER ",\"foreign_nodes\":[" LEAF(",\"kind\":\"1234567890123456\"") "]}",
-                   "s.json:2: foreign_nodes[0].kind: a node's kind may have at most 15 characters, but has 16");
-    assert_refuses(
+    assert_session_refused(HEADER ",\"foreign_nodes\":[" LEAF(",\"points\":7") "]}",
+                           "s.json:2: foreign_nodes[0].points: expected a list of ids, found 7");
+    assert_session_refused(HEADER ",\"foreign_nodes\":[" LEAF(",\"kind\":\"1234567890123456\"") "]}",
+                           "s.json:2: foreign_nodes[0].kind: a node's kind may have at most 15 characters, but has 16");
+    assert_session_refused(
         HEADER ",\"foreign_nodes\":[" LEAF(",\"colour\":7") "]}",
         "s.json:2: foreign_nodes[0]: unknown member \"colour\"; known: id, parent, box, depth, points, kind, mode");
-    assert_refuses(HEADER ",\"queries\":[{\"nearest\":[0,0,0],\"pruned\":[1,\n\"a\"]}]}",
-                   "s.json:3: queries[0].pruned[1]: expected a whole number from 0 to 9007199254740991, found \"a\"");
+    assert_session_refused(
+        HEADER ",\"queries\":[{\"nearest\":[0,0,0],\"pruned\":[1,\n\"a\"]}]}",
+        "s.json:3: queries[0].pruned[1]: expected a whole number from 0 to 9007199254740991, found \"a\"");
 }
 
 /* Without has_points, the list of ids is not read: here it is a null pointer with a count of 7. */

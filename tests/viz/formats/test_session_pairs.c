@@ -15,16 +15,6 @@
     "[1,1,1]},[1,0,0,2],[9,0,0,3]],\n\"ticks\":3"
 #define TICK_1 "}\n{\"tick\":1,\"pairs\":"
 
-static void assert_refuses(const char *text, const char *sentence)
-{
-    session_file file;
-    octreel_error error = {""};
-    if (session_parse("s.json", "", text, strlen(text), &file, &error))
-        fail_msg("accepted instead of: %s", sentence);
-    assert_string_equal(error.text, sentence);
-    assert_int_equal(file.session.foreign_pairs_count, 0);
-}
-
 static void pairs_survive_the_round_trip(void **state)
 {
     (void)state;
@@ -58,26 +48,30 @@ static void invalid_pairs_are_refused_with_line_and_member(void **state)
     static const char list[] = "expected a list of pairs of ids, such as [[1, 2], [3, 4]], found ";
     char sentence[200];
     snprintf(sentence, sizeof sentence, "s.json:3: pairs: %strue", list);
-    assert_refuses(HEADER TICK_1 "true}", sentence);
+    assert_session_refused(HEADER TICK_1 "true}", sentence);
     snprintf(sentence, sizeof sentence, "s.json:3: pairs: %san object", list);
-    assert_refuses(HEADER TICK_1 "{}}", sentence);
-    assert_refuses(HEADER TICK_1 "[1,2]}", "s.json:3: pairs[0]: expected two ids [a, b], found 1");
-    assert_refuses(HEADER TICK_1 "[[1,2],\n[3]]}", "s.json:4: pairs[1]: expected two ids [a, b], found a list of 1");
-    assert_refuses(HEADER TICK_1 "[[1,2,3]]}", "s.json:3: pairs[0]: expected two ids [a, b], found a list of 3");
-    assert_refuses(HEADER TICK_1 "[[1,2.5]]}",
-                   "s.json:3: pairs[0][1]: expected a whole number from 0 to 9007199254740991, found 2.5");
-    assert_refuses(HEADER TICK_1 "[[\"1\",2]]}",
-                   "s.json:3: pairs[0][0]: expected a whole number from 0 to 9007199254740991, found \"1\"");
-    assert_refuses(HEADER TICK_1 "[[1,9007199254740992]]}",
-                   "s.json:3: pairs[0][1]: expected a whole number from 0 to 9007199254740991, found 9007199254740992");
-    assert_refuses(HEADER TICK_1 "[[4,4]]}",
-                   "s.json:3: pairs[0]: a pair must consist of two different ids, not twice 4");
-    assert_refuses(HEADER ",\"pairs\":[[1,2]]}",
-                   "s.json:2: pairs: the header has true or false here; the pairs that your index found at a tick "
-                   "belong in the object of that tick, such as {\"tick\": 0, \"pairs\": [[1, 2]]}");
-    assert_refuses(HEADER ",\"pairs\":1}", "s.json:2: pairs: expected true or false, found 1");
-    assert_refuses(HEADER TICK_1 "[],\"gap\":\"lost\"}",
-                   "s.json:3: a tick with \"gap\" must have no other member but \"tick\"");
+    assert_session_refused(HEADER TICK_1 "{}}", sentence);
+    assert_session_refused(HEADER TICK_1 "[1,2]}", "s.json:3: pairs[0]: expected two ids [a, b], found 1");
+    assert_session_refused(HEADER TICK_1 "[[1,2],\n[3]]}",
+                           "s.json:4: pairs[1]: expected two ids [a, b], found a list of 1");
+    assert_session_refused(HEADER TICK_1 "[[1,2,3]]}",
+                           "s.json:3: pairs[0]: expected two ids [a, b], found a list of 3");
+    assert_session_refused(HEADER TICK_1 "[[1,2.5]]}",
+                           "s.json:3: pairs[0][1]: expected a whole number from 0 to 9007199254740991, found 2.5");
+    assert_session_refused(HEADER TICK_1 "[[\"1\",2]]}",
+                           "s.json:3: pairs[0][0]: expected a whole number from 0 to 9007199254740991, found \"1\"");
+    assert_session_refused(
+        HEADER TICK_1 "[[1,9007199254740992]]}",
+        "s.json:3: pairs[0][1]: expected a whole number from 0 to 9007199254740991, found 9007199254740992");
+    assert_session_refused(HEADER TICK_1 "[[4,4]]}",
+                           "s.json:3: pairs[0]: a pair must consist of two different ids, not twice 4");
+    assert_session_refused(
+        HEADER ",\"pairs\":[[1,2]]}",
+        "s.json:2: pairs: the header has true or false here; the pairs that your index found at a tick "
+        "belong in the object of that tick, such as {\"tick\": 0, \"pairs\": [[1, 2]]}");
+    assert_session_refused(HEADER ",\"pairs\":1}", "s.json:2: pairs: expected true or false, found 1");
+    assert_session_refused(HEADER TICK_1 "[],\"gap\":\"lost\"}",
+                           "s.json:3: a tick with \"gap\" must have no other member but \"tick\"");
 }
 
 static char *write_tick(const octree_session *session)
