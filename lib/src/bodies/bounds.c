@@ -27,30 +27,28 @@ static inline lanes reach_of_halves(const axis_bounds *a, const cell_halves *h, 
 
 /* Three roundings of at most 2^-53 * (distance + reach) each are covered, and by the factor those of the squares. Far
  * outside the world squares might overflow. */
-query_bounds prepare_squares(const level *l, const double target[3])
+void prepare_squares(query_bounds *b, const level *l, const double target[3])
 {
-    query_bounds b = {.length = lanes_all(0)};
     const double scale = l->tree->scale;
     for (int i = 0; i < 3; i++) {
         const double way = find_farthest(l, i, target[i]), error = (way + l->reach[i]) * 0x1p-50;
         const half_steps half = half_steps_of(l, i);
         const bool moderate = way * scale < 0x1p500;
-        b.axes[i] = (axis_bounds){.origin = lanes_all(target[i]),
-                                  .factor = lanes_all(moderate ? scale * (1 - 0x1p-51) : 0),
-                                  .step = lanes_all(half.step),
-                                  .rest = lanes_all(moderate ? half.rest + error : HUGE_VAL),
-                                  .unit = lanes_all(1),
-                                  .extra = lanes_all(moderate ? error : HUGE_VAL),
-                                  .min = lanes_all(target[i]),
-                                  .max = lanes_all(target[i])};
+        b->axes[i] = (axis_bounds){.origin = lanes_all(target[i]),
+                                   .factor = lanes_all(moderate ? scale * (1 - 0x1p-51) : 0),
+                                   .step = lanes_all(half.step),
+                                   .rest = lanes_all(moderate ? half.rest + error : HUGE_VAL),
+                                   .unit = lanes_all(1),
+                                   .extra = lanes_all(moderate ? error : HUGE_VAL),
+                                   .min = lanes_all(target[i]),
+                                   .max = lanes_all(target[i])};
     }
-    return b;
 }
 
 static inline lanes bound_gap(const axis_bounds *a, lanes center, lanes reach)
 {
     const lanes offset = lanes_absolute(lanes_subtract(center, a->origin));
-    return lanes_multiply(lanes_larger(lanes_subtract(offset, reach), lanes_all(0)), a->factor);
+    return lanes_larger(lanes_multiply(lanes_subtract(offset, reach), a->factor), lanes_all(0));
 }
 
 /* The last term covers the underflow of squares. */
@@ -103,7 +101,7 @@ unsigned bound_squares_of_boxes(const query_bounds *b, const sibling_boxes *boxe
         for (int k = 0; k < 3; k++) {
             const axis_bounds *a = &b->axes[k];
             const lanes outside = lanes_larger(lanes_subtract(two.min[k], a->max), lanes_subtract(a->min, two.max[k]));
-            const lanes gap = lanes_multiply(lanes_larger(outside, lanes_all(0)), a->factor);
+            const lanes gap = lanes_larger(lanes_multiply(outside, a->factor), lanes_all(0));
             sum = lanes_add(sum, lanes_multiply(gap, gap));
         }
         lanes_store(&bounds[at], sum);
@@ -140,12 +138,11 @@ static axis_bounds prepare_axis_of_times(const level *l, const cast *c, int i)
                          .max = lanes_all(exact_add_up(c->origin[i], c->half[i]))};
 }
 
-query_bounds prepare_times(const level *l, const cast *c)
+void prepare_times(query_bounds *b, const level *l, const cast *c)
 {
-    query_bounds b = {.length = lanes_all(c->length < 0x1p1000 ? c->length : HUGE_VAL)};
+    b->length = lanes_all(c->length < 0x1p1000 ? c->length : HUGE_VAL);
     for (int i = 0; i < 3; i++)
-        b.axes[i] = prepare_axis_of_times(l, c, i);
-    return b;
+        b->axes[i] = prepare_axis_of_times(l, c, i);
 }
 
 /* The times at which two bodies are touched, on the axes that were examined so far. */
@@ -235,9 +232,9 @@ unsigned bound_times_of_boxes(const query_bounds *b, const sibling_boxes *boxes,
 
 /* The box is cut to the extent of the level, so that all numbers are finite, but for those of a level without a reach.
  * Among subnormal numbers, the errors are those of halving. A body has at least the half extents in its id. */
-query_bounds prepare_box_test(const level *l, const octree_box *box)
+void prepare_box_test(query_bounds *b, const level *l, const octree_box *box)
 {
-    query_bounds b = {.unsure = lanes_all(-HUGE_VAL)};
+    b->unsure = lanes_all(-HUGE_VAL);
     for (int i = 0; i < 3; i++) {
         const axis *world = &l->tree->axes[i];
         const double min = larger(box->min[i], world->min - l->reach[i]);
@@ -245,16 +242,15 @@ query_bounds prepare_box_test(const level *l, const octree_box *box)
         const double middle = min / 2 + max / 2, extent = max / 2 - min / 2, size = larger(fabs(min), fabs(max));
         const double error = (size + find_farthest(l, i, 0) + l->reach[i]) * 0x1p-50 + 0x1p-1072;
         const half_steps half = half_steps_of(l, i);
-        b.axes[i] = (axis_bounds){.origin = lanes_all(middle),
-                                  .step = lanes_all(half.step),
-                                  .rest = lanes_all(half.rest + extent + error),
-                                  .min = lanes_all(box->min[i]),
-                                  .max = lanes_all(box->max[i]),
-                                  .inner = lanes_all(extent - error)};
+        b->axes[i] = (axis_bounds){.origin = lanes_all(middle),
+                                   .step = lanes_all(half.step),
+                                   .rest = lanes_all(half.rest + extent + error),
+                                   .min = lanes_all(box->min[i]),
+                                   .max = lanes_all(box->max[i]),
+                                   .inner = lanes_all(extent - error)};
         if (!(fabs(middle) + fabs(extent) + error <= DBL_MAX))
-            b.unsure = lanes_all(HUGE_VAL);
+            b->unsure = lanes_all(HUGE_VAL);
     }
-    return b;
 }
 
 body_masks test_box(const query_bounds *b, const octree_point *points, unsigned count)

@@ -3,7 +3,7 @@
  * cells. Private.
  *
  * A bound is certain in spite of rounding: no body is nearer, or is touched earlier. A computation that overflows
- * excludes nothing. A query is prepared once for each level; then a body costs some 30 instructions.
+ * excludes nothing; no bound is NaN. A query is prepared once for each level; then a body costs some 30 instructions.
  */
 #ifndef OCTREE_BOUNDS_H
 #define OCTREE_BOUNDS_H
@@ -29,13 +29,13 @@ typedef struct query_bounds {
 } query_bounds;
 
 /* Prepare bounds of squared distances from a target, multiplied by the square of the tree's scale. */
-query_bounds prepare_squares(const level *l, const double target[3]);
+void prepare_squares(query_bounds *b, const level *l, const double target[3]);
 
 /* Prepare bounds of the times at which a cast touches a body. */
-query_bounds prepare_times(const level *l, const cast *c);
+void prepare_times(query_bounds *b, const level *l, const cast *c);
 
 /* Prepare the test whether a body meets a box. Corners of the box may be infinite. */
-query_bounds prepare_box_test(const level *l, const octree_box *box);
+void prepare_box_test(query_bounds *b, const level *l, const octree_box *box);
 
 /* Compute bounds for at most SCAN_POINTS points. bounds[] has room for count + 1 numbers. Returns a bit mask of the
  * bodies whose bounds are at most `cut`; other bodies have no valid bound. */

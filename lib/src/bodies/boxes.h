@@ -63,6 +63,28 @@ static inline unsigned spread_mask(const node *n, unsigned children)
     return spread;
 }
 
+/* Start to load what is below some children, given as a mask. */
+static inline void prefetch_children(const node *n, unsigned children)
+{
+    for (; children; children &= children - 1)
+        prefetch_memory(children_of(n)[bits_lowest(children)].below);
+}
+
+/* Returns the address of the child with an index. Only a tracer reads it; without one, the parent's is returned. */
+static inline octree_address address_of_sibling(const meter *m, octree_address parent, const node *n, unsigned index)
+{
+    return m->how->trace ? parent << 3 | bits_lowest(spread_mask(n, 1u << index)) : parent;
+}
+
+/* Count and trace children that are pruned, given as a mask of the children of a node. */
+static inline void meter_record_pruned_siblings(meter *m, octree_address parent, const node *n, unsigned children)
+{
+    if (m->how->trace)
+        meter_record_pruned(m, parent, spread_mask(n, children));
+    else
+        m->count.pruned += bits_look_up_count8(children);
+}
+
 /* The boxes of two siblings. */
 typedef struct two_boxes {
     lanes min[3], max[3];

@@ -25,8 +25,7 @@ typedef struct ordered_search ordered_search;
 
 /* What the search for neighbours and the cast do differently. */
 typedef struct search_kind {
-    /* Prepare the bounds for a level. */
-    query_bounds (*prepare)(const ordered_search *s, const level *l);
+    void (*prepare)(ordered_search *s); /* Prepare s->bounds for s->level. */
     /* Compute lower bounds of the keys of the bodies in the eight octants of a cell, HUGE_VAL if no such body counts;
      * in the boxes of siblings; and of the bodies of a leaf. See bounds.h. */
     void (*bound_octants)(const query_bounds *b, const cell_halves *h, double bounds[8]);
@@ -48,7 +47,8 @@ struct ordered_search {
     double scale;
     cast cast;
     query_bounds bounds; /* for the bodies of the current level */
-    body_call accept;
+    octree_body_visitor accept;
+    void *context;
     octree_hit *hits; /* a heap; hits[0] has the greatest key */
     key *keys;        /* of the first KEPT_KEYS hits */
     size_t count, k;
@@ -62,9 +62,9 @@ struct ordered_search {
 
 /* ---- Keys --------------------------------------------------------------------------------------------------- */
 
-static query_bounds prepare_distances(const ordered_search *s, const level *l)
+static void prepare_distances(ordered_search *s)
 {
-    return prepare_squares(l, s->target);
+    prepare_squares(&s->bounds, s->level, s->target);
 }
 
 static bool measure_distance(const ordered_search *s, const octree_body *body, key *k)
@@ -94,9 +94,9 @@ static const search_kind by_distance = {
     .finish = finish_distance,
 };
 
-static query_bounds prepare_first_times(const ordered_search *s, const level *l)
+static void prepare_first_times(ordered_search *s)
 {
-    return prepare_times(l, &s->cast);
+    prepare_times(&s->bounds, s->level, &s->cast);
 }
 
 static bool measure_time(const ordered_search *s, const octree_body *body, key *k)
@@ -203,7 +203,7 @@ static void offer_body(ordered_search *s, const octree_body *body, key k)
 {
     if (s->count == s->k && compare_by_key(s, body, k, &s->hits[0].body, key_of_hit(s, 0)) >= 0)
         return;
-    if (!call_with_body(&s->accept, body))
+    if (s->accept && !s->accept(body, s->context))
         return;
     const bool grows = s->count < s->k;
     const size_t at = grows ? s->count++ : 0;
@@ -285,83 +285,78 @@ static void scan_leaf(ordered_search *s, const node *leaf)
     }
 }
 
-/* A child of a node, with the lower bound of the keys of its bodies. */
-typedef struct branch {
-    double bound;
-    const node *child;
-    unsigned octant;
-} branch;
-
-/* Compute lower bounds for the children of a node, indexed by child if they have boxes, or else by octant. Returns a
- * bit mask of the octants of the children whose bounds are at most s->cut. */
-static unsigned bound_children(const ordered_search *s, const node *n, const cell_halves *h, double bounds[8])
+/* Returns the child with the least bound, of a mask of the indices or the octants of children. */
+static inline unsigned find_nearest(const double bounds[8], unsigned children)
 {
-    unsigned near = 0;
-    if (has_boxes(&s->level->tree->store)) {
-        const sibling_boxes boxes = boxes_of_children(n);
-        return spread_mask(n, s->kind->bound_boxes(&s->bounds, &boxes, s->cut, bounds));
+    unsigned nearest = bits_lowest(children);
+    for (unsigned left = children & (children - 1); left; left &= left - 1) {
+        const unsigned i = bits_lowest(left);
+        nearest = bounds[i] < bounds[nearest] ? i : nearest;
     }
-    s->kind->bound_octants(&s->bounds, h, bounds);
-    for (unsigned octant = 0; octant < 8; octant++)
-        near |= mask_if(!(bounds[octant] > s->cut), 1u << octant);
-    return near & n->octants;
+    return nearest;
 }
 
-/* Store the children whose bodies may count in an array, sorted by their bounds. Returns their number. */
-static unsigned sort_children(ordered_search *s, const node *n, const cell_halves *h, octree_address address,
-                              branch branches[8])
+/* Search a node whose children have boxes, or a leaf. Mostly few children remain after the nearest one is searched, so
+ * they are not sorted. */
+static void descend_boxes(ordered_search *s, const node *n, octree_address address)
 {
     double bounds[8];
-    const unsigned near = bound_children(s, n, h, bounds);
-    const bool boxed = has_boxes(&s->level->tree->store);
-    unsigned count = 0;
-    for (unsigned left = near; left; left &= left - 1) {
-        const unsigned octant = bits_lowest(left);
-        const node *child = look_up_child(n, octant);
-        const double bound = bounds[boxed ? (unsigned)(child - children_of(n)) : octant];
-        prefetch_memory(child->below);
-        unsigned at = count++;
-        for (; at > 0 && branches[at - 1].bound > bound; at--)
-            branches[at] = branches[at - 1];
-        branches[at] = (branch){bound, child, octant};
-    }
-    meter_record_pruned(&s->meter, address, n->octants & ~near);
-    return count;
-}
-
-/* Search a node whose cell is `c`. `h` has the halves of this cell; it is not read if nodes have boxes, nor for a leaf.
- */
-static void descend(ordered_search *s, const node *n, cell c, const cell_halves *h, octree_address address)
-{
     meter_record_visited(&s->meter, address);
     if (n->octants == 0) {
         scan_leaf(s, n);
         return;
     }
-    branch branches[8];
-    cell_halves below;
-    const unsigned count = sort_children(s, n, h, address, branches);
-    for (unsigned i = 0; i < count; i++) {
-        const unsigned octant = branches[i].octant;
-        const node *child = branches[i].child;
-        if (branches[i].bound > s->cut) {
-            meter_record_pruned(&s->meter, address, 1u << octant);
-            continue;
-        }
-        if (child->octants && !has_boxes(&s->level->tree->store))
-            divide_octant(s->level, h, octant, cell_child(c, octant), &below);
-        descend(s, child, cell_child(c, octant), &below, address << 3 | octant);
+    const sibling_boxes boxes = boxes_of_children(n);
+    unsigned left = s->kind->bound_boxes(&s->bounds, &boxes, s->cut, bounds);
+    meter_record_pruned_siblings(&s->meter, address, n, mask_of_siblings(&boxes) & ~left);
+    prefetch_children(n, left);
+    while (left) {
+        const unsigned nearest = find_nearest(bounds, left);
+        if (bounds[nearest] > s->cut)
+            break;
+        descend_boxes(s, &children_of(n)[nearest], address_of_sibling(&s->meter, address, n, nearest));
+        left &= ~(1u << nearest);
     }
+    meter_record_pruned_siblings(&s->meter, address, n, left);
+}
+
+/* Search a node without boxes, whose cell is `c`. `h` has the halves of this cell; it is not read for a leaf. */
+static void descend_cells(ordered_search *s, const node *n, cell c, const cell_halves *h, octree_address address)
+{
+    double bounds[8];
+    cell_halves halves;
+    meter_record_visited(&s->meter, address);
+    if (n->octants == 0) {
+        scan_leaf(s, n);
+        return;
+    }
+    s->kind->bound_octants(&s->bounds, h, bounds);
+    unsigned left = n->octants;
+    while (left) {
+        const unsigned nearest = find_nearest(bounds, left);
+        const node *child = look_up_child(n, nearest);
+        if (bounds[nearest] > s->cut)
+            break;
+        const cell below = cell_child(c, nearest);
+        if (child->octants)
+            divide_octant(s->level, h, nearest, below, &halves);
+        descend_cells(s, child, below, &halves, address << 3 | nearest);
+        left &= ~(1u << nearest);
+    }
+    meter_record_pruned(&s->meter, address, left);
 }
 
 static void search_level(ordered_search *s, const level *l)
 {
     cell_halves halves;
     s->level = l;
-    s->bounds = s->kind->prepare(s, l);
-    if (!has_boxes(&l->tree->store))
-        divide_root_cell(l, &halves);
-    descend(s, &l->tree->root, root_cell(), &halves, OCTREE_ROOT);
+    s->kind->prepare(s);
+    if (has_boxes(&l->tree->store)) {
+        descend_boxes(s, &l->tree->root, OCTREE_ROOT);
+        return;
+    }
+    divide_root_cell(l, &halves);
+    descend_cells(s, &l->tree->root, root_cell(), &halves, OCTREE_ROOT);
 }
 
 static void search_in_order(ordered_search *s, size_t *count)
@@ -394,8 +389,8 @@ octree_status octree_bodies_nearest(const octree_bodies *bodies, const double ta
                                     const octree_search *how, octree_body_visitor accept, void *context,
                                     octree_hit *hits, size_t *count)
 {
-    RETURN_IN_DEFAULT_MODE(octree_status, octree_bodies_nearest, bodies, target, k, radius, CALLER_SEARCH(how), accept,
-                           context, hits, count);
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_bodies_nearest, bodies, target, k, radius, CALLER_SEARCH(how),
+                           CALLER_BODY_VISITOR(accept, context), hits, count);
     if (!target || !count)
         return OCTREE_NULL_ARGUMENT;
     *count = 0;
@@ -411,7 +406,8 @@ octree_status octree_bodies_nearest(const octree_bodies *bodies, const double ta
                         .set = bodies,
                         .target = target,
                         .radius = radius,
-                        .accept = {accept, context},
+                        .accept = accept,
+                        .context = context,
                         .hits = hits,
                         .k = k,
                         .meter.how = &search};
@@ -427,8 +423,8 @@ octree_status octree_bodies_cast(const octree_bodies *bodies, const octree_regio
                                  const octree_search *how, octree_body_visitor accept, void *context, octree_hit *hits,
                                  size_t *count)
 {
-    RETURN_IN_DEFAULT_MODE(octree_status, octree_bodies_cast, bodies, ray, k, CALLER_SEARCH(how), accept, context, hits,
-                           count);
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_bodies_cast, bodies, ray, k, CALLER_SEARCH(how),
+                           CALLER_BODY_VISITOR(accept, context), hits, count);
     if (!count)
         return OCTREE_NULL_ARGUMENT;
     *count = 0;
@@ -442,7 +438,8 @@ octree_status octree_bodies_cast(const octree_bodies *bodies, const octree_regio
         return status;
     ordered_search s = {.kind = &by_time,
                         .set = bodies,
-                        .accept = {accept, context},
+                        .accept = accept,
+                        .context = context,
                         .hits = hits,
                         .k = k,
                         .radius = HUGE_VAL,

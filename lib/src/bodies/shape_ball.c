@@ -30,7 +30,7 @@ static bool contains(const shape *s, const octree_body *body)
 
 static void prepare(shape *s)
 {
-    s->bounds = prepare_squares(s->level, s->region->center);
+    prepare_squares(&s->bounds, s->level, s->region->center);
 }
 
 /* If the radius is so large that its square overflows, no octant is excluded or inside. */

@@ -24,7 +24,7 @@ static bool contains(const shape *s, const octree_body *body)
 
 static void prepare(shape *s)
 {
-    s->bounds = prepare_box_test(s->level, &s->region->box);
+    prepare_box_test(&s->bounds, s->level, &s->region->box);
 }
 
 /* Whether all points within `half` of a centre are in an interval. */

@@ -60,7 +60,7 @@ static bool meets(const shape *s, const octree_body *body)
 
 static void prepare(shape *s)
 {
-    s->bounds = prepare_times(s->level, &s->cast);
+    prepare_times(&s->bounds, s->level, &s->cast);
 }
 
 static octant_masks relate_octants(const shape *s, const cell_halves *h, unsigned octants, bool contained)

@@ -7,22 +7,27 @@
 #include "../exact/point.h"
 #include "set.h"
 
-/* A function of the caller that receives bodies. */
-typedef struct body_call {
-    octree_body_visitor visit; /* null: the result is true */
+/* The context of visit_body_in_caller_mode(): a visitor of the caller. */
+typedef struct caller_body_visitor {
+    octree_body_visitor visit;
     void *context;
-} body_call;
+} caller_body_visitor;
 
-/* Call the caller's function in the caller's floating-point mode. */
-static inline bool call_with_body(const body_call *call, const octree_body *body)
+static inline bool visit_body_in_caller_mode(const octree_body *body, void *context)
 {
-    if (!call->visit)
-        return true;
+    const caller_body_visitor *caller = context;
     const bool paused = float_mode_pause();
-    const bool result = call->visit(body, call->context);
+    const bool result = caller->visit(body, caller->context);
     float_mode_resume(paused);
     return result;
 }
+
+/* As CALLER_VISITOR() in float_mode.h, for a visitor of bodies. */
+#define CALLER_BODY_VISITOR(visit, context)                                                                            \
+    (visit) ? visit_body_in_caller_mode : NULL, &(caller_body_visitor)                                                 \
+    {                                                                                                                  \
+        visit, context                                                                                                 \
+    }
 
 /* Returns whether the options of a search skip a body. `target` is null for a search without a target. */
 static inline bool is_skipped(const octree_search *how, const octree_body *body, const double target[3])

@@ -11,17 +11,11 @@ typedef struct frame {
     uint8_t inside;  /* bit mask of the octants that lie within the region */
 } frame;
 
-/* The capacity of a queue of leaves. While the points of a leaf are loaded from memory, the leaf waits in the queue and
- * the descent continues. */
-#define QUEUE_ROOM 16
-
 typedef struct descent {
     region *region;
     unsigned depth;
     frame frames[OCTREE_MAX_DEPTH + 1];
-    /* the number of leaves put into the queue so far, and the number of leaves scanned so far */
-    unsigned queued, scanned;
-    const node *queue[QUEUE_ROOM];
+    leaf_queue leaves;
 } descent;
 
 /* Visit every point in and below a node. Returns false if the visitor stopped the search. */
@@ -66,16 +60,10 @@ static bool scan_leaf(region *r, const node *leaf)
     return true;
 }
 
-static bool scan_oldest_leaf(descent *d)
-{
-    return scan_leaf(d->region, d->queue[d->scanned++ % QUEUE_ROOM]);
-}
-
 static bool queue_leaf(descent *d, const node *leaf)
 {
-    const bool going = d->queued - d->scanned < QUEUE_ROOM || scan_oldest_leaf(d);
-    leaf_prefetch(leaf);
-    d->queue[d->queued++ % QUEUE_ROOM] = leaf;
+    const bool going = !leaf_queue_is_full(&d->leaves) || scan_leaf(d->region, leaf_queue_remove(&d->leaves));
+    leaf_queue_add(&d->leaves, leaf);
     return going;
 }
 
@@ -111,7 +99,7 @@ static void descend_from_root(region *r, octant_masks root)
 {
     descent d;
     d.region = r;
-    d.depth = d.queued = d.scanned = 0;
+    d.depth = d.leaves.added = d.leaves.removed = 0;
     bool going = visit_node(&d, &r->tree->root, OCTREE_ROOT, 0, root.inside & 1);
     while (going && d.depth > 0) {
         frame *f = &d.frames[d.depth];
@@ -123,8 +111,8 @@ static void descend_from_root(region *r, octant_masks root)
         f->pending &= (uint8_t)(f->pending - 1);
         going = visit_node(&d, child_at(f->node, octant), f->address << 3 | octant, octant, f->inside >> octant & 1);
     }
-    while (going && d.scanned < d.queued)
-        going = scan_oldest_leaf(&d);
+    while (going && d.leaves.removed < d.leaves.added)
+        going = scan_leaf(r, leaf_queue_remove(&d.leaves));
 }
 
 void region_search(region *r, octant_masks root)

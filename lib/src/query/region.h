@@ -9,6 +9,7 @@
 #define OCTREE_REGION_H
 
 #include "search.h"
+#include "../tree/leaf.h"
 
 /* The relation between the octants of a cell and a region. Each mask has one bit per octant. */
 typedef struct octant_masks {
@@ -36,6 +37,34 @@ typedef struct region {
 /* Visit or count the points in a region and report the cost. `root` describes the root's cell itself, by bit 0 of each
  * mask. */
 void region_search(region *r, octant_masks root);
+
+/* ---- Leaves ------------------------------------------------------------------------------------------------- */
+
+/* The leaves that a descent has reached. While the points of a leaf are loaded from memory, the leaf waits in the queue
+ * and the descent continues. */
+enum { LEAF_QUEUE_ROOM = 16 };
+
+typedef struct leaf_queue {
+    unsigned added, removed; /* the number of leaves so far */
+    const node *leaves[LEAF_QUEUE_ROOM];
+} leaf_queue;
+
+static inline bool leaf_queue_is_full(const leaf_queue *q)
+{
+    return q->added - q->removed == LEAF_QUEUE_ROOM;
+}
+
+/* Add a leaf to a queue that is not full, and start to load its points. */
+static inline void leaf_queue_add(leaf_queue *q, const node *leaf)
+{
+    leaf_prefetch(leaf);
+    q->leaves[q->added++ % LEAF_QUEUE_ROOM] = leaf;
+}
+
+static inline const node *leaf_queue_remove(leaf_queue *q)
+{
+    return q->leaves[q->removed++ % LEAF_QUEUE_ROOM];
+}
 
 /* ---- A closed box ------------------------------------------------------------------------------------------- */
 
