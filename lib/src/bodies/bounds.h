@@ -13,20 +13,44 @@
 #include "cell.h"
 
 /* A query on one axis. The half extent of a body, with all that is added to it, is at most `steps * step + rest`;
- * `steps` is in the id of the body's point (two_bodies.h). That of a box with a half extent is half * unit + extra. */
+ * `steps` is in the id of the body's point (few_bodies.h). That of a box with a half extent is half * unit + extra. */
 typedef struct axis_bounds {
-    lanes origin, factor;
-    lanes step, rest;
-    lanes unit, extra;
-    lanes min, max; /* the extent of the query: of the target, the region or the moving box at its origin */
-    lanes inner; /* only for boxes: a body certainly meets the box if its distance - steps * step is less than this */
+    double origin, factor;
+    double step, rest;
+    double unit, extra;
+    double min, max; /* the extent of the query: of the target, the region or the moving box at its origin */
+    double inner; /* only for boxes: a body certainly meets the box if its distance - steps * step is less than this */
 } axis_bounds;
 
 typedef struct query_bounds {
     axis_bounds axes[3];
-    lanes length; /* only for times */
-    lanes unsure; /* only for boxes: HUGE_VAL if no body certainly meets the box, otherwise -HUGE_VAL */
+    double length; /* only for times */
+    double unsure; /* only for boxes: HUGE_VAL if no body certainly meets the box, otherwise -HUGE_VAL */
+    const struct bound_functions *in_lanes; /* the functions for this processor */
 } query_bounds;
+
+/* The bodies of at most SCAN_POINTS points that may meet a region, and those that certainly do, as bit masks. */
+typedef struct body_masks {
+    uint64_t near, sure;
+} body_masks;
+
+/* Bounds for many bodies or boxes at once (lane_bounds.h). */
+typedef struct bound_functions {
+    /* Compute bounds for at most SCAN_POINTS points. bounds[] has room for SCAN_POINTS. Return a bit mask of the bodies
+     * whose bounds are at most `cut`; other bodies have no valid bound. */
+    uint64_t (*squares)(const query_bounds *b, const octree_point *points, unsigned count, double cut, double *bounds);
+    uint64_t (*times)(const query_bounds *b, const octree_point *points, unsigned count, double cut, double *bounds);
+    body_masks (*meets)(const query_bounds *b, const octree_point *points, unsigned count);
+    /* The same for the boxes of siblings: bounds[i] is for the bodies of sibling i. Return a bit mask of siblings. */
+    unsigned (*squares_of_boxes)(const query_bounds *b, const sibling_boxes *boxes, double cut, double bounds[8]);
+    unsigned (*times_of_boxes)(const query_bounds *b, const sibling_boxes *boxes, double cut, double bounds[8]);
+    unsigned (*boxes_meet)(const query_bounds *b, const sibling_boxes *boxes);
+} bound_functions;
+
+extern const bound_functions bounds_in_two_lanes;
+#ifdef OCTREE_AVX2
+extern const bound_functions bounds_in_four_lanes;
+#endif
 
 /* Prepare bounds of squared distances from a target, multiplied by the square of the tree's scale. */
 void prepare_squares(query_bounds *b, const level *l, const double target[3]);
@@ -37,26 +61,8 @@ void prepare_times(query_bounds *b, const level *l, const cast *c);
 /* Prepare the test whether a body meets a box. Corners of the box may be infinite. */
 void prepare_box_test(query_bounds *b, const level *l, const octree_box *box);
 
-/* Compute bounds for at most SCAN_POINTS points. bounds[] has room for count + 1 numbers. Returns a bit mask of the
- * bodies whose bounds are at most `cut`; other bodies have no valid bound. */
-uint64_t bound_squares(const query_bounds *b, const octree_point *points, unsigned count, double cut, double *bounds);
-uint64_t bound_times(const query_bounds *b, const octree_point *points, unsigned count, double cut, double *bounds);
-
-/* The bodies of at most SCAN_POINTS points that may meet a region, and those that certainly do, as bit masks. */
-typedef struct body_masks {
-    uint64_t near, sure;
-} body_masks;
-
-body_masks test_box(const query_bounds *b, const octree_point *points, unsigned count);
-
-/* The same for the eight octants of a cell. HUGE_VAL: the cast never touches them. */
+/* Compute bounds for the bodies in the eight octants of a cell. HUGE_VAL: the cast never touches them. */
 void bound_squares_of_octants(const query_bounds *b, const cell_halves *h, double bounds[8]);
 void bound_times_of_octants(const query_bounds *b, const cell_halves *h, double bounds[8]);
-
-/* The same for the boxes of at most eight siblings: bounds[i] is for the bodies of sibling i. Returns a bit mask of the
- * siblings whose bounds are at most `cut`. */
-unsigned bound_squares_of_boxes(const query_bounds *b, const sibling_boxes *boxes, double cut, double bounds[8]);
-unsigned bound_times_of_boxes(const query_bounds *b, const sibling_boxes *boxes, double cut, double bounds[8]);
-unsigned test_boxes(const query_bounds *b, const sibling_boxes *boxes);
 
 #endif

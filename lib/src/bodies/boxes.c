@@ -5,9 +5,9 @@
  * of the node's bodies: most bodies are smaller than the largest, and the bodies of a street fill no cubes.
  *
  * Idea: each node has the box of its bodies, as in a bounding volume hierarchy. The tree stores the boxes of siblings
- * side by side (leaf.h), so that a search tests the children of a node two at a time, and reads only those that it
+ * side by side (leaf.h), so that a search tests some of the children of a node at once, and reads only those that it
  * visits. The box of a leaf is computed from its points alone, with the bounds of the half extents in their ids
- * (two_bodies.h); that of an inner node is the union of its children's. So boxes are a function of the bodies. Level 0
+ * (few_bodies.h); that of an inner node is the union of its children's. So boxes are a function of the bodies. Level 0
  * has no boxes, because its half extents have no bound; its searches use the cells (cell.h).
  *
  * A change updates the boxes on the path to its leaf. Where the tree has made a new group of siblings, their boxes are
@@ -18,7 +18,7 @@
  * body on a ray read 14 leaves; with boxes, and the larger floor that they allow (order.c), 4.
  */
 #include "boxes.h"
-#include "two_bodies.h"
+#include "few_bodies.h"
 
 /* The half extents of a level's bodies. The rest has a bound of the rounding errors of the boxes. */
 typedef struct fitting {
@@ -59,13 +59,13 @@ static octree_box box_of_points(const fitting *f, const octree_point *points, ui
         low[k] = lanes_all(HUGE_VAL);
         high[k] = lanes_all(-HUGE_VAL);
     }
-    for (uint32_t i = 0; i < count; i += 2) {
-        const two_bodies two = load_two_bodies(points, count, begin_of_pair(count, i));
+    for (uint32_t i = 0; i < count; i += LANES) {
+        const few_bodies few = load_few_bodies(points, count, begin_of_group(count, i));
         for (int k = 0; k < 3; k++) {
             const lanes half =
-                lanes_add(lanes_multiply(two.steps[k], lanes_all(f->half[k].step)), lanes_all(f->half[k].rest));
-            low[k] = lanes_smaller(lanes_subtract(two.position[k], half), low[k]);
-            high[k] = lanes_larger(lanes_add(two.position[k], half), high[k]);
+                lanes_add(lanes_multiply(few.steps[k], lanes_all(f->half[k].step)), lanes_all(f->half[k].rest));
+            low[k] = lanes_smaller(lanes_subtract(few.position[k], half), low[k]);
+            high[k] = lanes_larger(lanes_add(few.position[k], half), high[k]);
         }
     }
     for (int k = 0; k < 3; k++) {

@@ -85,19 +85,20 @@ static inline void meter_record_pruned_siblings(meter *m, octree_address parent,
         m->count.pruned += bits_look_up_count8(children);
 }
 
-/* The boxes of two siblings. */
-typedef struct two_boxes {
+/* The boxes of as many siblings as there are lanes. */
+typedef struct few_boxes {
     lanes min[3], max[3];
-} two_boxes;
+} few_boxes;
 
-/* Load the boxes i and i + 1. The box of a node without siblings is loaded twice. */
-static inline two_boxes load_two_boxes(const sibling_boxes *b, unsigned i)
+/* Load a group of boxes that begins at an index; see begin_of_group(). */
+static inline few_boxes load_few_boxes(const sibling_boxes *b, unsigned begin)
 {
-    two_boxes two;
-    const octree_box *one = &b->items[i], *other = one + (b->count > 1);
-    lanes_load_positions(two.min, one->min, other->min);
-    lanes_load_positions(two.max, one->max, other->max);
-    return two;
+    const octree_box *group[LANES];
+    few_boxes few;
+    for (unsigned i = 0; i < LANES; i++)
+        group[i] = &b->items[lane_index(b->count, begin, i)];
+    lanes_load_boxes(few.min, few.max, group);
+    return few;
 }
 
 #endif

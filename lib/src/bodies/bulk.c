@@ -20,7 +20,7 @@
 #include "bulk.h"
 #include "lookup.h"
 #include "order.h"
-#include "two_bodies.h"
+#include "few_bodies.h"
 
 enum { PREFETCH_AHEAD = 8 };
 

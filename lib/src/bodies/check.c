@@ -2,7 +2,7 @@
 /* check.c - checks the invariants of a set of bodies: octree_bodies_check(). */
 #include "boxes.h"
 #include "lookup.h"
-#include "two_bodies.h"
+#include "few_bodies.h"
 #include "../exact/float_mode.h"
 #include "../exact/point.h"
 

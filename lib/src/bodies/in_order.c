@@ -25,13 +25,10 @@ typedef struct ordered_search ordered_search;
 
 /* What the search for neighbours and the cast do differently. */
 typedef struct search_kind {
-    void (*prepare)(ordered_search *s); /* Prepare s->bounds for s->level. */
-    /* Compute lower bounds of the keys of the bodies in the eight octants of a cell, HUGE_VAL if no such body counts;
-     * in the boxes of siblings; and of the bodies of a leaf. See bounds.h. */
+    void (*prepare)(ordered_search *s); /* Prepare the bounds for s->level. */
+    /* Compute lower bounds of the keys of the bodies in the eight octants of a cell; HUGE_VAL if no such body counts.
+     */
     void (*bound_octants)(const query_bounds *b, const cell_halves *h, double bounds[8]);
-    unsigned (*bound_boxes)(const query_bounds *b, const sibling_boxes *boxes, double cut, double bounds[8]);
-    uint64_t (*bound_bodies)(const query_bounds *b, const octree_point *points, unsigned count, double cut,
-                             double *bounds);
     /* Compute the key of a body. Returns false if the body does not count. */
     bool (*measure)(const ordered_search *s, const octree_body *body, key *k);
     /* Returns the sign of the key of `a` minus that of `b`, in real numbers. */
@@ -47,6 +44,10 @@ struct ordered_search {
     double scale;
     cast cast;
     query_bounds bounds; /* for the bodies of the current level */
+    /* compute lower bounds of the keys of bodies, and of the bodies in boxes */
+    uint64_t (*bound_bodies)(const query_bounds *b, const octree_point *points, unsigned count, double cut,
+                             double *bounds);
+    unsigned (*bound_boxes)(const query_bounds *b, const sibling_boxes *boxes, double cut, double bounds[8]);
     octree_body_visitor accept;
     void *context;
     octree_hit *hits; /* a heap; hits[0] has the greatest key */
@@ -65,6 +66,8 @@ struct ordered_search {
 static void prepare_distances(ordered_search *s)
 {
     prepare_squares(&s->bounds, s->level, s->target);
+    s->bound_bodies = s->bounds.in_lanes->squares;
+    s->bound_boxes = s->bounds.in_lanes->squares_of_boxes;
 }
 
 static bool measure_distance(const ordered_search *s, const octree_body *body, key *k)
@@ -87,8 +90,6 @@ static double finish_distance(const ordered_search *s, const octree_body *body)
 static const search_kind by_distance = {
     .prepare = prepare_distances,
     .bound_octants = bound_squares_of_octants,
-    .bound_boxes = bound_squares_of_boxes,
-    .bound_bodies = bound_squares,
     .measure = measure_distance,
     .compare = compare_distances,
     .finish = finish_distance,
@@ -97,6 +98,8 @@ static const search_kind by_distance = {
 static void prepare_first_times(ordered_search *s)
 {
     prepare_times(&s->bounds, s->level, &s->cast);
+    s->bound_bodies = s->bounds.in_lanes->times;
+    s->bound_boxes = s->bounds.in_lanes->times_of_boxes;
 }
 
 static bool measure_time(const ordered_search *s, const octree_body *body, key *k)
@@ -120,8 +123,6 @@ static double finish_time(const ordered_search *s, const octree_body *body)
 static const search_kind by_time = {
     .prepare = prepare_first_times,
     .bound_octants = bound_times_of_octants,
-    .bound_boxes = bound_times_of_boxes,
-    .bound_bodies = bound_times,
     .measure = measure_time,
     .compare = compare_first_times,
     .finish = finish_time,
@@ -258,8 +259,8 @@ static void measure_and_offer(ordered_search *s, const octree_point *point)
  * others. */
 static void scan_points(ordered_search *s, const octree_point *points, unsigned count)
 {
-    double bounds[SCAN_POINTS + 1];
-    uint64_t near = s->kind->bound_bodies(&s->bounds, points, count, s->cut, bounds);
+    double bounds[SCAN_POINTS];
+    uint64_t near = s->bound_bodies(&s->bounds, points, count, s->cut, bounds);
     if (near == 0)
         return;
     unsigned first = bits_lowest(near);
@@ -307,7 +308,7 @@ static void descend_boxes(ordered_search *s, const node *n, octree_address addre
         return;
     }
     const sibling_boxes boxes = boxes_of_children(n);
-    unsigned left = s->kind->bound_boxes(&s->bounds, &boxes, s->cut, bounds);
+    unsigned left = s->bound_boxes(&s->bounds, &boxes, s->cut, bounds);
     meter_record_pruned_siblings(&s->meter, address, n, mask_of_siblings(&boxes) & ~left);
     prefetch_children(n, left);
     while (left) {

@@ -17,7 +17,7 @@
  *
  * Cost: a query descends once in each level in use. A change updates three counters.
  */
-#include "two_bodies.h"
+#include "few_bodies.h"
 #include "../query/search.h"
 
 /* A level spans two binary exponents, each divided into four buckets. */

@@ -2,7 +2,7 @@
 /* lookup.c - finds the row of a body.
  *
  * A body that is stored is in the level of its half extents, in the leaf of its position. So the descent that a change
- * makes anyway finds it, and the half extents in the ids of points (two_bodies.h) exclude most others in the leaf. A
+ * makes anyway finds it, and the half extents in the ids of points (few_bodies.h) exclude most others in the leaf. A
  * hash table would cost two cache misses and at least 10 bytes a body.
  *
  * It is needed where leaves are crowded: a million bodies may be at one place. The first change that meets such a leaf
@@ -12,7 +12,7 @@
  * Cost: O(depth), and O(n) once if a leaf is crowded.
  */
 #include "lookup.h"
-#include "two_bodies.h"
+#include "few_bodies.h"
 
 static bool is_crowded(const node *leaf)
 {

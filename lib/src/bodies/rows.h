@@ -2,7 +2,7 @@
 /* rows.h - the storage of the bodies of a set: an array of rows, and perhaps a hash table of them. Private.
  *
  * A body keeps the index of its row until it is removed. The trees of the levels hold this index in the id of a point
- * (two_bodies.h).
+ * (few_bodies.h).
  */
 #ifndef OCTREE_ROWS_H
 #define OCTREE_ROWS_H

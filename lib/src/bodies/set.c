@@ -2,7 +2,7 @@
 /* set.c - creates sets of bodies, and inserts, removes and moves single bodies. */
 #include "boxes.h"
 #include "lookup.h"
-#include "two_bodies.h"
+#include "few_bodies.h"
 #include "../exact/float_mode.h"
 #include "../query/search.h"
 #include "../tree/undo.h"

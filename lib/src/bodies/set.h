@@ -22,10 +22,10 @@ typedef struct reach_counts {
 /* The bodies of similar size. The largest half extents of two bodies differ by a factor below 4; only the bodies of
  * the first level may be larger than that, and those of the last level smaller. */
 typedef struct level {
-    octree *tree; /* the positions of the bodies; for the ids of its points see two_bodies.h. Null: never used */
+    octree *tree; /* the positions of the bodies; for the ids of its points see few_bodies.h. Null: never used */
     reach_counts *counts; /* null: never used */
     double reach[3];      /* an upper bound of the half extents on each axis, a function of the counts */
-    /* The ids of points have the half extents in multiples of `unit`, and the rest is at most `rest` (two_bodies.h).
+    /* The ids of points have the half extents in multiples of `unit`, and the rest is at most `rest` (few_bodies.h).
      * If a half extent is too large for that, and in sets that show points, `rest` is infinite. */
     double unit, rest;
     double inverse_unit; /* exactly 1 / unit */
@@ -116,7 +116,7 @@ octree_bodies show_points_as_bodies(const octree *tree, const double half[3]);
  * axis by axis; the search descends as if all bodies were as large. */
 void set_half_extents(octree_bodies *set, const double reach[3], half_lookup *half_of, const void *context);
 
-/* Returns the index of the row of a point's body; see two_bodies.h. */
+/* Returns the index of the row of a point's body; see few_bodies.h. */
 static inline uint32_t row_of_point(const octree_point *point)
 {
     return (uint32_t)(point->id >> ROW_SHIFT);

@@ -7,7 +7,7 @@
 #include "bounds.h"
 
 /* A half-space, prepared for the bodies of a level. On an axis, a body reaches farther into the half-space than its
- * position by at most steps * slope; `steps` is in the id of its point (two_bodies.h). The rest of its half extents is
+ * position by at most steps * slope; `steps` is in the id of its point (few_bodies.h). The rest of its half extents is
  * in `limit`. */
 typedef struct half_space_bounds {
     double error; /* of any sum of products of the half-space with positions, half extents and boxes of the level */

@@ -72,7 +72,7 @@ static octant_masks relate_siblings(const shape *s, const sibling_boxes *boxes)
     double bounds[8];
     const double scale = s->level->tree->scale, radius = s->region->radius * scale, square = radius * radius;
     unsigned inside = 0;
-    const unsigned meets = bound_squares_of_boxes(&s->bounds, boxes, metric_above(square), bounds);
+    const unsigned meets = s->bounds.in_lanes->squares_of_boxes(&s->bounds, boxes, metric_above(square), bounds);
     for (unsigned left = meets; left; left &= left - 1) {
         const unsigned i = bits_lowest(left);
         const double farthest = find_farthest_square(s->region->center, scale, &boxes->items[i]);
@@ -83,9 +83,10 @@ static octant_masks relate_siblings(const shape *s, const sibling_boxes *boxes)
 
 static body_masks filter(const shape *s, const octree_point *points, unsigned count)
 {
-    double bounds[SCAN_POINTS + 1];
+    double bounds[SCAN_POINTS];
     const double radius = s->region->radius * s->level->tree->scale;
-    return (body_masks){bound_squares(&s->bounds, points, count, metric_above(radius * radius), bounds), 0};
+    return (body_masks){s->bounds.in_lanes->squares(&s->bounds, points, count, metric_above(radius * radius), bounds),
+                        0};
 }
 
 const shape_kind shape_of_ball = {

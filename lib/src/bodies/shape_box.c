@@ -48,7 +48,7 @@ static octant_masks relate_octants(const shape *s, const cell_halves *h, unsigne
 
 static octant_masks relate_siblings(const shape *s, const sibling_boxes *boxes)
 {
-    const unsigned meets = test_boxes(&s->bounds, boxes);
+    const unsigned meets = s->bounds.in_lanes->boxes_meet(&s->bounds, boxes);
     unsigned inside = 0;
     for (unsigned left = meets; left; left &= left - 1) {
         const unsigned i = bits_lowest(left);
@@ -59,7 +59,7 @@ static octant_masks relate_siblings(const shape *s, const sibling_boxes *boxes)
 
 static body_masks filter(const shape *s, const octree_point *points, unsigned count)
 {
-    return test_box(&s->bounds, points, count);
+    return s->bounds.in_lanes->meets(&s->bounds, points, count);
 }
 
 const shape_kind shape_of_box = {

@@ -77,13 +77,13 @@ static octant_masks relate_octants(const shape *s, const cell_halves *h, unsigne
 static octant_masks relate_siblings(const shape *s, const sibling_boxes *boxes)
 {
     double bounds[8];
-    return (octant_masks){(uint8_t)bound_times_of_boxes(&s->bounds, boxes, DBL_MAX, bounds), 0};
+    return (octant_masks){(uint8_t)s->bounds.in_lanes->times_of_boxes(&s->bounds, boxes, DBL_MAX, bounds), 0};
 }
 
 static body_masks filter(const shape *s, const octree_point *points, unsigned count)
 {
-    double bounds[SCAN_POINTS + 1];
-    return (body_masks){bound_times(&s->bounds, points, count, DBL_MAX, bounds), 0};
+    double bounds[SCAN_POINTS];
+    return (body_masks){s->bounds.in_lanes->times(&s->bounds, points, count, DBL_MAX, bounds), 0};
 }
 
 const shape_kind shape_of_cast = {

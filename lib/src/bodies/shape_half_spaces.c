@@ -5,10 +5,10 @@
  * normal. Every sum has a bound of its error. A sum that overflows excludes nothing.
  *
  * The exact test of a body reads its row, which often is a cache miss. The filter reads only the points of a leaf,
- * which have the positions and upper bounds of the half extents (two_bodies.h).
+ * which have the positions and upper bounds of the half extents (few_bodies.h).
  */
 #include "shape.h"
-#include "two_bodies.h"
+#include "few_bodies.h"
 
 static octree_status check(const octree_region *region)
 {
@@ -130,12 +130,12 @@ typedef struct two_ranges {
     lanes least, greatest;
 } two_ranges;
 
-static inline two_ranges find_ranges(const octree_half_space *space, const two_boxes *two)
+static inline two_ranges find_ranges(const octree_half_space *space, const few_boxes *few)
 {
     two_ranges r = {lanes_all(0), lanes_all(0)};
     for (int k = 0; k < 3; k++) {
         const lanes normal = lanes_all(space->normal[k]);
-        const lanes a = lanes_multiply(normal, two->min[k]), b = lanes_multiply(normal, two->max[k]);
+        const lanes a = lanes_multiply(normal, few->min[k]), b = lanes_multiply(normal, few->max[k]);
         r.least = lanes_add(r.least, space->normal[k] < 0 ? b : a);
         r.greatest = lanes_add(r.greatest, space->normal[k] < 0 ? a : b);
     }
@@ -146,10 +146,10 @@ static octant_masks relate_siblings_to_one(const octree_half_space *space, doubl
 {
     const lanes above = lanes_all(space->offset + error), below = lanes_all(space->offset - error);
     unsigned outside = 0, inside = 0;
-    for (unsigned i = 0; i < boxes->count; i += 2) {
-        const unsigned at = begin_of_pair(boxes->count, i);
-        const two_boxes two = load_two_boxes(boxes, at);
-        const two_ranges r = find_ranges(space, &two);
+    for (unsigned i = 0; i < boxes->count; i += LANES) {
+        const unsigned at = begin_of_group(boxes->count, i);
+        const few_boxes few = load_few_boxes(boxes, at);
+        const two_ranges r = find_ranges(space, &few);
         outside |= lanes_less(above, r.least) << at;
         inside |= lanes_less(r.greatest, below) << at;
     }
@@ -170,13 +170,13 @@ static octant_masks relate_siblings(const shape *s, const sibling_boxes *boxes)
 /* ---- The bodies of a leaf ---------------------------------------------------------------------------------------- */
 
 /* The points of a leaf, and the box around their positions. */
-typedef struct leaf_pairs {
-    two_bodies pairs[SCAN_POINTS / 2];
+typedef struct leaf_groups {
+    few_bodies groups[SCAN_POINTS / LANES];
     unsigned count; /* of points */
     double low[3], high[3];
-} leaf_pairs;
+} leaf_groups;
 
-static void load_pairs(leaf_pairs *leaf, const octree_point *points, unsigned count)
+static void load_groups(leaf_groups *leaf, const octree_point *points, unsigned count)
 {
     lanes low[3], high[3];
     leaf->count = count;
@@ -184,12 +184,12 @@ static void load_pairs(leaf_pairs *leaf, const octree_point *points, unsigned co
         low[k] = lanes_all(HUGE_VAL);
         high[k] = lanes_all(-HUGE_VAL);
     }
-    for (unsigned i = 0; i < count; i += 2) {
-        two_bodies *two = &leaf->pairs[i / 2];
-        *two = load_two_bodies(points, count, begin_of_pair(count, i));
+    for (unsigned i = 0; i < count; i += LANES) {
+        few_bodies *few = &leaf->groups[i / LANES];
+        *few = load_few_bodies(points, count, begin_of_group(count, i));
         for (int k = 0; k < 3; k++) {
-            low[k] = lanes_smaller(two->position[k], low[k]);
-            high[k] = lanes_larger(two->position[k], high[k]);
+            low[k] = lanes_smaller(few->position[k], low[k]);
+            high[k] = lanes_larger(few->position[k], high[k]);
         }
     }
     for (int k = 0; k < 3; k++) {
@@ -199,7 +199,7 @@ static void load_pairs(leaf_pairs *leaf, const octree_point *points, unsigned co
 }
 
 /* Returns whether all positions of a leaf are certainly in a half-space, so that all of its bodies meet it. */
-static bool holds_positions(const octree_half_space *space, const leaf_pairs *leaf, double error)
+static bool holds_positions(const octree_half_space *space, const leaf_groups *leaf, double error)
 {
     double highest = -space->offset;
     for (int k = 0; k < 3; k++)
@@ -208,25 +208,25 @@ static bool holds_positions(const octree_half_space *space, const leaf_pairs *le
 }
 
 /* The corner of a body that is farthest against the normal decides. */
-static uint64_t find_outside(const octree_half_space *space, const half_space_bounds *bounds, const leaf_pairs *leaf)
+static uint64_t find_outside(const octree_half_space *space, const half_space_bounds *bounds, const leaf_groups *leaf)
 {
     uint64_t outside = 0;
-    for (unsigned i = 0; i < leaf->count; i += 2) {
-        const two_bodies *two = &leaf->pairs[i / 2];
+    for (unsigned i = 0; i < leaf->count; i += LANES) {
+        const few_bodies *few = &leaf->groups[i / LANES];
         lanes lowest = lanes_all(0);
         for (int k = 0; k < 3; k++)
-            lowest = lanes_add(lowest, lanes_subtract(lanes_multiply(lanes_all(space->normal[k]), two->position[k]),
-                                                      lanes_multiply(lanes_all(bounds->slope[k]), two->steps[k])));
-        outside |= (uint64_t)lanes_less(lanes_all(bounds->limit), lowest) << begin_of_pair(leaf->count, i);
+            lowest = lanes_add(lowest, lanes_subtract(lanes_multiply(lanes_all(space->normal[k]), few->position[k]),
+                                                      lanes_multiply(lanes_all(bounds->slope[k]), few->steps[k])));
+        outside |= (uint64_t)lanes_less(lanes_all(bounds->limit), lowest) << begin_of_group(leaf->count, i);
     }
     return outside;
 }
 
 static body_masks filter(const shape *s, const octree_point *points, unsigned count)
 {
-    leaf_pairs leaf;
+    leaf_groups leaf;
     uint64_t near = UINT64_MAX >> (SCAN_POINTS - count);
-    load_pairs(&leaf, points, count);
+    load_groups(&leaf, points, count);
     for (size_t i = 0; i < s->region->half_space_count && near; i++) {
         const octree_half_space *space = &s->region->half_spaces[i];
         if (!holds_positions(space, &leaf, s->half_spaces[i].error))

@@ -45,6 +45,11 @@
 #include <emmintrin.h>
 #endif
 
+/* Where the compiler can compile single files for AVX2, and ask the processor for it. */
+#if defined(OCTREE_SSE2) && defined(__x86_64__) && defined(__GNUC__)
+#define OCTREE_AVX2
+#endif
+
 /* Returns the sign bit of a number. The function has no branch. */
 static inline unsigned is_negative(double x)
 {

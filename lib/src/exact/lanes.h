@@ -1,16 +1,24 @@
 /* SPDX-License-Identifier: MIT */
-/* lanes.h - arithmetic on two doubles at once, in SSE2 or in portable C with the same results. Private.
+/* lanes.h - arithmetic on two doubles at once, in SSE2 or in portable C, or on four in AVX2. Private.
  *
- * Loops that compare a query with many cells or bodies are written once, in these operations. Comparisons follow SSE2:
- * lanes_larger() and lanes_smaller() return the second operand if one of both is NaN.
+ * Loops that compare a query with many cells or bodies are written once, in these operations. Each lane has the same
+ * results in all three. Comparisons follow SSE2: lanes_larger() and lanes_smaller() return the second operand if one of
+ * both is NaN. A source file that is compiled for AVX2 defines OCTREE_FOUR_LANES; it runs only on processors that have
+ * AVX2 (bodies/bounds_avx2.c).
  */
 #ifndef OCTREE_LANES_H
 #define OCTREE_LANES_H
 
 #include "float_rules.h"
+#include "octree/types.h"
 
 #include <math.h>
 #include <stdbool.h>
+
+#ifdef OCTREE_FOUR_LANES
+#include "four_lanes.h"
+#else
+enum { LANES = 2 };
 
 #ifdef OCTREE_SSE2
 typedef __m128d lanes;
@@ -63,7 +71,7 @@ static inline unsigned lanes_less(lanes a, lanes b)
     return (unsigned)_mm_movemask_pd(_mm_cmplt_pd(a, b));
 }
 
-static inline void lanes_store(double to[2], lanes a)
+static inline void lanes_store(double *to, lanes a)
 {
     _mm_storeu_pd(to, a);
 }
@@ -71,11 +79,6 @@ static inline void lanes_store(double to[2], lanes a)
 static inline lanes lanes_load(const double from[2])
 {
     return _mm_loadu_pd(from);
-}
-
-static inline lane_bits lanes_load_bits(const uint64_t *a, const uint64_t *b)
-{
-    return _mm_unpacklo_epi64(_mm_loadl_epi64((const __m128i *)a), _mm_loadl_epi64((const __m128i *)b));
 }
 
 /* Returns the numbers bits & mask as doubles. The mask is below 2^52: the bits become the mantissa of a double from
@@ -87,7 +90,12 @@ static inline lanes lanes_of_bits(lane_bits bits, uint64_t mask)
     return _mm_sub_pd(_mm_or_pd(_mm_castsi128_pd(kept), from), from);
 }
 
-/* Load three coordinates of two positions: to[axis] receives {a[axis], b[axis]}. */
+static inline lane_bits lanes_load_ids(const octree_point *const points[LANES])
+{
+    return _mm_unpacklo_epi64(_mm_loadl_epi64((const __m128i *)&points[0]->id),
+                              _mm_loadl_epi64((const __m128i *)&points[1]->id));
+}
+
 static inline void lanes_load_positions(lanes to[3], const double a[3], const double b[3])
 {
     const lanes xy_a = _mm_loadu_pd(a), xy_b = _mm_loadu_pd(b);
@@ -149,9 +157,9 @@ static inline unsigned lanes_less(lanes a, lanes b)
     return (unsigned)(a.at[0] < b.at[0]) | (unsigned)(a.at[1] < b.at[1]) << 1;
 }
 
-static inline lane_bits lanes_load_bits(const uint64_t *a, const uint64_t *b)
+static inline lane_bits lanes_load_ids(const octree_point *const points[LANES])
 {
-    return (lane_bits){{*a, *b}};
+    return (lane_bits){{points[0]->id, points[1]->id}};
 }
 
 static inline lanes lanes_of_bits(lane_bits bits, uint64_t mask)
@@ -159,7 +167,7 @@ static inline lanes lanes_of_bits(lane_bits bits, uint64_t mask)
     return (lanes){{(double)(bits.at[0] & mask), (double)(bits.at[1] & mask)}};
 }
 
-static inline void lanes_store(double to[2], lanes a)
+static inline void lanes_store(double *to, lanes a)
 {
     to[0] = a.at[0];
     to[1] = a.at[1];
@@ -182,11 +190,16 @@ static inline lanes lanes_all(double a)
     return lanes_of(a, a);
 }
 
-/* Returns the index of the first of two items of an array, in a loop over all pairs: i = 0, 2, 4 ... If their number is
- * odd, the last pair overlaps the one before it. A single item has no pair; it is its own partner. */
-static inline unsigned begin_of_pair(unsigned count, unsigned i)
+static inline void lanes_load_points(lanes position[3], lane_bits *ids, const octree_point *const points[LANES])
 {
-    return i + 2 > count && i > 0 ? i - 1 : i;
+    lanes_load_positions(position, points[0]->position, points[1]->position);
+    *ids = lanes_load_ids(points);
+}
+
+static inline void lanes_load_boxes(lanes min[3], lanes max[3], const octree_box *const boxes[LANES])
+{
+    lanes_load_positions(min, boxes[0]->min, boxes[1]->min);
+    lanes_load_positions(max, boxes[0]->max, boxes[1]->max);
 }
 
 /* Return the least and the greatest number of the lanes, which are not NaN. */
@@ -202,6 +215,21 @@ static inline double lanes_greatest(lanes a)
     double both[2];
     lanes_store(both, a);
     return both[0] > both[1] ? both[0] : both[1];
+}
+#endif
+
+/* Returns the index of the first item of a group of LANES items of an array, in a loop over all groups: i = 0, LANES,
+ * 2 * LANES ... The last group overlaps the one before it unless it is full. If the array is shorter than a group, its
+ * last item fills the group: see lane_index(). */
+static inline unsigned begin_of_group(unsigned count, unsigned i)
+{
+    return i + LANES > count && i > 0 ? count - LANES : i;
+}
+
+/* Returns the index of the item of a lane in a group. */
+static inline unsigned lane_index(unsigned count, unsigned begin, unsigned lane)
+{
+    return begin + (lane < count ? lane : count - 1);
 }
 
 #endif

@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* two_bodies.h - the positions of two bodies and bounds of their half extents, for tests of two bodies at once.
- * Private.
+/* few_bodies.h - the positions of as many bodies as there are lanes, and bounds of their half extents. Private.
  *
  * The id of a body's point has the half extents in multiples of the level's `unit`, rounded down, 10 bits for each
  * axis. The bits above are the index of the body's row. So most tests of a leaf read no rows.
  */
-#ifndef OCTREE_TWO_BODIES_H
-#define OCTREE_TWO_BODIES_H
+#ifndef OCTREE_FEW_BODIES_H
+#define OCTREE_FEW_BODIES_H
 
 #include "../exact/lanes.h"
 #include "set.h"
@@ -24,26 +23,28 @@ static inline uint64_t make_point_id(const level *l, uint32_t row, const double 
     return id;
 }
 
-typedef struct two_bodies {
+typedef struct few_bodies {
     lanes position[3];
     /* The bits of the ids that have the half extents, masked but not shifted: those of axis i are units times
      * 2^(10 i). */
     lanes steps[3];
-} two_bodies;
+} few_bodies;
 
-/* Load the bodies of two points. Of `count` points, the pair that begins at an index is loaded; see begin_of_pair(). */
-static inline two_bodies load_two_bodies(const octree_point *points, unsigned count, unsigned at)
+/* Load the bodies of a group of points, which begins at an index; see begin_of_group(). */
+static inline few_bodies load_few_bodies(const octree_point *points, unsigned count, unsigned begin)
 {
-    const octree_point *a = &points[at], *b = a + (count > 1);
-    two_bodies two;
-    const lane_bits ids = lanes_load_bits(&a->id, &b->id);
-    lanes_load_positions(two.position, a->position, b->position);
+    const octree_point *group[LANES];
+    few_bodies few;
+    lane_bits ids;
+    for (unsigned i = 0; i < LANES; i++)
+        group[i] = &points[lane_index(count, begin, i)];
+    lanes_load_points(few.position, &ids, group);
     for (int i = 0; i < 3; i++)
-        two.steps[i] = lanes_of_bits(ids, (uint64_t)MAX_STEPS << STEP_BITS * i);
-    return two;
+        few.steps[i] = lanes_of_bits(ids, (uint64_t)MAX_STEPS << STEP_BITS * i);
+    return few;
 }
 
-/* On an axis of a level, a half extent is at most two_bodies.steps * step + rest. The product is exact. */
+/* On an axis of a level, a half extent is at most few_bodies.steps * step + rest. The product is exact. */
 typedef struct half_steps {
     double step, rest;
 } half_steps;
