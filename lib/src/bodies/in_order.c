@@ -154,36 +154,42 @@ static int compare_by_key(const ordered_search *s, const octree_body *a, key x, 
     return order ? order : octree_compare_bodies(a, b);
 }
 
-static int compare_hits(const ordered_search *s, size_t a, size_t b)
+static void put_hit(ordered_search *s, size_t at, const octree_body *body, key k)
 {
-    return compare_by_key(s, &s->hits[a].body, key_of_hit(s, a), &s->hits[b].body, key_of_hit(s, b));
+    s->hits[at].body = *body;
+    set_key(s, at, k);
 }
 
-static void swap_hits(ordered_search *s, size_t a, size_t b)
+static void copy_hit(ordered_search *s, size_t to, size_t from)
 {
-    const octree_hit kept = s->hits[a];
-    const key key_of_a = key_of_hit(s, a), key_of_b = key_of_hit(s, b);
-    s->hits[a] = s->hits[b];
-    s->hits[b] = kept;
-    set_key(s, a, key_of_b);
-    set_key(s, b, key_of_a);
+    put_hit(s, to, &s->hits[from].body, key_of_hit(s, from));
 }
 
-static void sift_up(ordered_search *s, size_t at)
+/* Compare a body with a hit. */
+static int compare_with_hit(const ordered_search *s, const octree_body *body, key k, size_t at)
 {
-    for (; at > 0 && compare_hits(s, at, (at - 1) / 2) > 0; at = (at - 1) / 2)
-        swap_hits(s, at, (at - 1) / 2);
+    return compare_by_key(s, body, k, &s->hits[at].body, key_of_hit(s, at));
 }
 
-static void sift_down(ordered_search *s, size_t count)
+/* Put a body at the free end of the heap, or at its top of `count` hits; hits that are in the way move by one level. */
+static void sift_up(ordered_search *s, size_t at, const octree_body *body, key k)
 {
-    for (size_t at = 0, child; (child = 2 * at + 1) < count; at = child) {
-        if (child + 1 < count && compare_hits(s, child, child + 1) < 0)
+    for (; at > 0 && compare_with_hit(s, body, k, (at - 1) / 2) > 0; at = (at - 1) / 2)
+        copy_hit(s, at, (at - 1) / 2);
+    put_hit(s, at, body, k);
+}
+
+static void sift_down(ordered_search *s, size_t count, const octree_body *body, key k)
+{
+    size_t at = 0;
+    for (size_t child; (child = 2 * at + 1) < count; at = child) {
+        if (child + 1 < count && compare_with_hit(s, &s->hits[child].body, key_of_hit(s, child), child + 1) < 0)
             child++;
-        if (compare_hits(s, at, child) >= 0)
-            return;
-        swap_hits(s, at, child);
+        if (compare_with_hit(s, body, k, child) >= 0)
+            break;
+        copy_hit(s, at, child);
     }
+    put_hit(s, at, body, k);
 }
 
 static void set_limit(ordered_search *s, double limit)
@@ -202,18 +208,14 @@ static void update_limit(ordered_search *s)
 /* Add a body that counts and whose key may be among the first k. */
 static void offer_body(ordered_search *s, const octree_body *body, key k)
 {
-    if (s->count == s->k && compare_by_key(s, body, k, &s->hits[0].body, key_of_hit(s, 0)) >= 0)
+    if (s->count == s->k && compare_with_hit(s, body, k, 0) >= 0)
         return;
     if (s->accept && !s->accept(body, s->context))
         return;
-    const bool grows = s->count < s->k;
-    const size_t at = grows ? s->count++ : 0;
-    s->hits[at].body = *body;
-    set_key(s, at, k);
-    if (grows)
-        sift_up(s, at);
+    if (s->count < s->k)
+        sift_up(s, s->count++, body, k);
     else
-        sift_down(s, s->count);
+        sift_down(s, s->count, body, k);
     if (s->count == s->k)
         update_limit(s);
 }
@@ -221,9 +223,11 @@ static void offer_body(ordered_search *s, const octree_body *body, key k)
 /* Sort the heap: the worst of the remaining bodies moves to the end. */
 static void sort_hits(ordered_search *s)
 {
-    for (size_t left = s->count; left > 1; left--) {
-        swap_hits(s, 0, left - 1);
-        sift_down(s, left - 1);
+    for (size_t last = s->count; last-- > 1;) {
+        const octree_body body = s->hits[last].body;
+        const key k = key_of_hit(s, last);
+        copy_hit(s, last, 0);
+        sift_down(s, last, &body, k);
     }
     for (size_t i = 0; i < s->count; i++)
         s->hits[i].at = s->kind->finish(s, &s->hits[i].body);

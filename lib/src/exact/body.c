@@ -163,20 +163,38 @@ int body_compare_distances(const octree_body *a, const octree_body *b, const dou
     return exact_sign(&sum);
 }
 
-/* Each gap is rounded once from its exact sum, so that a gap that is much smaller than its terms is right, too. */
+/* If the difference of target and position overflows, the gap may still be a double. */
+static double round_gap_exactly(const octree_body *e, const double target[3], int axis)
+{
+    const terms t = find_gap(e, target, axis);
+    exact_sum sum;
+    exact_clear(&sum);
+    for (int i = 0; i < t.count; i++)
+        exact_add_product(&sum, 1, t.term[i], 1);
+    return exact_round(&sum);
+}
+
+/* Returns the distance on one axis from the target to the body. Two rounding errors are computed exactly, and added to
+ * the rounded gap. They are added last, so their sum matters for the last bit only, unless the gap is much smaller than
+ * its terms; then the second error is 0, and the sum is exact. So the gap has an error of little more than half an ulp.
+ */
+static double round_gap(const octree_body *e, const double target[3], int axis)
+{
+    const double c = e->position[axis], t = target[axis], h = e->half[axis], difference = t - c;
+    const double error = exact_error_of_sum(t, -c, difference), offset = fabs(difference), gap = offset - h;
+    if (offset > DBL_MAX)
+        return round_gap_exactly(e, target, axis);
+    const double rest = (difference < 0 ? -error : error) + exact_error_of_sum(offset, -h, gap);
+    return gap + rest > 0 ? gap + rest : 0;
+}
+
 double body_distance(const octree_body *e, const double target[3])
 {
     double gaps[3];
     if (e->half[0] == 0 && e->half[1] == 0 && e->half[2] == 0)
         return metric_distance(e->position, target);
-    for (int i = 0; i < 3; i++) {
-        const terms t = find_gap(e, target, i);
-        exact_sum sum;
-        exact_clear(&sum);
-        for (int j = 0; j < t.count; j++)
-            exact_add_product(&sum, 1, t.term[j], 1);
-        gaps[i] = exact_round(&sum);
-    }
+    for (int i = 0; i < 3; i++)
+        gaps[i] = round_gap(e, target, i);
     return metric_distance(gaps, (double[3]){0, 0, 0});
 }
 

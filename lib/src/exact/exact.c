@@ -140,19 +140,12 @@ int exact_sign_of_sum(const double terms[], int count)
     return exact_sign(&sum);
 }
 
-/* Returns the exact rounding error of `sum`, which is a + b rounded to a double, by Dekker's FastTwoSum. Knuth's TwoSum
- * would not need ordered operands, but one of its intermediate results can overflow. */
-static double rounding_error_of_sum(double a, double b, double sum)
-{
-    return fabs(a) >= fabs(b) ? b - (sum - a) : a - (sum - b);
-}
-
 double exact_add_down(double a, double b)
 {
     const double sum = a + b;
     if (isinf(sum))
         return sum > 0 ? DBL_MAX : sum;
-    return rounding_error_of_sum(a, b, sum) < 0 ? exact_step_down(sum) : sum;
+    return exact_error_of_sum(a, b, sum) < 0 ? exact_step_down(sum) : sum;
 }
 
 double exact_add_up(double a, double b)

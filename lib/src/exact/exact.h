@@ -38,6 +38,13 @@ double exact_round(exact_sum *sum);
 /* Returns the sign of the exact sum of `count` terms: -1, 0 or 1. */
 int exact_sign_of_sum(const double terms[], int count);
 
+/* Returns the exact rounding error of `sum`, which is a + b rounded to a double, by Dekker's FastTwoSum: a + b is sum +
+ * error. Knuth's TwoSum would not need ordered operands, but one of its intermediate results can overflow. */
+static inline double exact_error_of_sum(double a, double b, double sum)
+{
+    return fabs(a) >= fabs(b) ? b - (sum - a) : a - (sum - b);
+}
+
 /* exact_add_down() returns the largest double that is not above the real sum a + b. exact_add_up() returns the smallest
  * double that is not below it. If a + b overflows, exact_add_down() returns DBL_MAX or -infinity, and exact_add_up()
  * returns infinity or -DBL_MAX. */
