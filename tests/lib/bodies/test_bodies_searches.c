@@ -102,48 +102,97 @@ static void searches_skip_ids_and_ask_the_caller(void **state)
     octree_bodies_destroy(set);
 }
 
-/* The trace of a search: its counts equal the cost, and each level's trace begins with its root. */
+/* The trace of a search: each level's trace begins with its root. */
 typedef struct traced {
+    struct {
+        octree_address node;
+        octree_trace_kind kind;
+        unsigned root;
+    } items[4000];
+    size_t count;
     uint64_t kinds[OCTREE_TRACE_KINDS];
     unsigned roots;
 } traced;
 
-static void count_trace(octree_address node, octree_trace_kind kind, void *context)
+static void note_trace(octree_address node, octree_trace_kind kind, void *context)
 {
     traced *t = context;
-    assert_true(t->roots > 0 || node == OCTREE_ROOT);
-    t->kinds[kind]++;
     t->roots += node == OCTREE_ROOT;
+    assert_true(t->roots > 0 && t->count < sizeof t->items / sizeof t->items[0]);
+    t->items[t->count].node = node;
+    t->items[t->count].kind = kind;
+    t->items[t->count++].root = t->roots - 1;
+    t->kinds[kind]++;
 }
 
-static void traces_agree_with_costs(void **state)
+static size_t count_octants(unsigned mask)
+{
+    size_t count = 0;
+    for (; mask; mask &= mask - 1)
+        count++;
+    return count;
+}
+
+/* The traced nodes are different nodes of their level, and as many as the children of the visited nodes. */
+static void assert_trace_is_complete(const traced *t, const octree *const levels[OCTREE_BODY_LEVELS])
+{
+    size_t expected = t->roots;
+    for (size_t i = 0; i < t->count; i++) {
+        octree_node node;
+        assert_int_equal(octree_node_at(levels[t->items[i].root], t->items[i].node, &node), OCTREE_OK);
+        expected += t->items[i].kind == OCTREE_TRACE_VISITED ? count_octants(node.octants) : 0;
+        for (size_t j = 0; j < i; j++)
+            assert_false(t->items[j].node == t->items[i].node && t->items[j].root == t->items[i].root);
+    }
+    assert_int_equal(t->count, expected);
+}
+
+/* Search a set in the way that a number stands for. Large regions take nodes whole. */
+static void search_in_some_way(const octree_bodies *set, uint64_t *seed, int way, const octree_search *how)
+{
+    octree_half_space planes[OCTREE_MAX_HALF_SPACES];
+    octree_region region = random_region(NUMBERS_SMOOTH, (octree_region_kind)(way % 5), seed, planes);
+    octree_hit hits[3];
+    size_t count = 0;
+    for (int i = 0; way % 4 == 1 && i < 3; i++) {
+        region.box.min[i] -= 4;
+        region.box.max[i] += 4;
+    }
+    if (way % 3 == 0)
+        assert_int_equal(octree_bodies_nearest(set, region.center, 3, HUGE_VAL, how, NULL, NULL, hits, &count),
+                         OCTREE_OK);
+    else if (way % 2 == 0 || region.kind < OCTREE_REGION_SWEPT)
+        assert_int_equal(octree_bodies_search(set, &region, how, count_body, &count), OCTREE_OK);
+    else
+        assert_int_equal(octree_bodies_cast(set, &region, 1, how, NULL, NULL, hits, &count), OCTREE_OK);
+}
+
+static void traces_are_complete_and_agree_with_costs(void **state)
 {
     (void)state;
-    uint64_t seed = 5;
-    octree_half_space planes[OCTREE_MAX_HALF_SPACES];
+    static traced t;
+    uint64_t seed = 5, taken = 0;
     octree_bodies *set = make_body_set(scene_world(NUMBERS_SMOOTH), 2);
-    unsigned levels = 0;
+    const octree *levels[OCTREE_BODY_LEVELS];
+    unsigned used = 0;
     for (uint64_t id = 0; id < 300; id++) {
         const octree_body body = random_body(NUMBERS_SMOOTH, &seed, id);
         assert_int_equal(octree_bodies_insert(set, &body), OCTREE_OK);
     }
     for (unsigned i = 0; i < OCTREE_BODY_LEVELS; i++)
-        levels += octree_count(octree_bodies_level(set, i, NULL)) > 0;
-    for (int i = 0; i < 50; i++) {
-        traced t = {0};
+        if (octree_count(octree_bodies_level(set, i, NULL)) > 0)
+            levels[used++] = octree_bodies_level(set, i, NULL);
+    for (int i = 0; i < 100; i++) {
         octree_cost cost = {0};
-        octree_hit hit;
-        size_t count = 0;
-        const octree_search how = {.cost = &cost, .trace = count_trace, .trace_context = &t};
-        const octree_region region = random_region(NUMBERS_SMOOTH, (octree_region_kind)(i % 5), &seed, planes);
-        if (i % 2 == 0 || region.kind < OCTREE_REGION_SWEPT)
-            assert_int_equal(octree_bodies_search(set, &region, &how, count_body, &count), OCTREE_OK);
-        else
-            assert_int_equal(octree_bodies_cast(set, &region, 1, &how, NULL, NULL, &hit, &count), OCTREE_OK);
-        assert_int_equal(t.roots, levels);
+        t = (traced){.count = 0};
+        search_in_some_way(set, &seed, i, &(octree_search){.cost = &cost, .trace = note_trace, .trace_context = &t});
+        assert_int_equal(t.roots, used);
+        assert_trace_is_complete(&t, levels);
         assert_true(t.kinds[OCTREE_TRACE_VISITED] == cost.nodes && t.kinds[OCTREE_TRACE_PRUNED] == cost.pruned &&
                     t.kinds[OCTREE_TRACE_TAKEN] == cost.taken);
+        taken += cost.taken;
     }
+    assert_true(taken > 100);
     octree_bodies_destroy(set);
 }
 
@@ -265,7 +314,7 @@ int main(void)
         cmocka_unit_test(bad_regions_get_a_status),
         cmocka_unit_test(bad_searches_in_order_get_a_status),
         cmocka_unit_test(searches_skip_ids_and_ask_the_caller),
-        cmocka_unit_test(traces_agree_with_costs),
+        cmocka_unit_test(traces_are_complete_and_agree_with_costs),
         cmocka_unit_test(epsilon_bounds_the_distance_of_neighbours),
         cmocka_unit_test(balls_and_distances_beyond_the_squares_of_doubles_are_right),
         cmocka_unit_test(a_time_beyond_the_doubles_is_infinite),
