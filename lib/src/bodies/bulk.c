@@ -170,13 +170,6 @@ static octree_status finish_bulk(bulk *b, size_t *changed)
     return b->failure;
 }
 
-/* A body may lie on two cache lines. */
-static void prefetch_body(const octree_body *body)
-{
-    prefetch_memory(body);
-    prefetch_memory(&body->id);
-}
-
 static void prefetch_row_of(const bulk *b, size_t index, size_t count)
 {
     if (index + PREFETCH_AHEAD < count)

@@ -272,7 +272,7 @@ static void scan_points(ordered_search *s, const octree_point *points, unsigned 
         const unsigned i = bits_lowest(left);
         first = bounds[i] < bounds[first] ? i : first;
         if (!s->set->points)
-            prefetch_memory(row_at(&s->set->rows, row_of_point(&points[i])));
+            prefetch_body(row_at(&s->set->rows, row_of_point(&points[i])));
     }
     measure_and_offer(s, &points[first]);
     for (near &= ~(UINT64_C(1) << first); near; near &= near - 1)

@@ -15,7 +15,6 @@
  */
 #include "rows.h"
 #include "../exact/point.h"
-#include "../tree/leaf.h"
 #include "octree/digest.h"
 
 enum { LEAST_SLOTS = 64 };

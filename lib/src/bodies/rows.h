@@ -7,7 +7,7 @@
 #ifndef OCTREE_ROWS_H
 #define OCTREE_ROWS_H
 
-#include "../tree/pool.h"
+#include "../tree/leaf.h"
 #include "octree/bodies.h"
 
 #define ROWS_IN_CHUNK 1024
@@ -31,6 +31,13 @@ void rows_release(rows *r);
 static inline octree_body *row_at(const rows *r, size_t index)
 {
     return ((octree_body **)r->chunks.items)[index / ROWS_IN_CHUNK] + index % ROWS_IN_CHUNK;
+}
+
+/* Start to load a body, which may lie on two cache lines. */
+static inline void prefetch_body(const octree_body *body)
+{
+    prefetch_memory(body);
+    prefetch_memory(&body->id);
 }
 
 /* Make room for `count` more bodies, so that as many additions cannot fail. Returns NO_MEMORY or TOO_MANY. */
