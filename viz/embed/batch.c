@@ -9,6 +9,12 @@
 
 /* ---- Changes ------------------------------------------------------------------------------------------------ */
 
+void change_list_release(change_list *list)
+{
+    free(list->items);
+    *list = (change_list){0};
+}
+
 bool change_make(uint64_t id, const double *from, const double *to, change *made)
 {
     /* == is correct here: -0 and 0 are the same position. */
@@ -96,6 +102,12 @@ void change_revert(const change *c, point_table *table)
         point_table_remove(table, c->id);
     else
         set_point_position(table, c->id, c->from);
+}
+
+void change_list_apply(const change_list *list, point_table *table)
+{
+    for (size_t i = 0; i < list->count; i++)
+        change_apply(&list->items[i], table);
 }
 
 /* ---- Gaps --------------------------------------------------------------------------------------------------- */
@@ -209,7 +221,8 @@ batch *batch_make(const gap_list *gaps, const octreel_tick_info *about, const oc
 
 void batch_combine_changes(batch *b)
 {
-    b->change_count = combine_changes(b->changes, b->change_count);
+    for (int i = 0; i < TRACKS; i++)
+        b->changes[i].count = combine_changes(b->changes[i].items, b->changes[i].count);
 }
 
 void batch_release(batch *b)
@@ -217,7 +230,8 @@ void batch_release(batch *b)
     if (!b)
         return;
     free(b->gaps);
-    free(b->changes);
+    for (int i = 0; i < TRACKS; i++)
+        change_list_release(&b->changes[i]);
     for (size_t i = 0; b->queries && i < b->query_count; i++)
         query_release_ids(&b->queries[i]);
     free(b->queries);

@@ -7,6 +7,9 @@
 #include "octreel/recorder.h"
 #include "points.h"
 
+/* The values of points that are followed from tick to tick. A batch has the changes of each. */
+enum { POSITIONS, TRACKS };
+
 typedef struct change {
     octree_edit_kind kind;
     /* the change's position in the sequence in which the program made its changes; only combine_changes() uses it */
@@ -14,6 +17,13 @@ typedef struct change {
     uint64_t id;
     double from[3], to[3]; /* positions before and after the change; an insertion has no `from`, a removal no `to` */
 } change;
+
+typedef struct change_list {
+    change *items;
+    size_t count, room;
+} change_list;
+
+void change_list_release(change_list *list);
 
 /* The comparison of two lists of points by id: the changes that turn the list `before` into the list `after`. `i` and
  * `j` are the indices of the first points that are not compared yet. */
@@ -42,6 +52,9 @@ bool change_make(uint64_t id, const double *from, const double *to, change *made
 void change_apply(const change *c, point_table *table);
 void change_revert(const change *c, point_table *table);
 
+/* Apply all changes to a table, which must have room for their insertions. */
+void change_list_apply(const change_list *list, point_table *table);
+
 /* A run of consecutive refused ticks with the same reason. */
 typedef struct gap_run {
     uint64_t ticks;
@@ -66,10 +79,9 @@ typedef struct batch {
     gap_run *gaps; /* the refused ticks before the accepted tick */
     size_t gap_count;
     bool is_gap; /* true: the batch has gaps but no tick */
-    /* the point changes of the tick, in the order in which the program made them; batch_combine_changes() sorts them by
-     * id */
-    change *changes;
-    size_t change_count;
+    /* the changes of the tick on each track, in the order in which the program made them; batch_combine_changes() sorts
+     * them by id */
+    change_list changes[TRACKS];
     octree_query *queries;
     size_t query_count;
     octree_shape *shapes;
@@ -87,7 +99,7 @@ typedef struct batch {
  * + shapes + nodes + pairs). */
 batch *batch_make(const gap_list *gaps, const octreel_tick_info *about, const octree_foreign_tree *foreign);
 
-/* Combine all changes of a point in the batch into one change, and sort the changes by id. */
+/* Combine all changes of a point on a track into one change, and sort the changes by id. */
 void batch_combine_changes(batch *b);
 
 /* Make a batch that has gaps but no tick. Returns null if memory runs out. */

@@ -14,11 +14,9 @@
 
 void contents_release(contents *c)
 {
-    points_release(&c->now);
-    points_release(&c->next);
+    for (int i = 0; i < TRACKS; i++)
+        track_release(&c->tracks[i]);
     points_release(&c->spare);
-    point_table_release(&c->table);
-    free(c->changes);
     *c = (contents){0};
 }
 
@@ -54,72 +52,17 @@ static octreel_status check_tree_definition(const octree_def *own, const octree 
     return OCTREEL_OK;
 }
 
-/* ---- The changes of a tick ---------------------------------------------------------------------------------- */
+/* ---- The tracks --------------------------------------------------------------------------------------------- */
 
-/* Combine the pending changes of each point if the number of changes has doubled since they were last combined. Changes
- * that cancel each other disappear, which limits memory while no tick is accepted. */
-static void combine_pending_changes(contents *c)
+static bool switch_to_tables(contents *c)
 {
-    enum { FEW = 1024 };
-    if (c->change_count > FEW && c->change_count / 2 > c->settled)
-        c->change_count = c->settled = combine_changes(c->changes, c->change_count);
-}
-
-static bool reserve_changes(contents *c, size_t more)
-{
-    return more <= UINT32_MAX - c->change_count &&
-           array_grow(&c->changes, c->change_count + more, &c->change_room, sizeof *c->changes);
-}
-
-/* Change a point of the table from one position to another. A null `from` means that the point is inserted, a null `to`
- * that it is removed. Returns false if memory runs out. */
-static bool change_point(contents *c, uint64_t id, const double *from, const double *to)
-{
-    if (!reserve_changes(c, 1) || (!from && !point_table_reserve(&c->table, c->table.count + 1)))
-        return false;
-    if (change_make(id, from, to, &c->changes[c->change_count]))
-        change_apply(&c->changes[c->change_count++], &c->table);
-    return true;
-}
-
-/* Revert the changes of the tick that was read last. */
-static void revert_tick(contents *c)
-{
-    while (c->change_count > c->kept) {
-        c->change_count--;
-        if (c->tabled)
-            change_revert(&c->changes[c->change_count], &c->table);
-    }
-}
-
-/* Switch from sorted lists to the table. Returns false if memory runs out. */
-static bool switch_to_table(contents *c)
-{
-    if (c->tabled)
-        return true;
-    if (!point_table_reserve(&c->table, c->now.count))
-        return false;
-    for (size_t i = 0; i < c->now.count; i++)
-        point_table_set(&c->table, &c->now.items[i]);
-    points_release(&c->now);
-    points_release(&c->next);
     points_release(&c->spare);
-    c->tabled = true;
-    return true;
+    return track_switch_to_table(&c->tracks[POSITIONS]);
 }
 
-/* Switch from the table back to sorted lists: `now` becomes the list of points before the tick that is being read.
- * Returns false if memory runs out. */
 static bool switch_to_lists(contents *c)
 {
-    if (!c->tabled)
-        return true;
-    revert_tick(c); /* read_log() may already have applied some changes of this tick */
-    if (!point_table_list(&c->table, &c->now, &c->spare))
-        return false;
-    point_table_release(&c->table);
-    c->tabled = false;
-    return true;
+    return track_switch_to_lists(&c->tracks[POSITIONS], &c->spare);
 }
 
 /* ---- Changes from the program ------------------------------------------------------------------------------- */
@@ -135,14 +78,15 @@ static octreel_status add_edit(contents *c, const octree_edit *edit, size_t numb
                              octreel_status_text(OCTREEL_BAD_ID), body->id);
     if (!removes && !is_finite_place(body->position))
         return status_refuse(error, OCTREEL_BAD_POINT, "changes[%zu]: a coordinate is NaN or infinite", number);
-    const octree_point *there = point_table_find(&c->table, body->id);
+    const octree_point *there = point_table_find(&c->tracks[POSITIONS].table, body->id);
     if (inserts && there)
         return status_refuse(error, OCTREEL_DUPLICATE_ID, "changes[%zu]: point %" PRIu64 " exists already", number,
                              body->id);
     if (!inserts && !there)
         return status_refuse(error, OCTREEL_NO_POINT, "changes[%zu]: point %" PRIu64 " does not exist", number,
                              body->id);
-    return change_point(c, body->id, there ? there->position : NULL, removes ? NULL : body->position)
+    return track_change_point(&c->tracks[POSITIONS], body->id, there ? there->position : NULL,
+                              removes ? NULL : body->position)
                ? OCTREEL_OK
                : status_fail(error, OCTREEL_NO_MEMORY);
 }
@@ -151,7 +95,7 @@ static octreel_status read_edits(contents *c, const octreel_tick_info *about, oc
 {
     octreel_status first = OCTREEL_OK;
     octreel_error later;
-    if (!switch_to_table(c))
+    if (!switch_to_tables(c))
         return status_fail(error, OCTREEL_NO_MEMORY);
     c->source = FROM_CHANGES;
     for (size_t i = 0; about && i < about->change_count; i++) {
@@ -165,21 +109,6 @@ static octreel_status read_edits(contents *c, const octreel_tick_info *about, oc
 
 /* ---- A list, or a whole tree -------------------------------------------------------------------------------- */
 
-/* Add the changes from the list `now` to the list `next`. Where many changes are likely, room for one change of each
- * point is reserved at once. Returns false if memory runs out. */
-static bool add_changes_between_lists(contents *c)
-{
-    enum { FEW = 1024 };
-    list_comparison lists = {.before = &c->now, .after = &c->next};
-    size_t more = (c->now.count == 0 || c->many_changes) && c->next.count > FEW ? c->next.count : FEW;
-    for (; !list_comparison_has_ended(&lists); more = c->change_room) {
-        if (!reserve_changes(c, more))
-            return false;
-        c->change_count += list_next_changes(&lists, c->changes + c->change_count, c->change_room - c->change_count);
-    }
-    return true;
-}
-
 /* Read all points of a tree, or of a list if the tree is null. */
 static octreel_status read_whole_tree(contents *c, const octree *tree, const octree_point *list, size_t count,
                                       octreel_error *error)
@@ -187,7 +116,7 @@ static octreel_status read_whole_tree(contents *c, const octree *tree, const oct
     uint64_t clash = 0;
     if (!switch_to_lists(c))
         return status_fail(error, OCTREEL_NO_MEMORY);
-    const octreel_status status = points_read(&c->next, &c->spare, tree, list, count, &clash);
+    const octreel_status status = points_read(&c->tracks[POSITIONS].next, &c->spare, tree, list, count, &clash);
     if (status == OCTREEL_DUPLICATE_ID && !tree)
         return status_refuse(error, status, "points: two points have the id %" PRIu64, clash);
     if (status == OCTREEL_DUPLICATE_ID || status == OCTREEL_BAD_ID)
@@ -195,7 +124,8 @@ static octreel_status read_whole_tree(contents *c, const octree *tree, const oct
                              clash);
     if (status != OCTREEL_OK)
         return status_fail(error, status);
-    return add_changes_between_lists(c) ? OCTREEL_OK : status_fail(error, OCTREEL_NO_MEMORY);
+    return track_compare_lists(&c->tracks[POSITIONS], c->many_changes) ? OCTREEL_OK
+                                                                       : status_fail(error, OCTREEL_NO_MEMORY);
 }
 
 static octreel_status read_point_list(contents *c, const octree_point *list, size_t count, octreel_error *error)
@@ -225,12 +155,13 @@ static void apply_logged_change(const octree_change *logged, void *context)
     contents *c = context;
     if (logged->id >= SESSION_ID_LIMIT)
         return;
-    const octree_point *there = point_table_find(&c->table, logged->id);
+    track *positions = &c->tracks[POSITIONS];
+    const octree_point *there = point_table_find(&positions->table, logged->id);
     change unused;
     if (logged->kind != OCTREE_INSERTED && (!there || change_make(logged->id, there->position, logged->from, &unused)))
         return;
-    c->log_incomplete |= !change_point(c, logged->id, there ? there->position : NULL,
-                                       logged->kind == OCTREE_REMOVED ? NULL : logged->to);
+    c->log_incomplete |= !track_change_point(positions, logged->id, there ? there->position : NULL,
+                                             logged->kind == OCTREE_REMOVED ? NULL : logged->to);
 }
 
 /* Read the changes since the last read from the tree's change log, and apply them to the table. Returns false if the
@@ -241,18 +172,19 @@ static bool read_log(contents *c, const octree *tree)
     c->log_incomplete = false;
     if (c->many_changes) /* A zero cursor does not ask for the tree's change log, so the tree may stop keeping a log. */
         c->mark = (octree_cursor){0};
-    if (c->many_changes || (c->mark.log != 0 && !switch_to_table(c)))
+    if (c->many_changes || (c->mark.log != 0 && !switch_to_tables(c)))
         return false;
     return octree_changes_since(tree, choose_cursor_name(c), &c->mark, apply_logged_change, c) && !c->log_incomplete &&
-           c->table.count == octree_count(tree);
+           c->tracks[POSITIONS].table.count == octree_count(tree);
 }
 
 static octreel_status read_tree(contents *c, const octree_def *def, const octree *tree, octreel_error *error)
 {
+    const track *positions = &c->tracks[POSITIONS];
     octreel_status status = check_tree_definition(def, tree, error);
     if (status == OCTREEL_OK && !read_log(c, tree))
         status = read_whole_tree(c, tree, NULL, octree_count(tree), error);
-    c->many_changes = c->change_count - c->kept > octree_count(tree) / 8 + 16;
+    c->many_changes = positions->changes.count - positions->kept > octree_count(tree) / 8 + 16;
     return status;
 }
 
@@ -277,8 +209,8 @@ static octreel_status choose_points_source(contents *c, const octree *tree, cons
 octreel_status contents_read(contents *c, const octree_def *def, const octree *tree, const octreel_tick_info *about,
                              octreel_error *error)
 {
-    combine_pending_changes(c);
-    c->kept = c->change_count;
+    for (int i = 0; i < TRACKS; i++)
+        track_begin_tick(&c->tracks[i]);
     const octreel_status status = choose_points_source(c, tree, about, error);
     if (status != OCTREEL_OK)
         return status;
@@ -291,37 +223,39 @@ octreel_status contents_read(contents *c, const octree_def *def, const octree *t
 
 void contents_move_changes_to_batch(contents *c, batch *b)
 {
-    if (c->change_count == 0)
-        return;
-    change *fitting = realloc(c->changes, c->change_count * sizeof *fitting);
-    b->changes = fitting ? fitting : c->changes;
-    b->change_count = c->change_count;
-    b->bytes += c->change_count * sizeof *fitting;
-    c->changes = NULL;
-    c->change_count = c->change_room = 0;
+    for (int i = 0; i < TRACKS; i++) {
+        change_list *from = &c->tracks[i].changes, *to = &b->changes[i];
+        if (from->count == 0)
+            continue;
+        change *fitting = realloc(from->items, from->count * sizeof *fitting);
+        *to = (change_list){fitting ? fitting : from->items, from->count, from->count};
+        b->bytes += from->count * sizeof *fitting;
+        *from = (change_list){0};
+    }
 }
 
 void contents_move_changes_from_batch(contents *c, batch *b)
 {
-    if (b->change_count == 0) /* the batch has no changes, because contents_move_changes_to_batch() had none to move */
-        return;
-    c->changes = b->changes;
-    c->change_count = c->change_room = b->change_count;
-    b->changes = NULL;
+    for (int i = 0; i < TRACKS; i++) {
+        if (b->changes[i].count == 0) /* contents_move_changes_to_batch() had none to move */
+            continue;
+        c->tracks[i].changes = b->changes[i];
+        b->changes[i] = (change_list){0};
+    }
 }
 
 void contents_accept_tick(contents *c)
 {
     c->source = c->read_source;
-    c->settled = 0;
-    if (!c->tabled)
-        points_swap(&c->now, &c->next); /* the next tick's list will be compared with this tick's list */
+    for (int i = 0; i < TRACKS; i++)
+        track_accept_tick(&c->tracks[i]);
 }
 
 void contents_refuse_tick(contents *c, octreel_status status)
 {
-    if (c->tabled && status != OCTREEL_NO_MEMORY)
+    if (c->tracks[POSITIONS].tabled && status != OCTREEL_NO_MEMORY)
         return;
-    revert_tick(c);
+    for (int i = 0; i < TRACKS; i++)
+        track_revert_tick(&c->tracks[i]);
     c->mark = (octree_cursor){0}; /* the changes of the refused tick are lost, so the log cannot be continued */
 }

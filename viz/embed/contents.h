@@ -4,33 +4,21 @@
 #ifndef EMBED_CONTENTS_H
 #define EMBED_CONTENTS_H
 
-#include "batch.h"
+#include "track.h"
 #include "octree/octree.h"
 
 typedef enum points_source { FROM_NOTHING, FROM_TREE, FROM_LIST, FROM_CHANGES } points_source;
 
-/* The current points of a program. Every source of points is turned into `changes`: the point changes since the last
- * accepted tick. There are two ways:
- *
- * - Lists. All points are read into `next` and compared with `now`, in O(n). This is used for lists, and for trees in
- *   which many points change. Comparing sorted lists takes a third of the time of looking up each point in a table.
- * - The table. Changes that the program passes, or that the tree's change log has, are applied to `table`, in
- *   O(changes). The table has the points of the tick that was read last.
- *
- * Either the lists or the table are in use; `tabled` is true for the table. When the source of the points changes, the
- * other way may be used from then on. A zero-initialized struct has no points. */
+/* The current points of a program. Every source of points is turned into changes since the last accepted tick. The
+ * lists of the tracks are used for lists, and for trees in which many points change; their tables for other trees and
+ * for changes. When the source of the points changes, the other way may be used from then on. A zero-initialized struct
+ * has no points. */
 typedef struct contents {
     /* `source`: where the points of the last accepted tick with points came from. `read_source`: where the points of
      * the tick that was read last came from. */
     points_source source, read_source;
-    /* `now`: the points before the tick that was read last; `next`: the points of that tick; `spare`: scratch memory */
-    points now, next, spare;
-    bool tabled;
-    point_table table;
-    change *changes; /* changes since the last accepted tick, in the order in which they were made */
-    size_t change_count, change_room;
-    size_t settled;     /* the value of change_count after all changes of a point were last combined into one change */
-    size_t kept;        /* the value of change_count before the tick that was read last */
+    track tracks[TRACKS];
+    points spare;       /* scratch memory */
     octree_cursor mark; /* cursor into the tree's change log; all earlier changes in the log have been read */
     uint64_t names;     /* counter for the names of log cursors; starts at a random number */
     /* True: the tree had so many changes at the last tick that reading all its points is faster than reading its

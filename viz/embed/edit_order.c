@@ -11,11 +11,12 @@ bool edit_order_init(edit_order *o, const octree_def *def, const batch *first)
     *o = (edit_order){.world = def->world};
     if (def->full_leaf == OCTREE_GROW)
         return true;
-    const size_t count = first->change_count;
+    const change_list *inserted = &first->changes[POSITIONS];
+    const size_t count = inserted->count;
     octree_point *points = malloc((count ? count : 1) * sizeof *points);
     for (size_t i = 0; points && i < count; i++) {
-        points[i].id = first->changes[i].id;
-        memcpy(points[i].position, first->changes[i].to, sizeof points[i].position);
+        points[i].id = inserted->items[i].id;
+        memcpy(points[i].position, inserted->items[i].to, sizeof points[i].position);
     }
     const bool made = points && octree_create(def, &o->tree) == OCTREE_OK &&
                       (count == 0 || octree_insert_many(o->tree, points, count, NULL, NULL) == OCTREE_OK);
@@ -89,16 +90,17 @@ static bool try_edit(edit_order *o, uint64_t tick, octree_edit_kind kind, const 
 /* Make the edits of the kind `kind`. If `again` is false, try all changes that need an edit of this kind. If `again` is
  * true, try the waiting changes. A change waits if a full leaf had no room for its point, or if this pass removed its
  * point so that a later pass inserts the point elsewhere. Returns false if memory runs out. */
-static bool make_edits_of_kind(edit_order *o, const batch *b, uint64_t tick, octree_edit_kind kind, bool again)
+static bool make_edits_of_kind(edit_order *o, const change_list *changes, uint64_t tick, octree_edit_kind kind,
+                               bool again)
 {
-    const size_t count = again ? o->waiting_count : b->change_count;
+    const size_t count = again ? o->waiting_count : changes->count;
     o->waiting_count = again ? 0 : o->waiting_count;
     for (size_t i = 0; i < count; i++) {
         const size_t index = again ? o->waiting[i] : i;
         bool made;
-        if (!again && !needs_edit(o, &b->changes[index], kind))
+        if (!again && !needs_edit(o, &changes->items[index], kind))
             continue;
-        if (!try_edit(o, tick, kind, &b->changes[index], &made))
+        if (!try_edit(o, tick, kind, &changes->items[index], &made))
             return false;
         if (!made || (again && kind == OCTREE_EDIT_REMOVE))
             o->waiting[o->waiting_count++] = index;
@@ -114,8 +116,8 @@ bool edit_order_make(edit_order *o, const batch *b, uint64_t tick)
     } passes[] = {{OCTREE_EDIT_REMOVE, false}, {OCTREE_EDIT_MOVE, false},  {OCTREE_EDIT_MOVE, true},
                   {OCTREE_EDIT_REMOVE, true},  {OCTREE_EDIT_INSERT, true}, {OCTREE_EDIT_INSERT, false}};
     o->count = o->waiting_count = 0;
-    bool made = reserve_edits(o, b->change_count);
+    bool made = reserve_edits(o, b->changes[POSITIONS].count);
     for (size_t i = 0; made && i < sizeof passes / sizeof passes[0]; i++)
-        made = make_edits_of_kind(o, b, tick, passes[i].kind, passes[i].again);
+        made = make_edits_of_kind(o, &b->changes[POSITIONS], tick, passes[i].kind, passes[i].again);
     return made;
 }

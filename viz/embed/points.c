@@ -174,11 +174,11 @@ static size_t find_slot(const point_table *t, uint64_t id)
 
 bool point_table_reserve(point_table *t, size_t count)
 {
+    if (count <= t->size / 4 * 3)
+        return true;
     point_table grown = {.size = t->size ? t->size : SMALLEST_TABLE};
     while (grown.size / 4 * 3 < count && grown.size <= SIZE_MAX / sizeof *grown.slots / 2)
         grown.size *= 2;
-    if (grown.size == t->size)
-        return true;
     if (grown.size / 4 * 3 < count || !(grown.slots = malloc(grown.size * sizeof *grown.slots)))
         return false;
     for (size_t i = 0; i < grown.size; i++)

@@ -9,25 +9,26 @@
 void ring_release(ring *r)
 {
     batch_list_clear(&r->list);
-    point_table_release(&r->start);
+    for (int i = 0; i < TRACKS; i++)
+        point_table_release(&r->start[i]);
     *r = (ring){0};
 }
 
 static void clear_changes(batch *b)
 {
-    free(b->changes);
-    b->changes = NULL;
-    b->change_count = 0;
+    for (int i = 0; i < TRACKS; i++)
+        change_list_release(&b->changes[i]);
 }
 
 /* Make a tick the first tick of the ring: apply its changes to the points in r->start, and drop the gaps before the
  * tick. Returns false if memory runs out. */
 static bool restart_ring_at(ring *r, batch *b)
 {
-    if (!point_table_reserve(&r->start, r->start.count + b->change_count))
-        return false;
-    for (size_t i = 0; i < b->change_count; i++)
-        change_apply(&b->changes[i], &r->start);
+    for (int i = 0; i < TRACKS; i++)
+        if (!point_table_reserve(&r->start[i], r->start[i].count + b->changes[i].count))
+            return false;
+    for (int i = 0; i < TRACKS; i++)
+        change_list_apply(&b->changes[i], &r->start[i]);
     clear_changes(b);
     r->dropped += gap_list_count_ticks(b->gaps, b->gap_count);
     b->gap_count = 0;
@@ -77,20 +78,27 @@ losses ring_sum_losses(const ring *r, uint64_t *ticks)
     return lost;
 }
 
-/* Give the first tick of the ring an insertion of each point in r->start, sorted by id. Returns false if memory runs
- * out. */
-static bool add_insertions(const ring *r)
+/* Make the insertions of all points of a table, sorted by id. Returns false if memory runs out. */
+static bool make_insertions(const point_table *start, change_list *made)
 {
     const points none = {0};
-    points start = {0}, spare = {0};
-    batch *first = r->list.first;
-    first->changes = malloc((r->start.count + 1) * sizeof *first->changes);
-    const bool ok = first->changes && point_table_list(&r->start, &start, &spare);
+    points listed = {0}, spare = {0};
+    made->items = malloc((start->count + 1) * sizeof *made->items);
+    const bool ok = made->items && point_table_list(start, &listed, &spare);
     if (ok)
-        first->change_count =
-            list_next_changes(&(list_comparison){.before = &none, .after = &start}, first->changes, start.count);
-    points_release(&start);
+        made->count =
+            list_next_changes(&(list_comparison){.before = &none, .after = &listed}, made->items, listed.count);
+    points_release(&listed);
     points_release(&spare);
+    return ok;
+}
+
+/* Give the first tick of the ring the insertions of all points in r->start. Returns false if memory runs out. */
+static bool add_insertions(const ring *r)
+{
+    bool ok = true;
+    for (int i = 0; ok && i < TRACKS; i++)
+        ok = make_insertions(&r->start[i], &r->list.first->changes[i]);
     return ok;
 }
 

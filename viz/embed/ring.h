@@ -10,8 +10,9 @@
 typedef struct ring {
     size_t most; /* the maximum number of ticks in the ring */
     batch_list list;
-    point_table start; /* all points at the ring's first tick, so that the batch of this tick needs no changes */
-    uint64_t dropped;  /* number of ticks that were dropped from the ring */
+    /* all points at the ring's first tick, so that the batch of this tick needs no changes */
+    point_table start[TRACKS];
+    uint64_t dropped; /* number of ticks that were dropped from the ring */
 } ring;
 
 /* A summary of refused ticks: the number of refused ticks, and the tick number and the reason of the first. */

@@ -23,12 +23,12 @@ static void set_tick_number(batch *b, uint64_t tick)
 }
 
 /* Returns an array with the points that a batch inserts; the caller frees it. */
-static octree_game_body *make_bodies(const batch *first)
+static octree_game_body *make_bodies(const change_list *inserted)
 {
-    octree_game_body *bodies = calloc(first->change_count ? first->change_count : 1, sizeof *bodies);
-    for (size_t i = 0; bodies && i < first->change_count; i++) {
-        bodies[i].id = first->changes[i].id;
-        memcpy(bodies[i].position, first->changes[i].to, sizeof bodies[i].position);
+    octree_game_body *bodies = calloc(inserted->count ? inserted->count : 1, sizeof *bodies);
+    for (size_t i = 0; bodies && i < inserted->count; i++) {
+        bodies[i].id = inserted->items[i].id;
+        memcpy(bodies[i].position, inserted->items[i].to, sizeof bodies[i].position);
     }
     return bodies;
 }
@@ -45,7 +45,8 @@ static octreel_status film_first_tick(session_filmer *f, const batch *first, con
 {
     const filmer_settings *s = f->settings;
     film_options film = s->film;
-    octree_game_body *bodies = make_bodies(first);
+    const change_list *inserted = &first->changes[POSITIONS];
+    octree_game_body *bodies = make_bodies(inserted);
     if (!bodies || !edit_order_init(&f->order, &s->tree, first)) {
         free(bodies);
         return fail_out_of_memory(f, OCTREEL_NO_MEMORY);
@@ -54,7 +55,7 @@ static octreel_status film_first_tick(session_filmer *f, const batch *first, con
                                     .player = s->player,
                                     .ticks = SESSION_ENDLESS,
                                     .bodies = bodies,
-                                    .body_count = first->change_count,
+                                    .body_count = inserted->count,
                                     .queries = first->queries,
                                     .query_count = gap ? 0 : first->query_count,
                                     .shapes = first->shapes,
