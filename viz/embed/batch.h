@@ -7,8 +7,11 @@
 #include "octreel/recorder.h"
 #include "points.h"
 
-/* The values of points that are followed from tick to tick. A batch has the changes of each. */
-enum { POSITIONS, TRACKS };
+/* A batch has the changes of two tracks: of the points' positions, and of their half extents. Points without extents
+ * are not on the second track. Half extents are three numbers for an id, as positions are, so the same functions and
+ * structures follow both: on the track EXTENTS, the `position` of a point is its half extents. A program whose points
+ * have no extents pays nothing for them. */
+enum { POSITIONS, EXTENTS, TRACKS };
 
 typedef struct change {
     octree_edit_kind kind;

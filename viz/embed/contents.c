@@ -25,6 +25,14 @@ static bool is_finite_place(const double at[3])
     return isfinite(at[0]) && isfinite(at[1]) && isfinite(at[2]);
 }
 
+static bool are_valid_extents(const double half[3])
+{
+    return is_finite_place(half) && half[0] >= 0 && half[1] >= 0 && half[2] >= 0;
+}
+
+#define BAD_PLACE "%s[%zu]: a coordinate is NaN or infinite"
+#define BAD_EXTENTS "%s[%zu]: a half extent is negative, NaN or infinite"
+
 /* ---- The definition of a tree ------------------------------------------------------------------------------- */
 
 /* Check that a tree has the same world and options as the definition with which the recorder was opened. */
@@ -57,15 +65,28 @@ static octreel_status check_tree_definition(const octree_def *own, const octree 
 static bool switch_to_tables(contents *c)
 {
     points_release(&c->spare);
-    return track_switch_to_table(&c->tracks[POSITIONS]);
+    return track_switch_to_table(&c->tracks[POSITIONS]) && track_switch_to_table(&c->tracks[EXTENTS]);
 }
 
 static bool switch_to_lists(contents *c)
 {
-    return track_switch_to_lists(&c->tracks[POSITIONS], &c->spare);
+    return track_switch_to_lists(&c->tracks[POSITIONS], &c->spare) &&
+           track_switch_to_lists(&c->tracks[EXTENTS], &c->spare);
 }
 
 /* ---- Changes from the program ------------------------------------------------------------------------------- */
+
+/* Change the half extents of a body as an edit says. `half` are those of an insertion, or null if they are 0. Returns
+ * false if memory runs out. */
+static bool change_extents(contents *c, const octree_edit *edit, const double *half)
+{
+    track *extents = &c->tracks[EXTENTS];
+    if (!half && extents->table.count == 0) /* a program of points pays no more than this test */
+        return true;
+    const octree_point *old = point_table_find(&extents->table, edit->body.id);
+    const double *from = old ? old->position : NULL, *to = edit->kind == OCTREE_EDIT_MOVE ? from : half;
+    return from == to || track_change_point(extents, edit->body.id, from, to);
+}
 
 static octreel_status add_edit(contents *c, const octree_edit *edit, size_t number, octreel_error *error)
 {
@@ -76,8 +97,11 @@ static octreel_status add_edit(contents *c, const octree_edit *edit, size_t numb
     if (body->id >= SESSION_ID_LIMIT)
         return status_refuse(error, OCTREEL_BAD_ID, "changes[%zu]: %s: %" PRIu64, number,
                              octreel_status_text(OCTREEL_BAD_ID), body->id);
+    const double *half = inserts && has_extents(body->half) ? body->half : NULL;
     if (!removes && !is_finite_place(body->position))
-        return status_refuse(error, OCTREEL_BAD_POINT, "changes[%zu]: a coordinate is NaN or infinite", number);
+        return status_refuse(error, OCTREEL_BAD_POINT, BAD_PLACE, "changes", number);
+    if (half && !are_valid_extents(half))
+        return status_refuse(error, OCTREEL_BAD_POINT, BAD_EXTENTS, "changes", number);
     const octree_point *there = point_table_find(&c->tracks[POSITIONS].table, body->id);
     if (inserts && there)
         return status_refuse(error, OCTREEL_DUPLICATE_ID, "changes[%zu]: point %" PRIu64 " exists already", number,
@@ -86,7 +110,8 @@ static octreel_status add_edit(contents *c, const octree_edit *edit, size_t numb
         return status_refuse(error, OCTREEL_NO_POINT, "changes[%zu]: point %" PRIu64 " does not exist", number,
                              body->id);
     return track_change_point(&c->tracks[POSITIONS], body->id, there ? there->position : NULL,
-                              removes ? NULL : body->position)
+                              removes ? NULL : body->position) &&
+                   change_extents(c, edit, half)
                ? OCTREEL_OK
                : status_fail(error, OCTREEL_NO_MEMORY);
 }
@@ -116,6 +141,7 @@ static octreel_status read_whole_tree(contents *c, const octree *tree, const oct
     uint64_t clash = 0;
     if (!switch_to_lists(c))
         return status_fail(error, OCTREEL_NO_MEMORY);
+    c->tracks[EXTENTS].next.count = 0;
     const octreel_status status = points_read(&c->tracks[POSITIONS].next, &c->spare, tree, list, count, &clash);
     if (status == OCTREEL_DUPLICATE_ID && !tree)
         return status_refuse(error, status, "points: two points have the id %" PRIu64, clash);
@@ -124,15 +150,17 @@ static octreel_status read_whole_tree(contents *c, const octree *tree, const oct
                              clash);
     if (status != OCTREEL_OK)
         return status_fail(error, status);
-    return track_compare_lists(&c->tracks[POSITIONS], c->many_changes) ? OCTREEL_OK
-                                                                       : status_fail(error, OCTREEL_NO_MEMORY);
+    return track_compare_lists(&c->tracks[POSITIONS], c->many_changes) &&
+                   track_compare_lists(&c->tracks[EXTENTS], c->many_changes)
+               ? OCTREEL_OK
+               : status_fail(error, OCTREEL_NO_MEMORY);
 }
 
 static octreel_status read_point_list(contents *c, const octree_point *list, size_t count, octreel_error *error)
 {
     for (size_t i = 0; i < count; i++)
         if (!is_finite_place(list[i].position))
-            return status_refuse(error, OCTREEL_BAD_POINT, "points[%zu]: a coordinate is NaN or infinite", i);
+            return status_refuse(error, OCTREEL_BAD_POINT, BAD_PLACE, "points", i);
     return read_whole_tree(c, NULL, list, count, error);
 }
 

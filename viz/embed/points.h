@@ -21,6 +21,12 @@ void points_swap(points *a, points *b);
 octreel_status points_read(points *p, points *spare, const octree *tree, const octree_point *list, size_t count,
                            uint64_t *clash);
 
+/* Returns whether a body with these half extents is more than a point. Returns true for invalid half extents. */
+static inline bool has_extents(const double half[3])
+{
+    return half[0] != 0 || half[1] != 0 || half[2] != 0;
+}
+
 /* A hash table of points by id; each operation costs O(1) on average. A zero-initialized table is empty. */
 typedef struct point_table {
     octree_point *slots; /* an empty slot has the id UINT64_MAX */

@@ -23,13 +23,11 @@ static void set_tick_number(batch *b, uint64_t tick)
 }
 
 /* Returns an array with the points that a batch inserts; the caller frees it. */
-static octree_game_body *make_bodies(const change_list *inserted)
+static octree_game_body *make_bodies(const edit_order *order, const change_list *inserted)
 {
     octree_game_body *bodies = calloc(inserted->count ? inserted->count : 1, sizeof *bodies);
-    for (size_t i = 0; bodies && i < inserted->count; i++) {
-        bodies[i].id = inserted->items[i].id;
-        memcpy(bodies[i].position, inserted->items[i].to, sizeof bodies[i].position);
-    }
+    for (size_t i = 0; bodies && i < inserted->count; i++)
+        bodies[i] = edit_order_make_body(order, inserted->items[i].id, inserted->items[i].to);
     return bodies;
 }
 
@@ -46,11 +44,9 @@ static octreel_status film_first_tick(session_filmer *f, const batch *first, con
     const filmer_settings *s = f->settings;
     film_options film = s->film;
     const change_list *inserted = &first->changes[POSITIONS];
-    octree_game_body *bodies = make_bodies(inserted);
-    if (!bodies || !edit_order_init(&f->order, &s->tree, first)) {
-        free(bodies);
+    octree_game_body *bodies = NULL;
+    if (!edit_order_init(&f->order, &s->tree, first) || !(bodies = make_bodies(&f->order, inserted)))
         return fail_out_of_memory(f, OCTREEL_NO_MEMORY);
-    }
     const octree_session session = {.tree = s->tree,
                                     .player = s->player,
                                     .ticks = SESSION_ENDLESS,
@@ -86,7 +82,7 @@ static octreel_status film_input(session_filmer *f, const octree_input *input)
 static octreel_status film_next_batch(session_filmer *f, const batch *b, bool has_changes)
 {
     f->order.count = 0;
-    if (has_changes && !edit_order_make(&f->order, b, f->tick))
+    if (has_changes && !edit_order_make(&f->order, live_game(f->live), b, f->tick))
         return fail_out_of_memory(f, OCTREEL_BROKEN);
     return film_input(f, &(octree_input){.key = '.',
                                          .edits = f->order.edits,

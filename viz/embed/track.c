@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* track.c - follows the positions of a program's points: see track.h. */
+/* track.c - follows the positions of a program's points, or their half extents: see track.h. */
 #include "track.h"
 #include "array.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* track.h - follows the positions of a program's points from tick to tick: the current position of each id, and the
- * changes since the last accepted tick. Private to viz/embed. */
+/* track.h - follows the positions of a program's points, or their half extents, from tick to tick: the current value of
+ * each id, and the changes since the last accepted tick. Private to viz/embed. */
 #ifndef EMBED_TRACK_H
 #define EMBED_TRACK_H
 
@@ -42,8 +42,8 @@ bool track_switch_to_table(track *t);
  * `spare` is scratch memory. Returns false if memory runs out. */
 bool track_switch_to_lists(track *t, points *spare);
 
-/* Change a point of the table from one position to another. A null `from` means that the point is inserted, a null `to`
- * that it is removed. Nothing changes if the two positions are equal. Returns false if memory runs out. */
+/* Change a point of the table from one value to another. A null `from` means that the point is inserted, a null `to`
+ * that it is removed. Nothing changes if the two values are equal. Returns false if memory runs out. */
 bool track_change_point(track *t, uint64_t id, const double *from, const double *to);
 
 /* Add the changes from the list `now` to the list `next`. Where many changes are likely, room for one change of each

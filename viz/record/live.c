@@ -284,6 +284,11 @@ bool live_film_first_tick(live_recording *live, octreel_error *error)
     return live->begun;
 }
 
+const octree_game *live_game(const live_recording *live)
+{
+    return live->playback.game;
+}
+
 static char find_next_key_press(const live_recording *live)
 {
     const char *keys = live->start.session.keys;

@@ -23,6 +23,9 @@ bool live_begin(live_recording *live, octreel_error *error);
  * afterwards. */
 bool live_film_first_tick(live_recording *live, octreel_error *error);
 
+/* Returns the game of the recording, which has played the ticks that are recorded. */
+const octree_game *live_game(const live_recording *live);
+
 /* Record the next tick. If input->key is 0, the key press that the session has for this tick is used. If this fails,
  * only live_close() may be called afterwards. */
 bool live_film_tick(live_recording *live, const octree_input *input, octreel_error *error);

@@ -44,7 +44,7 @@
  *     of gaps. No change is lost: the next accepted tick has all changes since the last accepted tick. After
  *     OCTREEL_BROKEN no more ticks are recorded; the earlier ticks are complete.
  *   - Every function accepts a null recorder, does nothing, and returns OCTREEL_OK.
- *   - n is the number of points.
+ *   - n is the number of points or bodies. A point is a body without extents, and "points" means bodies, too.
  *   - During recording the session is in FOLDER/session.json.live, one tick per line. After a crash of the program
  *     "octreel record --resume -o FOLDER" completes the recording; only ticks in the queue are lost.
  *   - Files are not synced to the disk. A power cut may damage a file; "octreel verify" finds this.
@@ -69,7 +69,7 @@ extern "C" {
     X(OTHER_TREE, "the tree's world or options differ from the definition with which the recorder was opened")         \
     X(TWO_SOURCES, "a tick has more than one of tree, points and changes, or only some of the ticks have a tree")      \
     X(DUPLICATE_ID, "two points have the same id")                                                                     \
-    X(BAD_POINT, "a point or a change has a NaN or an infinity, or a change has an unknown kind")                      \
+    X(BAD_POINT, "a point or a change has a NaN, an infinity, a negative half extent or an unknown kind")              \
     X(NO_POINT, "a change moves or removes a point that does not exist")                                               \
     X(BAD_ID, "an id is 2^53 or larger, which session files cannot store")                                             \
     X(BAD_QUERY,                                                                                                       \
@@ -112,7 +112,8 @@ typedef struct octreel_recorder_def {
      * the points. Full leaves of Octreel's tree grow. */
     octree_def tree;
     /* `kind` is OCTREE_PLAYER_NONE or OCTREE_PLAYER_BODY. With OCTREE_PLAYER_BODY the point with the player's id is the
-     * player, and Octreel finds its collisions, with the player's box_size and sweep. */
+     * player, and Octreel finds its collisions, with the player's box_size and sweep. The half extents of this body do
+     * not change its collisions. */
     octree_player player;
     int width, height;    /* size of a frame in pixels, 1 to 16384 */
     const char *camera;   /* the camera: "iso", "orbit", "follow" ... */
@@ -170,6 +171,9 @@ octreel_recorder_def octreel_recorder_def_default(void);
  * an empty C++ vector may be null. A point outside the world is in no answer. A tick in which a point is inserted
  * outside the world, moves out of the world, or moves outside the world has the event "refused".
  *
+ * A body may reach beyond the world; only its position must lie in it. In a session a move keeps a body's extents.
+ * A body whose extents change is therefore removed and inserted again where it is, and then moved.
+ *
  * Shapes are everything in a frame that is not a point or a node, such as walls and goals. */
 typedef struct octreel_tick_info {
     /* The queries, in any order. All numbers must be finite. at_player may be true only if the recorder has a
@@ -180,15 +184,16 @@ typedef struct octreel_tick_info {
     size_t shape_count;
     const octree_point *points; /* all points, in any order; each id occurs once */
     size_t point_count;
-    /* Point changes since the last call, in the order in which they were made. A point may change several times.
-     * Velocities are ignored. */
+    /* Point changes since the last call, in the order in which they were made. A point may change several times. An
+     * insertion has the half extents of its body; a move keeps them. To change the extents of a body, remove it and
+     * insert it again. Velocities are ignored. */
     const octree_edit *changes;
     size_t change_count;
     /* The nodes of the program's own index, valid from this tick on. Null: the nodes are the same as at the previous
      * tick. The queries' `visits` name the nodes that a query visited, left out or found points in. */
     const octree_foreign_tree *foreign;
     /* The pairs that the program's own index found at this tick, to be compared with the exact pairs. Null: no pairs
-     * are compared at this tick. A recorder's points have no extents, so only points at equal positions overlap. */
+     * are compared at this tick. */
     const octree_foreign_pairs *foreign_pairs;
 } octreel_tick_info;
 
@@ -208,9 +213,9 @@ octreel_status octreel_recorder_open(const octreel_recorder_def *def, octreel_re
  * An error of the worker is returned by a later tick or by octreel_recorder_close().
  *
  * If a tick is refused, its list of points is ignored. Its changes and foreign nodes become part of the next accepted
- * tick. Invalid changes are dropped: BAD_POINT (a NaN, an infinity, an unknown kind), BAD_ID, DUPLICATE_ID (an
- * insertion of an existing id) and NO_POINT (a move or removal of a missing point). The error names the first invalid
- * change. After NO_MEMORY no change is kept: pass the tick again.
+ * tick. Invalid changes are dropped: BAD_POINT (a NaN, an infinity, a negative half extent, an unknown kind), BAD_ID,
+ * DUPLICATE_ID (an insertion of an existing id) and NO_POINT (a move or removal of a missing point). The error names
+ * the first invalid change. After NO_MEMORY no change is kept: pass the tick again.
  *
  * Errors: NULL_ARGUMENT, OTHER_TREE, TWO_SOURCES, DUPLICATE_ID, BAD_ID, BAD_POINT, NO_POINT, BAD_QUERY, BAD_SHAPE,
  * BAD_NODE, BAD_PAIR, BUSY, CLOSED, NO_MEMORY; of the worker: CANNOT_DRAW, BAD_FOLDER (the folder is no longer as it
@@ -222,6 +227,8 @@ octreel_status octreel_recorder_open(const octreel_recorder_def *def, octreel_re
  *    - a tree of which more than an eighth changes, or that is new to the recorder, or was tuned, compacted or
  *      cleared; and a list: O(nodes + n + q), and 96 bytes per point.
  *    - changes: O(changes log changes + q), and up to 128 bytes per point. The first changes after a list cost more.
+ *    - in addition, half extents: up to 128 bytes per body with extents, and up to 128 bytes for the worker
+ *      thread.
  *    - in addition, m foreign nodes or pairs: O(m log m).
  * A tick's changes use memory until the tick is filmed. */
 octreel_status octreel_recorder_tick(octreel_recorder *recorder, const octree *tree, const octreel_tick_info *about);
