@@ -123,7 +123,7 @@ static octreel_status read_edits(contents *c, const octreel_tick_info *about, oc
     if (!switch_to_tables(c))
         return status_fail(error, OCTREEL_NO_MEMORY);
     c->source = FROM_CHANGES;
-    for (size_t i = 0; about && i < about->change_count; i++) {
+    for (size_t i = 0; i < about->change_count; i++) {
         const octreel_status status = add_edit(c, &about->changes[i], i, first == OCTREEL_OK ? error : &later);
         if (status == OCTREEL_NO_MEMORY)
             return status_fail(error, status);
@@ -132,22 +132,35 @@ static octreel_status read_edits(contents *c, const octreel_tick_info *about, oc
     return first;
 }
 
-/* ---- A list, or a whole tree -------------------------------------------------------------------------------- */
+/* ---- A list, a set of bodies, or a whole tree ---------------------------------------------------------------- */
 
-/* Read all points of a tree, or of a list if the tree is null. */
-static octreel_status read_whole_tree(contents *c, const octree *tree, const octree_point *list, size_t count,
-                                      octreel_error *error)
+/* Read all points of a tree, or of the set or the list in `about` if the tree is null. */
+static octreel_status read_all_points(contents *c, const octree *tree, const octreel_tick_info *about, uint64_t *clash)
+{
+    points *positions = &c->tracks[POSITIONS].next, *extents = &c->tracks[EXTENTS].next;
+    if (about->body_set || about->bodies)
+        return points_read_bodies(positions, extents, &c->spare, about->body_set, about->bodies,
+                                  about->body_set ? octree_bodies_count(about->body_set) : about->body_count, clash);
+    extents->count = 0;
+    return points_read(positions, &c->spare, tree, about->points, tree ? octree_count(tree) : about->point_count,
+                       clash);
+}
+
+/* Compare all points with the points of the tick before. */
+static octreel_status read_and_compare(contents *c, const octree *tree, const octreel_tick_info *about,
+                                       octreel_error *error)
 {
     uint64_t clash = 0;
+    const char *list = about->points ? "points" : "bodies";
+    const bool listed = about->points || about->bodies;
     if (!switch_to_lists(c))
         return status_fail(error, OCTREEL_NO_MEMORY);
-    c->tracks[EXTENTS].next.count = 0;
-    const octreel_status status = points_read(&c->tracks[POSITIONS].next, &c->spare, tree, list, count, &clash);
-    if (status == OCTREEL_DUPLICATE_ID && !tree)
-        return status_refuse(error, status, "points: two points have the id %" PRIu64, clash);
+    const octreel_status status = read_all_points(c, tree, about, &clash);
+    if (status == OCTREEL_DUPLICATE_ID && listed)
+        return status_refuse(error, status, "%s: two %s have the id %" PRIu64, list, list, clash);
     if (status == OCTREEL_DUPLICATE_ID || status == OCTREEL_BAD_ID)
-        return status_refuse(error, status, "%s%s: %" PRIu64, tree ? "" : "points: ", octreel_status_text(status),
-                             clash);
+        return status_refuse(error, status, "%s%s%s: %" PRIu64, listed ? list : "", listed ? ": " : "",
+                             octreel_status_text(status), clash);
     if (status != OCTREEL_OK)
         return status_fail(error, status);
     return track_compare_lists(&c->tracks[POSITIONS], c->many_changes) &&
@@ -156,12 +169,17 @@ static octreel_status read_whole_tree(contents *c, const octree *tree, const oct
                : status_fail(error, OCTREEL_NO_MEMORY);
 }
 
-static octreel_status read_point_list(contents *c, const octree_point *list, size_t count, octreel_error *error)
+static octreel_status read_list_or_set(contents *c, const octreel_tick_info *about, octreel_error *error)
 {
-    for (size_t i = 0; i < count; i++)
-        if (!is_finite_place(list[i].position))
+    for (size_t i = 0; i < about->point_count; i++)
+        if (!is_finite_place(about->points[i].position))
             return status_refuse(error, OCTREEL_BAD_POINT, BAD_PLACE, "points", i);
-    return read_whole_tree(c, NULL, list, count, error);
+    for (size_t i = 0; i < about->body_count; i++)
+        if (!is_finite_place(about->bodies[i].position))
+            return status_refuse(error, OCTREEL_BAD_POINT, BAD_PLACE, "bodies", i);
+        else if (!are_valid_extents(about->bodies[i].half))
+            return status_refuse(error, OCTREEL_BAD_POINT, BAD_EXTENTS, "bodies", i);
+    return read_and_compare(c, NULL, about, error);
 }
 
 /* ---- Changes from a tree's log ------------------------------------------------------------------------------ */
@@ -206,47 +224,55 @@ static bool read_log(contents *c, const octree *tree)
            c->tracks[POSITIONS].table.count == octree_count(tree);
 }
 
-static octreel_status read_tree(contents *c, const octree_def *def, const octree *tree, octreel_error *error)
+static octreel_status read_tree(contents *c, const octree_def *def, const octree *tree, const octreel_tick_info *about,
+                                octreel_error *error)
 {
     const track *positions = &c->tracks[POSITIONS];
     octreel_status status = check_tree_definition(def, tree, error);
     if (status == OCTREEL_OK && !read_log(c, tree))
-        status = read_whole_tree(c, tree, NULL, octree_count(tree), error);
+        status = read_and_compare(c, tree, about, error);
     c->many_changes = positions->changes.count - positions->kept > octree_count(tree) / 8 + 16;
     return status;
 }
 
 /* ---- A tick ------------------------------------------------------------------------------------------------- */
 
-/* Find the source of this tick's points: tree, list or changes. If the program passes no points at this tick, the
+/* Find the source of this tick's points: tree, set, list or changes. If the program passes no points at this tick, the
  * source of the previous tick is used again, with an empty list of points or with no changes. */
 static octreel_status choose_points_source(contents *c, const octree *tree, const octreel_tick_info *about,
                                            octreel_error *error)
 {
-    const bool list = about && (about->points || about->point_count);
-    const bool changes = about && (about->changes || about->change_count);
-    c->read_source = tree ? FROM_TREE : list ? FROM_LIST : changes ? FROM_CHANGES : c->source;
-    if ((list && !about->points) || (changes && !about->changes))
+    const bool points = about->points || about->point_count, bodies = about->bodies || about->body_count;
+    const bool set = about->body_set, changes = about->changes || about->change_count;
+    c->read_source = tree               ? FROM_TREE
+                     : set              ? FROM_SET
+                     : points || bodies ? FROM_LIST
+                     : changes          ? FROM_CHANGES
+                                        : c->source;
+    if ((points && !about->points) || (bodies && !about->bodies) || (changes && !about->changes))
         return status_fail(error, OCTREEL_NULL_ARGUMENT);
-    if ((tree != NULL) + list + changes > 1 ||
+    if ((tree != NULL) + set + points + bodies + changes > 1 ||
         (c->source != FROM_NOTHING && (c->source == FROM_TREE) != (c->read_source == FROM_TREE)))
         return status_fail(error, OCTREEL_TWO_SOURCES);
-    return c->read_source == FROM_TREE && !tree ? status_fail(error, OCTREEL_NULL_ARGUMENT) : OCTREEL_OK;
+    const bool omitted = (c->read_source == FROM_TREE && !tree) || (c->read_source == FROM_SET && !set);
+    return omitted ? status_fail(error, OCTREEL_NULL_ARGUMENT) : OCTREEL_OK;
 }
 
 octreel_status contents_read(contents *c, const octree_def *def, const octree *tree, const octreel_tick_info *about,
                              octreel_error *error)
 {
+    static const octreel_tick_info nothing;
+    about = about ? about : &nothing;
     for (int i = 0; i < TRACKS; i++)
         track_begin_tick(&c->tracks[i]);
     const octreel_status status = choose_points_source(c, tree, about, error);
     if (status != OCTREEL_OK)
         return status;
     if (c->read_source == FROM_TREE)
-        return read_tree(c, def, tree, error);
+        return read_tree(c, def, tree, about, error);
     if (c->read_source == FROM_CHANGES)
         return read_edits(c, about, error);
-    return read_point_list(c, about ? about->points : NULL, about ? about->point_count : 0, error);
+    return read_list_or_set(c, about, error);
 }
 
 void contents_move_changes_to_batch(contents *c, batch *b)

@@ -7,12 +7,12 @@
 #include "track.h"
 #include "octree/octree.h"
 
-typedef enum points_source { FROM_NOTHING, FROM_TREE, FROM_LIST, FROM_CHANGES } points_source;
+typedef enum points_source { FROM_NOTHING, FROM_TREE, FROM_SET, FROM_LIST, FROM_CHANGES } points_source;
 
 /* The current points of a program. Every source of points is turned into changes since the last accepted tick. The
- * lists of the tracks are used for lists, and for trees in which many points change; their tables for other trees and
- * for changes. When the source of the points changes, the other way may be used from then on. A zero-initialized struct
- * has no points. */
+ * lists of the tracks are used for lists, for sets of bodies, and for trees in which many points change; their tables
+ * for other trees and for changes. When the source of the points changes, the other way may be used from then on.
+ * A zero-initialized struct has no points. */
 typedef struct contents {
     /* `source`: where the points of the last accepted tick with points came from. `read_source`: where the points of
      * the tick that was read last came from. */

@@ -6,6 +6,7 @@
 #include "octree/octree.h"
 #include "session_file.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -142,6 +143,44 @@ octreel_status points_read(points *p, points *spare, const octree *tree, const o
         memcpy(p->items, list, count * sizeof *list);
     p->count = count;
     return check_ids_and_sort(p, spare, clash);
+}
+
+typedef struct body_lists {
+    points *positions, *extents;
+} body_lists;
+
+static void add_vector(points *p, uint64_t id, const double vector[3])
+{
+    octree_point *added = &p->items[p->count++];
+    memcpy(added->position, vector, sizeof added->position);
+    added->id = id;
+}
+
+static bool add_body(const octree_body *body, void *context)
+{
+    const body_lists *lists = context;
+    add_vector(lists->positions, body->id, body->position);
+    if (has_extents(body->half))
+        add_vector(lists->extents, body->id, body->half);
+    return true;
+}
+
+octreel_status points_read_bodies(points *p, points *extents, points *spare, const octree_bodies *set,
+                                  const octree_body *list, size_t count, uint64_t *clash)
+{
+    const octree_region everywhere = {.box = {{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, {HUGE_VAL, HUGE_VAL, HUGE_VAL}}};
+    body_lists lists = {p, extents};
+    p->count = extents->count = 0;
+    if (!reserve_points_in_list(p, count) || !reserve_points_in_list(extents, count) ||
+        !reserve_points_in_list(spare, count))
+        return OCTREEL_NO_MEMORY;
+    if (set)
+        octree_bodies_search(set, &everywhere, NULL, add_body, &lists); /* cannot fail: its arguments are valid */
+    for (size_t i = 0; !set && i < count; i++)
+        add_body(&list[i], &lists);
+    if (extents->count > 0)
+        sort_by_id(extents, spare);
+    return p->count > 0 ? check_ids_and_sort(p, spare, clash) : OCTREEL_OK;
 }
 
 /* ---- The table ----------------------------------------------------------------------------------------------

@@ -21,6 +21,11 @@ void points_swap(points *a, points *b);
 octreel_status points_read(points *p, points *spare, const octree *tree, const octree_point *list, size_t count,
                            uint64_t *clash);
 
+/* Read all bodies of a set, or of a list if the set is null: their positions into `p`, and the half extents of the
+ * bodies that have any into `extents`. Errors and cost: those of points_read(). */
+octreel_status points_read_bodies(points *p, points *extents, points *spare, const octree_bodies *set,
+                                  const octree_body *list, size_t count, uint64_t *clash);
+
 /* Returns whether a body with these half extents is more than a point. Returns true for invalid half extents. */
 static inline bool has_extents(const double half[3])
 {

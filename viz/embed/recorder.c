@@ -274,7 +274,7 @@ static octreel_status open_recorder(const octreel_recorder_def *def, octreel_rec
  * the recording. */
 static octreel_status let_full_leaves_grow(octreel_recorder *r)
 {
-    const bool listed = r->contents.read_source == FROM_LIST || r->contents.read_source == FROM_CHANGES;
+    const bool listed = r->contents.read_source != FROM_TREE && r->contents.read_source != FROM_NOTHING;
     if (!listed || r->settings.tree.full_leaf == OCTREE_GROW)
         return OCTREEL_OK;
     if (r->put > 0)

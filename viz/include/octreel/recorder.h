@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* recorder.h - records a program from inside. In each tick of its loop the program passes its points and its queries. A
- * program that uses the octree library passes its octree. A program with an index of its own passes a list of points,
- * or the changes of its points. A query may carry the program's own answer. Octreel then compares this answer with the
- * exact answer, and "octreel audit" prints the result.
+ * program that uses the octree library passes its octree or its set of bodies. A program with an index of its own
+ * passes a list of points or bodies, or their changes. A query may carry the program's own answer. Octreel then
+ * compares this answer with the exact answer, and "octreel audit" prints the result.
  *
  * The recorder writes a session. Point changes since the last tick become edits; the program's queries and shapes are
  * stored beside them. The result is an ordinary recording: octreel can verify, join, compare and replay it. Recording
@@ -67,7 +67,7 @@ extern "C" {
     X(BAD_FOLDER, "no recording can be written into the folder")                                                       \
     X(CANNOT_DRAW, "no renderer can draw the frames")                                                                  \
     X(OTHER_TREE, "the tree's world or options differ from the definition with which the recorder was opened")         \
-    X(TWO_SOURCES, "a tick has more than one of tree, points and changes, or only some of the ticks have a tree")      \
+    X(TWO_SOURCES, "a tick has points from more than one source, or only some of the ticks have a tree")               \
     X(DUPLICATE_ID, "two points have the same id")                                                                     \
     X(BAD_POINT, "a point or a change has a NaN, an infinity, a negative half extent or an unknown kind")              \
     X(NO_POINT, "a change moves or removes a point that does not exist")                                               \
@@ -107,9 +107,9 @@ typedef struct octreel_recorder_def {
      * is BAD_FOLDER if the folder holds files that only look like a recording, or if a process is recording into the
      * folder. */
     bool replace;
-    /* The octree_definition() of the program's trees; its allocator is not used. A program that passes lists or changes
-     * sets a world that should contain all points, and the capacity and depth of the tree that Octreel builds to show
-     * the points. Full leaves of Octreel's tree grow. */
+    /* The octree_definition() of the program's trees; its allocator is not used. A program that passes lists, sets or
+     * changes sets a world that should contain all positions, and the capacity and depth of the tree that Octreel
+     * builds to show the points. Full leaves of Octreel's tree grow. */
     octree_def tree;
     /* `kind` is OCTREE_PLAYER_NONE or OCTREE_PLAYER_BODY. With OCTREE_PLAYER_BODY the point with the player's id is the
      * player, and Octreel finds its collisions, with the player's box_size and sweep. The half extents of this body do
@@ -165,11 +165,12 @@ octreel_recorder_def octreel_recorder_def_default(void);
  * made before a change, call octreel_recorder_tick() once before that change. If a query carries the program's own
  * answer, the answer is copied and checked.
  *
- * In one tick the points come from the tree, from `points` or from `changes`. A program may use lists at some ticks and
- * changes at others, but then it must not use trees. If a program that uses changes passes none of the three at a tick,
- * no point has changed. If a program that uses lists passes none of the three, its list is empty: the data pointer of
- * an empty C++ vector may be null. A point outside the world is in no answer. A tick in which a point is inserted
- * outside the world, moves out of the world, or moves outside the world has the event "refused".
+ * In one tick the points come from the tree or from one of `points`, `bodies`, `body_set` and `changes`. A program may
+ * use lists or sets at some ticks and changes at others, but then it must not use trees. If a program passes no points
+ * at a tick, the tick before decides. After changes, no point has changed. After a list, the list is empty: the data
+ * pointer of an empty C++ vector may be null. After a set, a null set is the error NULL_ARGUMENT. A point outside the
+ * world is in no answer. A tick in which a point is inserted outside the world, moves out of the world, or moves
+ * outside the world has the event "refused".
  *
  * A body may reach beyond the world; only its position must lie in it. In a session a move keeps a body's extents.
  * A body whose extents change is therefore removed and inserted again where it is, and then moved.
@@ -184,6 +185,11 @@ typedef struct octreel_tick_info {
     size_t shape_count;
     const octree_point *points; /* all points, in any order; each id occurs once */
     size_t point_count;
+    const octree_body *bodies; /* all bodies, in any order; each id occurs once */
+    size_t body_count;
+    /* The program's set of bodies. Its ids must be unique. Frames show Octreel's tree of their positions, with the
+     * options of octreel_recorder_def.tree, and not the levels of the set. */
+    const octree_bodies *body_set;
     /* Point changes since the last call, in the order in which they were made. A point may change several times. An
      * insertion has the half extents of its body; a move keeps them. To change the extents of a body, remove it and
      * insert it again. Velocities are ignored. */
@@ -212,7 +218,7 @@ octreel_status octreel_recorder_open(const octreel_recorder_def *def, octreel_re
  * queue. If the queue is full, the call waits until the worker has finished a tick, or returns BUSY under never_wait.
  * An error of the worker is returned by a later tick or by octreel_recorder_close().
  *
- * If a tick is refused, its list of points is ignored. Its changes and foreign nodes become part of the next accepted
+ * If a tick is refused, its list or set is ignored. Its changes and foreign nodes become part of the next accepted
  * tick. Invalid changes are dropped: BAD_POINT (a NaN, an infinity, a negative half extent, an unknown kind), BAD_ID,
  * DUPLICATE_ID (an insertion of an existing id) and NO_POINT (a move or removal of a missing point). The error names
  * the first invalid change. After NO_MEMORY no change is kept: pass the tick again.
@@ -225,10 +231,10 @@ octreel_status octreel_recorder_open(const octreel_recorder_def *def, octreel_re
  *    - a tree of which at most an eighth changes in a tick: O(changes + q), some hundred nanoseconds per change. The
  *      tree then keeps its changes for the recorder (octree_changes_since), at 64 bytes each.
  *    - a tree of which more than an eighth changes, or that is new to the recorder, or was tuned, compacted or
- *      cleared; and a list: O(nodes + n + q), and 96 bytes per point.
+ *      cleared; and a list or a set: O(nodes + n + q), and 96 bytes per point.
  *    - changes: O(changes log changes + q), and up to 128 bytes per point. The first changes after a list cost more.
- *    - in addition, half extents: up to 128 bytes per body with extents, and up to 128 bytes for the worker
- *      thread.
+ *    - in addition, half extents: 64 bytes per body of a list or a set, or up to 128 bytes per body with extents of
+ *      changes, and up to 128 bytes per body with extents for the worker thread.
  *    - in addition, m foreign nodes or pairs: O(m log m).
  * A tick's changes use memory until the tick is filmed. */
 octreel_status octreel_recorder_tick(octreel_recorder *recorder, const octree *tree, const octreel_tick_info *about);
