@@ -45,8 +45,9 @@
 #include <emmintrin.h>
 #endif
 
-/* Where the compiler can compile single files for AVX2, and ask the processor for it. */
-#if defined(OCTREE_SSE2) && defined(__x86_64__) && defined(__GNUC__)
+/* Where the compiler can compile single files for AVX2, and ask the processor for it. On Windows, GCC does not align
+ * the stack for AVX (its bug 54412). */
+#if defined(OCTREE_SSE2) && defined(__x86_64__) && defined(__GNUC__) && !defined(_WIN32)
 #define OCTREE_AVX2
 #endif
 
