@@ -259,6 +259,17 @@ static void measure_and_offer(ordered_search *s, const octree_point *point)
         offer_body(s, body, k);
 }
 
+/* Returns the index of the least bound, of those in a mask. */
+static inline unsigned find_nearest(const double *bounds, uint64_t some)
+{
+    unsigned nearest = bits_lowest(some);
+    for (some &= some - 1; some; some &= some - 1) {
+        const unsigned i = bits_lowest(some);
+        nearest = bounds[i] < bounds[nearest] ? i : nearest;
+    }
+    return nearest;
+}
+
 /* Offer the bodies of at most SCAN_POINTS points. The body with the least bound comes first: its key is a limit for the
  * others. */
 static void scan_points(ordered_search *s, const octree_point *points, unsigned count)
@@ -267,13 +278,8 @@ static void scan_points(ordered_search *s, const octree_point *points, unsigned 
     uint64_t near = s->bound_bodies(&s->bounds, points, count, s->cut, bounds);
     if (near == 0)
         return;
-    unsigned first = bits_lowest(near);
-    for (uint64_t left = near; left; left &= left - 1) {
-        const unsigned i = bits_lowest(left);
-        first = bounds[i] < bounds[first] ? i : first;
-        if (!s->set->points)
-            prefetch_body(row_at(&s->set->rows, row_of_point(&points[i])));
-    }
+    prefetch_bodies(s->set, points, near);
+    const unsigned first = find_nearest(bounds, near);
     measure_and_offer(s, &points[first]);
     for (near &= ~(UINT64_C(1) << first); near; near &= near - 1)
         if (bounds[bits_lowest(near)] <= s->cut)
@@ -288,17 +294,6 @@ static void scan_leaf(ordered_search *s, const node *leaf)
         const uint32_t left = leaf->count - start;
         scan_points(s, leaf_points(leaf) + start, left < SCAN_POINTS ? left : SCAN_POINTS);
     }
-}
-
-/* Returns the child with the least bound, of a mask of the indices or the octants of children. */
-static inline unsigned find_nearest(const double bounds[8], unsigned children)
-{
-    unsigned nearest = bits_lowest(children);
-    for (unsigned left = children & (children - 1); left; left &= left - 1) {
-        const unsigned i = bits_lowest(left);
-        nearest = bounds[i] < bounds[nearest] ? i : nearest;
-    }
-    return nearest;
 }
 
 /* Search a node whose children have boxes, or a leaf. Mostly few children remain after the nearest one is searched, so

@@ -46,8 +46,7 @@ static uint64_t scan_bodies(const void *shape, const octree_point *points, unsig
     const body_search *s = shape;
     const body_masks masks = s->shape.kind->filter(&s->shape, points, count);
     uint64_t found = s->contained ? 0 : masks.sure;
-    for (uint64_t left = s->set->points ? 0 : masks.near; left; left &= left - 1)
-        prefetch_body(row_at(&s->set->rows, row_of_point(&points[bits_lowest(left)])));
+    prefetch_bodies(s->set, points, masks.near);
     for (uint64_t left = masks.near & ~found; left; left &= left - 1) {
         const unsigned i = bits_lowest(left);
         octree_body scratch;

@@ -122,6 +122,13 @@ static inline uint32_t row_of_point(const octree_point *point)
     return (uint32_t)(point->id >> ROW_SHIFT);
 }
 
+/* Start to load the bodies of some points of a level, given as a bit mask. */
+static inline void prefetch_bodies(const octree_bodies *set, const octree_point *points, uint64_t some)
+{
+    for (some = set->points ? 0 : some; some; some &= some - 1)
+        prefetch_body(row_at(&set->rows, row_of_point(&points[bits_lowest(some)])));
+}
+
 /* Returns the body of a point of a level: its row, or `scratch`, which is filled. */
 static inline const octree_body *load_body(const octree_bodies *set, const octree_point *point, octree_body *scratch)
 {
