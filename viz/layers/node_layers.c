@@ -148,7 +148,7 @@ static void add_points(tree_walk *w, const octree_node *leaf)
     style.role = view_paints_points(&s->view) ? ROLE_OWN : style.role;
     const size_t before = s->markers.count;
     scene_add_points(s, some, count, SHAPE_SQUARE, style);
-    if (style.role == ROLE_OWN)
+    if (style.role == ROLE_OWN && s->markers.count > before)
         color_points(&s->view, w->values, leaf, s->markers.items + before, s->markers.count - before);
     s->tally.points += count;
     thin_points_to_budget(w);
