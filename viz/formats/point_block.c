@@ -341,7 +341,7 @@ static bool read_head(block_reader *r, point_block *b)
 
 static void set_value_by_code(point_block *b, column_name column, number_form form, size_t i, uint64_t code)
 {
-    point_value *value = b->values.rows + i;
+    point_value *value = b->values.rows ? b->values.rows + i : NULL;
     if (column == COLUMN_ID)
         b->bodies[i].id = code;
     else if (column <= COLUMN_Z)
