@@ -42,7 +42,9 @@ static char *report_text(comparison_of *made, const evidence *e, reporter *write
 /* Three frames that are the same, differ and cannot be read. */
 static comparison_of compare_three(void **state, const char *cause)
 {
-    const place a = gallery_make(*state, "a", "1.png 2.png 3.png"), b = gallery_make(*state, "b", "1.png 2.png 3.png");
+    static place a, b; /* the sides refer to these paths */
+    a = gallery_make(*state, "a", "1.png 2.png 3.png");
+    b = gallery_make(*state, "b", "1.png 2.png 3.png");
     gallery_write(place_below(b.path, "2.png").path, 1, 4);
     assert_int_equal(truncate(place_below(b.path, "3.png").path, 99), 0);
     return compare(a.path, b.path, cause);
