@@ -2,7 +2,8 @@
 /* bounds_avx2.c - the bounds of bodies.h for processors with AVX2: four bodies at once.
  *
  * The library is compiled for all processors of its architecture, and only this file for AVX2; bounds.c chooses when a
- * query is prepared. Measured in instructions: a search for the bodies in a box takes 0.8 of those in two lanes.
+ * query is prepared. Among 1e5 uniform bodies, a search for the bodies in a box takes 0.76 of the instructions of two
+ * lanes, a ray 0.77, and the nearest body 0.84 (callgrind).
  */
 #include "../exact/float_rules.h"
 
