@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* bounds_avx2.c - the bounds of bodies.h for processors with AVX2: four bodies at once.
+/* bounds_avx2.c - the bounds of bounds.h for processors with AVX2: four bodies at once.
  *
  * The library is compiled for all processors of its architecture, and only this file for AVX2; bounds.c chooses when a
  * query is prepared. Among 1e5 uniform bodies, a search for the bodies in a box takes 0.76 of the instructions of two

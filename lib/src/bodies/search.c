@@ -144,10 +144,10 @@ static void search_boxes(body_search *s)
 
 /* ---- Nodes without boxes ------------------------------------------------------------------------------------ */
 
-static octant_masks enter_cell(void *shape, const octree *tree, const node *n, unsigned depth, unsigned octant)
+static octant_masks enter_cell(void *shape, const octree *tree, unsigned depth, unsigned octant)
 {
     body_search *s = shape;
-    const octant_masks masks = box_shape_enter(&s->around, tree, n, depth, octant);
+    const octant_masks masks = box_shape_enter(&s->around, tree, depth, octant);
     if (s->by_keys)
         return masks;
     const int32_t *low = s->around.low[depth];

@@ -51,9 +51,8 @@ static void measure_planes(const ball *b, const octree *tree, ball_cell *c)
     }
 }
 
-static octant_masks enter_ball_cell(void *shape, const octree *tree, const node *n, unsigned depth, unsigned octant)
+static octant_masks enter_ball_cell(void *shape, const octree *tree, unsigned depth, unsigned octant)
 {
-    (void)n;
     ball *b = shape;
     ball_cell *c = &b->cells[depth];
     if (depth > 0) {

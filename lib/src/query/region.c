@@ -76,7 +76,7 @@ static void prefetch_children(const frame *f)
 static void enter_inner_node(descent *d, const node *n, octree_address address, unsigned octant)
 {
     region *r = d->region;
-    const octant_masks masks = r->enter(r->shape, r->tree, n, d->depth, octant);
+    const octant_masks masks = r->enter(r->shape, r->tree, d->depth, octant);
     frame *f = &d->frames[++d->depth];
     *f = (frame){n, address, masks.meets & n->octants, masks.inside};
     prefetch_children(f);
@@ -177,9 +177,9 @@ octant_masks box_shape_root(const box_shape *s, const octree *tree)
     return root;
 }
 
-octant_masks box_shape_enter(void *shape, const octree *tree, const node *n, unsigned depth, unsigned octant)
+octant_masks box_shape_enter(void *shape, const octree *tree, unsigned depth, unsigned octant)
 {
-    (void)tree, (void)n;
+    (void)tree;
     box_shape *s = shape;
     const int32_t size = (int32_t)cell_size(depth), half = size / 2;
     unsigned meets = 0xff, inside = 0xff;

@@ -23,9 +23,9 @@ static const uint8_t octants_beside[3][2] = {{0x0f, 0xf0}, {0x33, 0xcc}, {0x55, 
 typedef struct region {
     const octree *tree;
     void *shape;
-    /* Returns the masks of the cell of an inner node `n` at a depth. The cell is the given octant of the cell that was
-     * last entered one level above. */
-    octant_masks (*enter)(void *shape, const octree *tree, const node *n, unsigned depth, unsigned octant);
+    /* Returns the masks of the cell of an inner node at a depth. The cell is the given octant of the cell that was last
+     * entered one level above. */
+    octant_masks (*enter)(void *shape, const octree *tree, unsigned depth, unsigned octant);
     /* Returns a bit mask of the points that are in the region: bit i is for points[i]. 1 <= count <= SCAN_POINTS. */
     uint64_t (*scan)(const void *shape, const octree_point *points, unsigned count);
     octree_point_visitor visit; /* null: the points are counted, but not visited */
@@ -90,7 +90,7 @@ box_shape box_shape_make(const octree *tree, const octree_box *box, const octree
 
 /* The functions of a box's shape, for region_search(). */
 octant_masks box_shape_root(const box_shape *s, const octree *tree);
-octant_masks box_shape_enter(void *shape, const octree *tree, const node *n, unsigned depth, unsigned octant);
+octant_masks box_shape_enter(void *shape, const octree *tree, unsigned depth, unsigned octant);
 uint64_t box_shape_scan(const void *shape, const octree_point *points, unsigned count);
 
 #endif

@@ -164,10 +164,10 @@ typedef struct swept_shape {
     sweep box;
 } swept_shape;
 
-static octant_masks enter_swept_cell(void *shape, const octree *tree, const node *n, unsigned depth, unsigned octant)
+static octant_masks enter_swept_cell(void *shape, const octree *tree, unsigned depth, unsigned octant)
 {
     swept_shape *s = shape;
-    const octant_masks around = box_shape_enter(&s->around, tree, n, depth, octant);
+    const octant_masks around = box_shape_enter(&s->around, tree, depth, octant);
     /* If only one octant meets the box, the hull is not compared with the octants here, but with the octants of that
      * octant. */
     if ((around.meets & (around.meets - 1)) == 0)
