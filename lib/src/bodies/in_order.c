@@ -290,10 +290,8 @@ static void scan_leaf(ordered_search *s, const node *leaf)
 {
     s->meter.count.leaves++;
     s->meter.count.points += leaf->count;
-    for (uint32_t start = 0; start < leaf->count; start += SCAN_POINTS) {
-        const uint32_t left = leaf->count - start;
-        scan_points(s, leaf_points(leaf) + start, left < SCAN_POINTS ? left : SCAN_POINTS);
-    }
+    for (uint32_t start = 0; start < leaf->count; start += SCAN_POINTS)
+        scan_points(s, leaf_points(leaf) + start, count_scanned(leaf, start));
 }
 
 /* Search a node whose children have boxes, or a leaf. Mostly few children remain after the nearest one is searched, so

@@ -71,19 +71,13 @@ static bool visit_bodies(body_search *s, const octree_point *points, uint64_t fo
 
 /* ---- Nodes with boxes --------------------------------------------------------------------------------------- */
 
-/* The points of a leaf from an index on, at most SCAN_POINTS. */
-static unsigned count_chunk(const node *leaf, uint32_t begin)
-{
-    return leaf->count - begin < SCAN_POINTS ? leaf->count - begin : SCAN_POINTS;
-}
-
 static bool scan_leaf(body_search *s, const node *leaf)
 {
     s->meter.count.leaves++;
     s->meter.count.points += leaf->count;
     for (uint32_t i = 0; i < leaf->count; i += SCAN_POINTS) {
         const octree_point *points = leaf_points(leaf) + i;
-        if (!visit_bodies(s, points, scan_bodies(s, points, count_chunk(leaf, i))))
+        if (!visit_bodies(s, points, scan_bodies(s, points, count_scanned(leaf, i))))
             return false;
     }
     return true;
@@ -104,7 +98,7 @@ static bool visit_bodies_below(body_search *s, const node *n)
     for (unsigned i = 0; going && i < children; i++)
         going = visit_bodies_below(s, &children_of(n)[i]);
     for (uint32_t i = 0; going && children == 0 && i < n->count; i += SCAN_POINTS)
-        going = visit_bodies(s, leaf_points(n) + i, UINT64_MAX >> (SCAN_POINTS - count_chunk(n, i)));
+        going = visit_bodies(s, leaf_points(n) + i, UINT64_MAX >> (SCAN_POINTS - count_scanned(n, i)));
     return going;
 }
 

@@ -49,8 +49,7 @@ static bool scan_leaf(region *r, const node *leaf)
     r->meter.count.points += leaf->count;
     for (uint32_t start = 0; start < leaf->count; start += SCAN_POINTS) {
         const octree_point *points = leaf_points(leaf) + start;
-        const uint32_t left = leaf->count - start;
-        uint64_t found = r->scan(r->shape, points, left < SCAN_POINTS ? left : SCAN_POINTS);
+        uint64_t found = r->scan(r->shape, points, count_scanned(leaf, start));
         if (!r->visit)
             r->count += bits_count(found);
         for (; r->visit && found; found &= found - 1)

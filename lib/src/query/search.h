@@ -12,6 +12,12 @@
 
 #define SCAN_POINTS 64 /* the greatest number of points of a leaf that are compared in one call */
 
+/* Returns the number of points that one such call compares, of a leaf from an index on. */
+static inline unsigned count_scanned(const node *leaf, uint32_t begin)
+{
+    return leaf->count - begin < SCAN_POINTS ? leaf->count - begin : SCAN_POINTS;
+}
+
 /* Returns a copy of *how, or the default options if `how` is null. */
 octree_search search_or_default(const octree_search *how);
 
