@@ -40,31 +40,29 @@ static octree_walk_order check_rows_of_leaf(const octree_node *node, void *conte
     return s->violation ? OCTREE_WALK_STOP : OCTREE_WALK_ON;
 }
 
-/* Returns whether the counts and the reach of a level are those of its bodies. */
-static bool is_reach_right(const level *l, const level *counted)
+/* Returns whether the counts and the reach of level 0 are those of its bodies. */
+static bool is_reach_right(const octree_bodies *set, const octree_bodies *counted)
 {
-    return octree_count(l->tree) == 0 || (memcmp(l->counts, counted->counts, sizeof *l->counts) == 0 &&
-                                          memcmp(l->reach, counted->reach, sizeof l->reach) == 0);
+    return memcmp(set->reach_counts, counted->reach_counts, sizeof set->reach_counts) == 0 &&
+           memcmp(set->levels[0].reach, counted->levels[0].reach, sizeof set->levels[0].reach) == 0;
 }
 
-/* Count the half extents of all levels again, in a set on the stack that has no bodies. */
+/* Count the half extents of level 0 again, in a set on the stack that has no bodies. */
 static const char *check_rows(const octree_bodies *set)
 {
-    octree_bodies counted = {.world_exponent = set->world_exponent, .floor_bucket = set->floor_bucket};
-    reach_counts counts[OCTREE_BODY_LEVELS] = {{{{0}}}};
+    octree_bodies counted = {.world_exponent = set->world_exponent};
     size_t count = 0;
     inspection s = {(octree_bodies *)(uintptr_t)set, &counted, 0, NULL};
     for (; s.number < OCTREE_BODY_LEVELS && !s.violation; s.number++) {
         const level *l = &set->levels[s.number];
-        counted.levels[s.number].counts = &counts[s.number];
         count += octree_count(l->tree);
         if (l->tree)
             octree_walk(l->tree, check_rows_of_leaf, &s);
-        if (!s.violation && !is_reach_right(l, &counted.levels[s.number]))
-            s.violation = "the reach of a level is not that of its bodies";
         if (!s.violation && l->tree && !are_boxes_right(l))
             s.violation = "the box of a node is not that of its bodies";
     }
+    if (!s.violation && !is_reach_right(set, &counted))
+        s.violation = "the reach of level 0 is not that of its bodies";
     return s.violation                ? s.violation
            : count == set->rows.count ? NULL
                                       : "the levels do not add up to the number of rows";

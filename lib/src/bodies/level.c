@@ -10,12 +10,12 @@
  * although they differ more: they are not large beside its leaves. A bulk insertion into an empty set chooses the floor
  * (order.c).
  *
- * Nodes without boxes are extended by the `reach` of the level, an upper bound of its half extents, axis by axis, so
+ * Level 0 has no boxes. Its nodes are extended by its `reach`, an upper bound of its half extents, axis by axis, so
  * that thin plates are extended little across. The reach must not depend on the history of the set, so that costs and
- * traces are reproducible: a level counts its half extents in buckets, and the reach is the upper end of the highest
- * bucket in use.
+ * traces are reproducible: the half extents are counted in buckets, and the reach is the upper end of the highest
+ * bucket in use. The reach of another level is the upper end of its sizes.
  *
- * Cost: a query descends once in each level in use. A change updates three counters.
+ * Cost: a query descends once in each level in use. A change in level 0 updates three counters.
  */
 #include "few_bodies.h"
 #include "../query/search.h"
@@ -51,15 +51,8 @@ unsigned find_level(const octree_bodies *set, const double half[3])
 
 octree_status create_level(octree_bodies *set, unsigned number)
 {
-    level *l = &set->levels[number];
-    if (!l->counts)
-        l->counts = arena_allocate(&set->memory, sizeof *l->counts);
-    if (!l->counts)
-        return OCTREE_NO_MEMORY;
-    if (l->tree && octree_count(l->tree) > 0)
-        return OCTREE_OK;
-    *l->counts = (reach_counts){{{0}}};
-    return l->tree ? OCTREE_OK : create_tree(&set->def, number > 0 ? NODE_WITH_BOX : sizeof(node), &l->tree);
+    octree **tree = &set->levels[number].tree;
+    return *tree ? OCTREE_OK : create_tree(&set->def, number > 0 ? NODE_WITH_BOX : sizeof(node), tree);
 }
 
 /* ---- The reach ---------------------------------------------------------------------------------------------- */
@@ -95,11 +88,11 @@ static double value_of_number(int64_t number)
     return value;
 }
 
-/* Returns the upper end of a bucket. The highest bucket of level 0 has no upper end. */
-static double end_of_bucket(const octree_bodies *set, unsigned number, int bucket)
+/* Returns the upper end of the bucket with this number. */
+static double end_of_bucket(int64_t number)
 {
-    const double value = value_of_number(number_of_top_bucket(set, number) + bucket - (REACH_BUCKETS - 1) + 1);
-    return (number == 0 && bucket == REACH_BUCKETS - 1) || value > DBL_MAX ? DBL_MAX : value;
+    const double value = value_of_number(number + 1);
+    return value <= DBL_MAX ? value : DBL_MAX; /* the value may be NaN */
 }
 
 /* The unit is the least power of two of which MAX_STEPS + 1 reach the upper end of the highest bucket. Below 2^-1022 it
@@ -111,39 +104,46 @@ level make_empty_level(const octree_bodies *set, unsigned number)
     level l = {.tree = NULL};
     l.unit = l.rest = value_of_number(unit < BUCKETS_OF_EXPONENT ? BUCKETS_OF_EXPONENT : unit);
     l.inverse_unit = 1 / l.unit;
+    for (int i = 0; i < 3; i++)
+        l.reach[i] = number > 0 ? end_of_bucket(number_of_top_bucket(set, number)) : 0;
     return l;
 }
 
-static void update_reach(octree_bodies *set, unsigned number, int axis)
+/* The highest bucket has no upper end. */
+static void update_reach(octree_bodies *set, int axis)
 {
-    level *l = &set->levels[number];
+    level *l = &set->levels[0];
+    const uint32_t *buckets = set->reach_counts[axis];
     int highest = REACH_BUCKETS - 1;
-    while (highest >= 0 && l->counts->buckets[axis][highest] == 0)
+    while (highest >= 0 && buckets[highest] == 0)
         highest--;
-    l->reach[axis] = highest < 0 ? 0 : end_of_bucket(set, number, highest);
+    l->reach[axis] = highest < 0 ? 0
+                     : highest == REACH_BUCKETS - 1
+                         ? DBL_MAX
+                         : end_of_bucket(number_of_top_bucket(set, 0) + highest + 1 - REACH_BUCKETS);
     l->rest = larger(larger(l->reach[0], l->reach[1]), l->reach[2]) < DBL_MAX ? l->unit : HUGE_VAL;
 }
 
-void change_reach(octree_bodies *set, unsigned number, const double half[3], int change)
+void count_half_extents(octree_bodies *set, const double half[3], int change)
 {
-    const int64_t top = number_of_top_bucket(set, number);
+    const int64_t top = number_of_top_bucket(set, 0);
     for (int i = 0; i < 3; i++) {
         if (half[i] == 0)
             continue;
-        uint32_t *count = &set->levels[number].counts->buckets[i][find_bucket(top, half[i])];
+        uint32_t *count = &set->reach_counts[i][find_bucket(top, half[i])];
         *count += (uint32_t)change;
         if (*count <= 1) /* the bucket has become empty, or is used for the first time */
-            update_reach(set, number, i);
+            update_reach(set, i);
     }
 }
 
 void reset_level(octree_bodies *set, unsigned number)
 {
-    level *l = &set->levels[number];
-    const level kept = *l;
-    *l = make_empty_level(set, number);
-    l->tree = kept.tree;
-    l->counts = kept.counts;
+    octree *tree = set->levels[number].tree;
+    set->levels[number] = make_empty_level(set, number);
+    set->levels[number].tree = tree;
+    if (number == 0)
+        memset(set->reach_counts, 0, sizeof set->reach_counts);
 }
 
 void set_floor(octree_bodies *set, const double floor[3])

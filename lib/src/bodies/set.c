@@ -124,10 +124,8 @@ void octree_bodies_destroy(octree_bodies *bodies)
 {
     if (!bodies || is_running_callback(listed_as(bodies)))
         return;
-    for (unsigned i = 0; !bodies->points && i < OCTREE_BODY_LEVELS; i++) {
+    for (unsigned i = 0; !bodies->points && i < OCTREE_BODY_LEVELS; i++)
         octree_destroy(bodies->levels[i].tree);
-        arena_free(&bodies->memory, bodies->levels[i].counts, sizeof(reach_counts));
-    }
     rows_release(&bodies->rows);
     arena memory = bodies->memory;
     arena_free(&memory, bodies, sizeof *bodies);

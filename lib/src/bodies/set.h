@@ -14,17 +14,11 @@ enum { REACH_BUCKETS = 32 };
 /* A set whose floor was chosen chooses it again when its number of bodies has been multiplied by this. */
 enum { GROWTH_BEFORE_REBUILD = 4 };
 
-/* On each axis, the number of half extents in each bucket. Half extents of 0 are not counted. */
-typedef struct reach_counts {
-    uint32_t buckets[3][REACH_BUCKETS];
-} reach_counts;
-
 /* The bodies of similar size. The largest half extents of two bodies differ by a factor below 4; only the bodies of
  * the first level may be larger than that, and those of the last level smaller. */
 typedef struct level {
-    octree *tree; /* the positions of the bodies; for the ids of its points see few_bodies.h. Null: never used */
-    reach_counts *counts; /* null: never used */
-    double reach[3];      /* an upper bound of the half extents on each axis, a function of the counts */
+    octree *tree;    /* the positions of the bodies; for the ids of its points see few_bodies.h. Null: never used */
+    double reach[3]; /* an upper bound of the half extents on each axis; in level 0, a function of the counts */
     /* The ids of points have the half extents in multiples of `unit`, and the rest is at most `rest` (few_bodies.h).
      * If a half extent is too large for that, and in sets that show points, `rest` is infinite. */
     double unit, rest;
@@ -43,6 +37,8 @@ struct octree_bodies {
     int64_t floor_bucket;
     size_t due; /* the number of bodies at which the set is rebuilt with another floor; SIZE_MAX: never */
     level levels[OCTREE_BODY_LEVELS];
+    /* for level 0: on each axis, the number of half extents in each bucket. Half extents of 0 are not counted. */
+    uint32_t reach_counts[3][REACH_BUCKETS];
     rows rows;
     /* only in a set made by octree_bodies_of_points(): the caller's tree, which is also the tree of the last level */
     const octree *points;
@@ -79,7 +75,7 @@ int find_exponent_of_world(const octree_box *world);
 /* Returns the level of a body with these half extents. */
 unsigned find_level(const octree_bodies *set, const double half[3]);
 
-/* Reset all of a level but its tree, which is empty, and the memory of its counts. */
+/* Reset all of a level but its tree, which is empty. */
 void reset_level(octree_bodies *set, unsigned number);
 
 /* Set the floor of an empty set. */
@@ -88,14 +84,19 @@ void set_floor(octree_bodies *set, const double floor[3]);
 /* Rebuild a set that has grown until its floor may be too large for its leaves. */
 void rebuild_if_due(octree_bodies *set);
 
-/* Create the tree and the counts of a level if it has none. Returns OK or NO_MEMORY. */
+/* Create the tree of a level if it has none. Returns OK or NO_MEMORY. */
 octree_status create_level(octree_bodies *set, unsigned number);
 
-/* Make a level without tree and counts. */
+/* Make a level without a tree. */
 level make_empty_level(const octree_bodies *set, unsigned number);
 
 /* Add the half extents of a body to the reach of its level (change = 1), or remove them (change = -1). */
-void change_reach(octree_bodies *set, unsigned number, const double half[3], int change);
+void count_half_extents(octree_bodies *set, const double half[3], int change);
+static inline void change_reach(octree_bodies *set, unsigned number, const double half[3], int change)
+{
+    if (number == 0)
+        count_half_extents(set, half, change);
+}
 
 /* Check half extents. Returns OK, NOT_FINITE or BAD_SIZE. */
 octree_status check_half_extents(const double half[3]);

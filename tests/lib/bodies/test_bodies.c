@@ -126,7 +126,7 @@ static void bodies_of_similar_size_share_a_level(void **state)
     for (unsigned i = 0; i < OCTREE_BODY_LEVELS; i++) {
         double reach[3];
         counts[i] = octree_count(octree_bodies_level(set, i, reach));
-        assert_true(counts[i] == 0 ? reach[0] == 0 : reach[0] > 0);
+        assert_true(i == 0 ? reach[0] >= 1e300 : reach[0] == ldexp(16, -2 * (int)i));
     }
     assert_int_equal(counts[0], 3);
     assert_int_equal(counts[1], 1);
@@ -136,23 +136,21 @@ static void bodies_of_similar_size_share_a_level(void **state)
 }
 
 /* The reach on each axis is above the largest half extent by a factor of at most 1.25, and follows removals. */
-static void the_reach_follows_the_half_extents_on_each_axis(void **state)
+static void the_reach_of_level_0_follows_the_half_extents_on_each_axis(void **state)
 {
     (void)state;
     octree_bodies *set = make_body_set(cube(-8, 8), 2);
-    const octree_body plate = {{0, 0, 0}, {1, 1, 0.09}, 1}, cube_body = body_at(0, 0, 0, 1.2, 2);
+    const octree_body plate = {{0, 0, 0}, {8, 8, 0.09}, 1}, cube_body = body_at(0, 0, 0, 9.6, 2);
     double reach[3];
-    unsigned level = 0;
     assert_int_equal(octree_bodies_insert(set, &plate), OCTREE_OK);
-    while (octree_count(octree_bodies_level(set, level, reach)) == 0)
-        level++;
-    assert_true(reach[0] >= 1 && reach[0] <= 1.25 && reach[2] >= 0.09 && reach[2] <= 0.1125 * 1.25);
+    assert_int_equal(octree_count(octree_bodies_level(set, 0, reach)), 1);
+    assert_true(reach[0] >= 8 && reach[0] <= 10 && reach[2] >= 0.09 && reach[2] <= 0.09 * 1.25);
     assert_int_equal(octree_bodies_insert(set, &cube_body), OCTREE_OK);
-    octree_bodies_level(set, level, reach);
-    assert_true(reach[2] >= 1.2 && reach[2] <= 1.5);
+    octree_bodies_level(set, 0, reach);
+    assert_true(reach[2] >= 9.6 && reach[2] <= 12);
     assert_int_equal(octree_bodies_remove(set, &cube_body), OCTREE_OK);
-    octree_bodies_level(set, level, reach);
-    assert_true(reach[0] <= 1.25 && reach[2] <= 0.1125 * 1.25);
+    octree_bodies_level(set, 0, reach);
+    assert_true(reach[0] <= 10 && reach[2] <= 0.09 * 1.25);
     octree_bodies_destroy(set);
 }
 
@@ -294,7 +292,7 @@ int main(void)
         cmocka_unit_test(bad_definitions_are_refused),
         cmocka_unit_test(a_definition_is_returned_as_it_was_given),
         cmocka_unit_test(bodies_of_similar_size_share_a_level),
-        cmocka_unit_test(the_reach_follows_the_half_extents_on_each_axis),
+        cmocka_unit_test(the_reach_of_level_0_follows_the_half_extents_on_each_axis),
         cmocka_unit_test(the_nodes_of_a_level_lead_to_the_bodies),
         cmocka_unit_test(points_of_a_tree_are_bodies_of_one_size),
         cmocka_unit_test(bodies_of_separate_worlds_meet),
