@@ -17,24 +17,9 @@
  * the boxes higher up. Measured in 1e5 bodies whose sizes span three decades: without boxes, the search for the first
  * body on a ray read 14 leaves; with boxes, and the larger floor that they allow (order.c), 4.
  */
+#include "box_faces.h"
 #include "boxes.h"
 #include "few_bodies.h"
-
-/* The half extents of a level's bodies. The rest has a bound of the rounding errors of the boxes. */
-typedef struct fitting {
-    half_steps half[3];
-    size_t leaf_capacity;
-} fitting;
-
-static fitting make_fitting(const level *l)
-{
-    fitting f = {.leaf_capacity = l->tree->def.leaf_capacity};
-    for (int i = 0; i < 3; i++) {
-        const double largest = find_farthest(l, i, 0) + l->unit * (MAX_STEPS + 1);
-        f.half[i] = (half_steps){l->unit / (double)(1 << STEP_BITS * i), l->unit + largest * 0x1p-51};
-    }
-    return f;
-}
 
 /* ---- Compute a box ------------------------------------------------------------------------------------------ */
 
@@ -43,15 +28,7 @@ static octree_box make_empty_box(void)
     return (octree_box){{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
 }
 
-static void include_box(octree_box *around, const octree_box *box)
-{
-    for (int k = 0; k < 3; k++) {
-        around->min[k] = box->min[k] < around->min[k] ? box->min[k] : around->min[k];
-        around->max[k] = larger(box->max[k], around->max[k]);
-    }
-}
-
-static octree_box box_of_points(const fitting *f, const octree_point *points, uint32_t count)
+static octree_box box_of_points(const level *l, const octree_point *points, uint32_t count)
 {
     octree_box box;
     lanes low[3], high[3];
@@ -62,8 +39,8 @@ static octree_box box_of_points(const fitting *f, const octree_point *points, ui
     for (uint32_t i = 0; i < count; i += LANES) {
         const few_bodies few = load_few_bodies(points, count, begin_of_group(count, i));
         for (int k = 0; k < 3; k++) {
-            const lanes half =
-                lanes_add(lanes_multiply(few.steps[k], lanes_all(f->half[k].step)), lanes_all(f->half[k].rest));
+            const lanes half = lanes_add(lanes_multiply(few.steps[k], lanes_all(step_of_half_extents(l, k))),
+                                         lanes_all(l->box_rest[k]));
             low[k] = lanes_smaller(lanes_subtract(few.position[k], half), low[k]);
             high[k] = lanes_larger(lanes_add(few.position[k], half), high[k]);
         }
@@ -71,6 +48,19 @@ static octree_box box_of_points(const fitting *f, const octree_point *points, ui
     for (int k = 0; k < 3; k++) {
         box.min[k] = lanes_least(low[k]);
         box.max[k] = lanes_greatest(high[k]);
+    }
+    return box;
+}
+
+/* Returns box_of_points() of a single point. */
+static octree_box box_of_point(const level *l, const octree_point *point)
+{
+    octree_box box;
+    for (int k = 0; k < 3; k++) {
+        const double steps = (double)(int64_t)(point->id & (uint64_t)MAX_STEPS << STEP_BITS * k);
+        const double half = steps * step_of_half_extents(l, k) + l->box_rest[k];
+        box.min[k] = point->position[k] - half;
+        box.max[k] = point->position[k] + half;
     }
     return box;
 }
@@ -86,10 +76,10 @@ static octree_box *box_of_child(const node *n, unsigned index)
 }
 
 /* Returns the box of a node whose children have known boxes. */
-static octree_box box_of_node(const fitting *f, const node *n)
+static octree_box box_of_node(const level *l, const node *n)
 {
     if (n->octants == 0)
-        return box_of_points(f, leaf_points(n), n->count);
+        return box_of_points(l, leaf_points(n), n->count);
     octree_box box = make_empty_box();
     for (unsigned i = 0; i < count_children(n); i++)
         include_box(&box, box_of_child(n, i));
@@ -119,111 +109,124 @@ static unsigned find_unknown_boxes(const node *n)
 }
 
 /* Compute the boxes of some children of an inner node, and those below: all, or only the unknown ones. */
-static void fit_children(const fitting *f, const node *n, unsigned children, bool all)
+static void fit_children(const level *l, const node *n, unsigned children, bool all)
 {
     for (; children; children &= children - 1) {
         const unsigned i = bits_lowest(children);
         const node *child = &children_of(n)[i];
         if (child->octants)
-            fit_children(f, child, all ? mask_of_children(child) : find_unknown_boxes(child), all);
-        *box_of_child(n, i) = box_of_node(f, child);
+            fit_children(l, child, all ? mask_of_children(child) : find_unknown_boxes(child), all);
+        *box_of_child(n, i) = box_of_node(l, child);
     }
 }
 
 void fit_all(const level *l)
 {
-    const fitting f = make_fitting(l);
     if (has_boxes(&l->tree->store))
-        fit_children(&f, &l->tree->root, mask_of_children(&l->tree->root), true);
+        fit_children(l, &l->tree->root, mask_of_children(&l->tree->root), true);
 }
 
 /* ---- Changes ------------------------------------------------------------------------------------------------ */
 
-static bool is_same_box(const octree_box *a, const octree_box *b)
-{
-    bool same = true;
-    for (int i = 0; i < 3; i++)
-        same &= (a->min[i] == b->min[i]) & (a->max[i] == b->max[i]);
-    return same;
-}
-
 /* Returns whether a box may determine a face of a box around it. */
 static bool touches_face(const octree_box *around, const octree_box *box)
 {
-    bool touches = false;
-    for (int i = 0; i < 3; i++)
-        touches |= (box->min[i] <= around->min[i]) | (box->max[i] >= around->max[i]);
-    return touches;
+    return find_faces_beyond(around, box) != ALL_FACES;
 }
 
+/* The boxes of the bodies that left and entered a leaf, or the box of a child before and after a change. Either may be
+ * null for a leaf. */
 typedef struct box_change {
-    octree_box box; /* of the body that was added or removed */
-    bool adds;
+    const octree_box *removed, *added;
 } box_change;
+
+/* Returns whether the box of a leaf certainly stays the same. */
+static bool keeps_box(const octree_box *box, const box_change *change)
+{
+    return (!change->added || contains_box(box, change->added)) &&
+           (!change->removed || !touches_face(box, change->removed));
+}
 
 /* A leaf beyond its capacity, perhaps of a million bodies at one place, keeps its box when a body is removed, because
  * computing the box again would read them all. */
-static octree_box change_box_of_leaf(const fitting *f, const node *leaf, const octree_box *old,
-                                     const box_change *change)
+static octree_box change_box_of_leaf(const level *l, const node *leaf, const octree_box *old, const box_change *change)
 {
     octree_box box = *old;
-    if (change->adds)
-        include_box(&box, &change->box);
-    else if (leaf->count <= f->leaf_capacity && touches_face(old, &change->box))
-        box = box_of_node(f, leaf);
+    if (change->removed && fits_leaf(l->tree, leaf->count) && touches_face(old, change->removed))
+        return box_of_node(l, leaf);
+    if (change->added)
+        include_box(&box, change->added);
     return box;
 }
 
-/* Update the box of a child whose contents changed. Returns whether the box has changed. */
-static bool update_box(const fitting *f, const node *parent, const node *child, const box_change *change)
+/* Returns the box of an inner node after the box of a child has changed. It is computed from all children only if the
+ * child had a face of the node's box and has lost it. */
+static octree_box change_box_of_node(const level *l, const node *n, const octree_box *old, const box_change *child)
 {
-    octree_box *box = box_of_child(parent, (unsigned)(child - children_of(parent)));
-    const octree_box old = *box;
-    *box = child->octants ? box_of_node(f, child) : change_box_of_leaf(f, child, &old, change);
-    return !is_same_box(&old, box);
-}
-
-/* Returns whether a path ends at a leaf whose box is known and stays the same. Most changes need no more than this. */
-static bool keeps_known_box(const path *p, const box_change *change)
-{
-    if (p->depth == 0 || path_end(p)->octants)
-        return false;
-    const node *parent = p->nodes[p->depth - 1];
-    const octree_box *box = box_of_child(parent, (unsigned)(path_end(p) - children_of(parent)));
-    return !is_unknown(box) && (change->adds ? contains_box(box, &change->box) : !touches_face(box, &change->box));
+    octree_box box = *old;
+    if (find_faces_beyond(child->removed, child->added) & ~find_faces_beyond(old, child->removed))
+        return box_of_node(l, n);
+    include_box(&box, child->added);
+    return box;
 }
 
 /* Update the boxes on a path from its end towards the root, up to the first box that stays the same. So each new node
- * is reached: it is on the path of a change, or a sibling of such a node. */
-static void fit_boxes_on_path(const fitting *f, const path *p, const box_change *change)
+ * is reached: it is on the path of a change, or a sibling of such a node, and its box is unknown. */
+static void fit_boxes_on_path(const level *l, const path *p, box_change change)
 {
-    bool changed = !keeps_known_box(p, change);
-    for (unsigned depth = p->depth + 1; changed && depth-- > 0;) {
-        const node *n = p->nodes[depth];
-        const unsigned unknown = find_unknown_boxes(n);
-        fit_children(f, n, unknown, false);
-        if (depth < p->depth)
-            changed = update_box(f, n, p->nodes[depth + 1], change) || unknown != 0;
+    octree_box before; /* the box of a child */
+    const node *n = path_end(p);
+    fit_children(l, n, find_unknown_boxes(n), false);
+    for (unsigned depth = p->depth; depth-- > 0;) {
+        const node *parent = p->nodes[depth];
+        octree_box *box = box_of_child(parent, (unsigned)(n - children_of(parent)));
+        const octree_box old = *box;
+        if (is_unknown(&old))
+            fit_children(l, parent, find_unknown_boxes(parent), false);
+        else if (n->octants == 0)
+            *box = change_box_of_leaf(l, n, &old, &change);
+        else
+            *box = depth + 1 == p->depth ? box_of_node(l, n) : change_box_of_node(l, n, &old, &change);
+        if (is_same_box(&old, box))
+            return;
+        before = old;
+        change = (box_change){&before, box};
+        n = parent;
     }
 }
 
-static void fit_point(const fitting *f, const path *p, const octree_point *point, bool adds)
+static void fit_points(const level *l, const path *p, const octree_point *removed, const octree_point *added)
 {
-    const box_change change = {box_of_points(f, point, 1), adds};
-    fit_boxes_on_path(f, p, &change);
+    octree_box boxes[2];
+    box_change change = {NULL, NULL};
+    const node *end = path_end(p);
+    if (removed) {
+        boxes[0] = box_of_point(l, removed);
+        change.removed = &boxes[0];
+    }
+    if (added) {
+        boxes[1] = box_of_point(l, added);
+        change.added = &boxes[1];
+    }
+    if (end->octants == 0 && p->depth > 0) {
+        const node *parent = p->nodes[p->depth - 1];
+        const octree_box *box = box_of_child(parent, (unsigned)(end - children_of(parent)));
+        if (!is_unknown(box) && keeps_box(box, &change))
+            return;
+    }
+    fit_boxes_on_path(l, p, change);
 }
 
-void fit_path(const level *l, const path *p, const octree_point *point, bool adds)
+void fit_path(const level *l, const path *p, const octree_point *removed, const octree_point *added)
 {
-    const fitting f = make_fitting(l);
     if (has_boxes(&l->tree->store))
-        fit_point(&f, p, point, adds);
+        fit_points(l, p, removed, added);
 }
 
-static void find_and_fit_point(const fitting *f, const level *l, const octree_point *point, bool adds)
+static void find_and_fit_point(const level *l, const octree_point *point, bool adds)
 {
     const path p = find_path(l->tree, morton_code(l->tree->axes, point->position));
-    fit_point(f, &p, point, adds);
+    fit_points(l, &p, adds ? NULL : point, adds ? point : NULL);
 }
 
 /* If a larger share of the bodies has changed, all boxes are computed again. */
@@ -238,11 +241,9 @@ void fit_changes(const level *l, const octree_point *points, size_t count, bool 
 {
     if (!fits_each(l, count))
         fit_all(l);
-    else if (has_boxes(&l->tree->store)) {
-        const fitting f = make_fitting(l);
+    else if (has_boxes(&l->tree->store))
         for (size_t i = 0; i < count; i++)
-            find_and_fit_point(&f, l, &points[i], adds);
-    }
+            find_and_fit_point(l, &points[i], adds);
 }
 
 void fit_moves(const level *l, const octree_point *points, const double (*to)[3], size_t count)
@@ -250,14 +251,13 @@ void fit_moves(const level *l, const octree_point *points, const double (*to)[3]
     if (!fits_each(l, 2 * count))
         fit_all(l);
     else if (has_boxes(&l->tree->store)) {
-        const fitting f = make_fitting(l);
         for (size_t i = 0; i < count; i++) {
             octree_point moved = points[i];
             memcpy(moved.position, to[i], sizeof moved.position);
-            find_and_fit_point(&f, l, &moved, true);
+            find_and_fit_point(l, &moved, true);
         }
         for (size_t i = 0; i < count; i++) /* last: a body that was moved twice has left its first new place */
-            find_and_fit_point(&f, l, &points[i], false);
+            find_and_fit_point(l, &points[i], false);
     }
 }
 
@@ -266,22 +266,21 @@ void fit_moves(const level *l, const octree_point *points, const double (*to)[3]
 /* A leaf that is or was beyond its capacity may have a larger box. */
 static bool is_right_box(const octree_box *stored, const octree_box *computed, const node *n)
 {
-    return is_unknown(stored) || (n->octants ? is_same_box(stored, computed) : contains_box(stored, computed));
+    return n->octants ? is_same_box(stored, computed) : contains_box(stored, computed);
 }
 
-static bool are_child_boxes_right(const fitting *f, const node *n)
+static bool are_child_boxes_right(const level *l, const node *n)
 {
     bool right = true;
     for (unsigned i = 0; right && i < count_children(n); i++) {
         const node *child = &children_of(n)[i];
-        const octree_box computed = box_of_node(f, child);
-        right = is_right_box(box_of_child(n, i), &computed, child) && are_child_boxes_right(f, child);
+        const octree_box computed = box_of_node(l, child);
+        right = is_right_box(box_of_child(n, i), &computed, child) && are_child_boxes_right(l, child);
     }
     return right;
 }
 
 bool are_boxes_right(const level *l)
 {
-    const fitting f = make_fitting(l);
-    return !has_boxes(&l->tree->store) || are_child_boxes_right(&f, &l->tree->root);
+    return !has_boxes(&l->tree->store) || are_child_boxes_right(l, &l->tree->root);
 }

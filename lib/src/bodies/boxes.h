@@ -15,8 +15,9 @@ void fit_all(const level *l);
 void fit_changes(const level *l, const octree_point *points, size_t count, bool adds);
 void fit_moves(const level *l, const octree_point *points, const double (*to)[3], size_t count);
 
-/* Update the boxes after insert_along_path() or remove_along_path(), with that path. */
-void fit_path(const level *l, const path *p, const octree_point *point, bool adds);
+/* Update the boxes after insert_along_path() or remove_along_path(), with that path, or after both changes of one leaf.
+ * `removed` and `added` may be null. */
+void fit_path(const level *l, const path *p, const octree_point *removed, const octree_point *added);
 
 /* Returns whether the known boxes of a level are those of its bodies. */
 bool are_boxes_right(const level *l);
@@ -25,14 +26,6 @@ bool are_boxes_right(const level *l);
 static inline double find_farthest(const level *l, int axis, double origin)
 {
     return larger(fabs(l->tree->axes[axis].min - origin), fabs(l->tree->axes[axis].max - origin));
-}
-
-static inline bool contains_box(const octree_box *around, const octree_box *box)
-{
-    bool contains = true;
-    for (int k = 0; k < 3; k++)
-        contains &= (around->min[k] <= box->min[k]) & (box->max[k] <= around->max[k]);
-    return contains;
 }
 
 /* The boxes of the children of a node, for queries. */

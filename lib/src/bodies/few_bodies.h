@@ -44,7 +44,13 @@ static inline few_bodies load_few_bodies(const octree_point *points, unsigned co
     return few;
 }
 
-/* On an axis of a level, a half extent is at most few_bodies.steps * step + rest. The product is exact. */
+/* Returns half the extents of a body in a level for few_bodies.steps of 1. Products with it are exact. */
+static inline double step_of_half_extents(const level *l, int axis)
+{
+    return l->unit / (double)(1 << STEP_BITS * axis);
+}
+
+/* On an axis of a level, a half extent is at most few_bodies.steps * step + rest. */
 typedef struct half_steps {
     double step, rest;
 } half_steps;
@@ -53,7 +59,7 @@ static inline half_steps half_steps_of(const level *l, int axis)
 {
     if (!(l->reach[axis] > l->rest))
         return (half_steps){0, l->reach[axis]};
-    return (half_steps){l->unit / (double)(1 << STEP_BITS * axis), l->rest};
+    return (half_steps){step_of_half_extents(l, axis), l->rest};
 }
 
 #endif

@@ -104,8 +104,11 @@ level make_empty_level(const octree_bodies *set, unsigned number)
     level l = {.tree = NULL};
     l.unit = l.rest = value_of_number(unit < BUCKETS_OF_EXPONENT ? BUCKETS_OF_EXPONENT : unit);
     l.inverse_unit = 1 / l.unit;
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < 3; i++) {
+        const double farthest = larger(fabs(set->def.world.min[i]), fabs(set->def.world.max[i]));
         l.reach[i] = number > 0 ? end_of_bucket(number_of_top_bucket(set, number)) : 0;
+        l.box_rest[i] = l.unit + (farthest + l.unit * (MAX_STEPS + 1)) * 0x1p-51;
+    }
     return l;
 }
 

@@ -19,31 +19,31 @@ static bool is_crowded(const node *leaf)
     return leaf->count > POOL_MAX_UNITS;
 }
 
-/* Returns the index of the first point from `first` on with this x coordinate; `count` if there is none. */
-static uint32_t find_x(const octree_point *points, uint32_t first, uint32_t count, double x)
+/* Returns whether a point of a level is that of a body. */
+static bool is_point_of_body(const octree_bodies *set, const level *l, const octree_point *point,
+                             const octree_body *body)
 {
-    uint32_t i = first;
-    while (i + 4 <= count && points[i].position[0] != x && points[i + 1].position[0] != x &&
-           points[i + 2].position[0] != x && points[i + 3].position[0] != x)
-        i += 4;
-    while (i < count && points[i].position[0] != x)
-        i++;
-    return i;
+    const uint32_t row = row_of_point(point);
+    return is_same_position(point->position, body->position) && point->id == make_point_id(l, row, body->half) &&
+           is_same_body(row_at(&set->rows, row), body);
 }
 
 /* Find a body among the points of its leaf. */
 static void find_in_leaf(const octree_bodies *set, const level *l, const octree_body *body, found_body *found)
 {
+    enum { TOGETHER = 64 };
     const node *leaf = path_end(&found->at.path);
-    const octree_point *points = leaf_points(leaf);
-    const uint64_t steps = make_point_id(l, 0, body->half);
-    for (uint32_t i = 0; (i = find_x(points, i, leaf->count, body->position[0])) < leaf->count; i++) {
-        const uint32_t row = row_of_point(&points[i]);
-        if ((uint64_t)row << ROW_SHIFT == points[i].id - steps &&
-            is_same_position(points[i].position, body->position) && is_same_body(row_at(&set->rows, row), body)) {
-            found->row = row;
-            found->at.index = i;
-            return;
+    for (uint32_t begin = 0; begin < leaf->count; begin += TOGETHER) {
+        const octree_point *points = leaf_points(leaf) + begin;
+        const uint32_t left = leaf->count - begin;
+        uint64_t equal = mask_equal_x(points, left < TOGETHER ? left : TOGETHER, body->position[0]);
+        for (; equal; equal &= equal - 1) {
+            const unsigned i = bits_lowest(equal);
+            if (is_point_of_body(set, l, &points[i], body)) {
+                found->row = row_of_point(&points[i]);
+                found->at.index = begin + i;
+                return;
+            }
         }
     }
 }
@@ -58,14 +58,19 @@ static void find_by_hash(const octree_bodies *set, const level *l, const octree_
 }
 
 /* Find a body, and hash the rows of the set `changed` before if the leaf is crowded. Null: the set is not changed. */
-static inline bool find(const octree_bodies *set, const octree_body *body, octree_bodies *changed, found_body *found)
+static inline bool find(const octree_bodies *set, const octree_body *body, octree_bodies *changed,
+                        const found_body *near, found_body *found)
 {
-    const level *l = &set->levels[find_level(set, body->half)];
+    found->level = find_level(set, body->half);
     found->row = ROW_NONE;
+    const level *l = &set->levels[found->level];
     if (!l->tree)
         return false;
     found->code = morton_code(l->tree->axes, body->position);
-    begin_path(&found->at.path, l->tree);
+    if (near && near->level == found->level)
+        begin_path_beside(&found->at.path, found->code, &near->at.path, near->code);
+    else
+        begin_path(&found->at.path, l->tree);
     extend_path(&found->at.path, found->code);
     const node *end = path_end(&found->at.path);
     if (end->octants)
@@ -78,12 +83,12 @@ static inline bool find(const octree_bodies *set, const octree_body *body, octre
 
 bool find_body(const octree_bodies *set, const octree_body *body, found_body *found)
 {
-    return find(set, body, NULL, found);
+    return find(set, body, NULL, NULL, found);
 }
 
-bool find_body_for_change(octree_bodies *set, const octree_body *body, found_body *found)
+bool find_body_for_change(octree_bodies *set, const octree_body *body, const found_body *near, found_body *found)
 {
-    return find(set, body, set, found);
+    return find(set, body, set, near, found);
 }
 
 static bool has_crowded_leaf_below(const node *n)

@@ -167,12 +167,24 @@ static octree_point make_point(const level *l, uint32_t row, const octree_body *
     return (octree_point){{body->position[0], body->position[1], body->position[2]}, make_point_id(l, row, body->half)};
 }
 
+/* Make room for a body that is not stored. If its level has no tree yet, create the tree, and find the place again. */
+static octree_status prepare_insertion(octree_bodies *set, const octree_body *body, found_body *place)
+{
+    octree **tree = &set->levels[place->level].tree;
+    if (!*tree) {
+        const octree_status status = create_level(set, place->level);
+        if (status != OCTREE_OK)
+            return status;
+        find_body_for_change(set, body, NULL, place);
+    }
+    return is_running_callback(*tree) ? OCTREE_BUSY : rows_reserve(&set->rows, 1);
+}
+
 /* Insert the point of a body that is not stored, and for which there is room. The row is written before the tree is
  * changed. If the change of the tree fails, the row is removed again, which needs no memory. */
-static octree_status insert_new_body(octree_bodies *set, unsigned number, const octree_body *body,
-                                     const found_body *place)
+static octree_status insert_new_body(octree_bodies *set, const octree_body *body, const found_body *place)
 {
-    level *l = &set->levels[number];
+    level *l = &set->levels[place->level];
     const uint32_t row = rows_add(&set->rows, body);
     const octree_point point = make_point(l, row, body);
     const octree_status status = insert_along_path(l->tree, &place->at.path, &point, place->code);
@@ -180,8 +192,8 @@ static octree_status insert_new_body(octree_bodies *set, unsigned number, const 
         rows_remove(&set->rows, row);
         return status;
     }
-    change_reach(set, number, body->half, 1);
-    fit_path(l, &place->at.path, &point, true);
+    change_reach(set, place->level, body->half, 1);
+    fit_path(l, &place->at.path, NULL, &point);
     return OCTREE_OK;
 }
 
@@ -190,6 +202,8 @@ static void tune_level(octree_bodies *set, unsigned number)
 {
     const level *l = &set->levels[number];
     const size_t capacity = l->tree->def.leaf_capacity;
+    if (!l->tree->tuning.choose)
+        return;
     const unsigned begun = begin_set_callbacks(set); /* the executor */
     tune_if_due(l->tree);
     end_callbacks(begun);
@@ -204,18 +218,14 @@ octree_status octree_bodies_insert(octree_bodies *bodies, const octree_body *bod
     if (status != OCTREE_OK)
         return status;
     const octree_body added = *body;
-    const unsigned number = find_level(bodies, added.half);
-    status = create_level(bodies, number);
-    if (status == OCTREE_OK)
-        status = is_running_callback(bodies->levels[number].tree) ? OCTREE_BUSY : rows_reserve(&bodies->rows, 1);
-    if (status != OCTREE_OK)
-        return status;
     found_body place;
-    if (find_body_for_change(bodies, &added, &place))
+    if (find_body_for_change(bodies, &added, NULL, &place))
         return OCTREE_DUPLICATE;
-    status = insert_new_body(bodies, number, &added, &place);
+    status = prepare_insertion(bodies, &added, &place);
+    if (status == OCTREE_OK)
+        status = insert_new_body(bodies, &added, &place);
     if (status == OCTREE_OK) {
-        tune_level(bodies, number);
+        tune_level(bodies, place.level);
         rebuild_if_due(bodies);
     }
     return status;
@@ -228,34 +238,19 @@ octree_status octree_bodies_remove(octree_bodies *bodies, const octree_body *bod
     if (status != OCTREE_OK)
         return status;
     const octree_body removed = *body;
-    const unsigned number = find_level(bodies, removed.half);
-    const level *l = &bodies->levels[number];
     found_body found;
-    if (!find_body_for_change(bodies, &removed, &found))
+    if (!find_body_for_change(bodies, &removed, NULL, &found))
         return OCTREE_NOT_FOUND;
+    const level *l = &bodies->levels[found.level];
     if (is_running_callback(l->tree))
         return OCTREE_BUSY;
     const octree_point point = stored_point(&found.at);
     status = remove_along_path(l->tree, &found.at, found.code);
     if (status == OCTREE_OK) {
-        fit_path(l, &found.at.path, &point, false);
-        change_reach(bodies, number, removed.half, -1);
+        fit_path(l, &found.at.path, &point, NULL);
+        change_reach(bodies, found.level, removed.half, -1);
         rows_remove(&bodies->rows, found.row);
     }
-    return status;
-}
-
-/* Move a point whose two places were found. */
-static octree_status move_within_level(octree *tree, found_body *from, const found_body *to,
-                                       const octree_point *leaving, const octree_point *arriving)
-{
-    single_move m = {.old = *leaving, .moved = *arriving, .from = from->code, .to = to->code};
-    if (is_running_callback(tree))
-        return OCTREE_BUSY;
-    m.moved.id = leaving->id;
-    const octree_status status = move_along_paths(tree, &m, &from->at, &to->at.path, NULL);
-    if (status == OCTREE_OK && arriving->id != leaving->id)
-        replace_point_id(tree, arriving->position, leaving->id, arriving->id);
     return status;
 }
 
@@ -275,28 +270,42 @@ static octree_status move_to_level(octree *old, const octree_point *from, octree
     return status;
 }
 
-/* Move the point of a body, perhaps from one level to another. `from` and `to` are the body's places before and after
- * the move. */
-static octree_status move_point(octree_bodies *set, const octree_body *old, const octree_body *moved, found_body *from,
-                                const found_body *to)
+/* Move a point within a level, and update the boxes. If it stays in its leaf, no node changes. */
+static octree_status move_within_level(const level *l, const single_move *m, found_body *from, const found_body *to)
 {
-    const unsigned number = find_level(set, moved->half);
-    level *l = &set->levels[find_level(set, old->half)], *next = &set->levels[number];
-    const octree_point leaving = make_point(l, from->row, old), arriving = make_point(next, from->row, moved);
-    const bool stays_in_leaf = l == next && path_end(&from->at.path) == path_end(&to->at.path);
-    octree_status status = create_level(set, number);
-    if (status == OCTREE_OK)
-        status = l == next ? move_within_level(l->tree, from, to, &leaving, &arriving)
-                           : move_to_level(l->tree, &leaving, next->tree, &arriving);
+    const bool stays_in_leaf = path_end(&from->at.path) == path_end(&to->at.path);
+    if (is_running_callback(l->tree))
+        return OCTREE_BUSY;
+    const octree_status status = move_found_point(l->tree, m, &from->at, &to->at.path, NULL);
     if (status != OCTREE_OK)
         return status;
-    if (stays_in_leaf) { /* then no node has changed */
-        fit_path(l, &to->at.path, &leaving, false);
-        fit_path(l, &to->at.path, &arriving, true);
+    if (stays_in_leaf) {
+        fit_path(l, &to->at.path, &m->old, &m->moved);
     } else {
-        fit_changes(l, &leaving, 1, false);
-        fit_changes(next, &arriving, 1, true);
+        fit_changes(l, &m->old, 1, false);
+        fit_changes(l, &m->moved, 1, true);
     }
+    return OCTREE_OK;
+}
+
+/* Move the point of a body, perhaps from one level to another. `from` and `to` are the body's places before and after
+ * the move. */
+static octree_status move_point(octree_bodies *set, const octree_body *moved, found_body *from, const found_body *to)
+{
+    level *l = &set->levels[from->level], *next = &set->levels[to->level];
+    const single_move m = {.old = stored_point(&from->at),
+                           .moved = make_point(next, from->row, moved),
+                           .from = from->code,
+                           .to = to->code};
+    if (l == next)
+        return move_within_level(l, &m, from, to);
+    octree_status status = create_level(set, to->level);
+    if (status == OCTREE_OK)
+        status = move_to_level(l->tree, &m.old, next->tree, &m.moved);
+    if (status != OCTREE_OK)
+        return status;
+    fit_changes(l, &m.old, 1, false);
+    fit_changes(next, &m.moved, 1, true);
     return OCTREE_OK;
 }
 
@@ -307,9 +316,9 @@ static octree_status find_moved_body(octree_bodies *set, const octree_body *from
     const octree_status status = check_move(set, from, to);
     if (status != OCTREE_OK)
         return status;
-    if (!find_body_for_change(set, from, old))
+    if (!find_body_for_change(set, from, NULL, old))
         return OCTREE_NOT_FOUND;
-    return !find_body_for_change(set, to, moved) || moved->row == old->row ? OCTREE_OK : OCTREE_DUPLICATE;
+    return !find_body_for_change(set, to, old, moved) || moved->row == old->row ? OCTREE_OK : OCTREE_DUPLICATE;
 }
 
 octree_status octree_bodies_move(octree_bodies *bodies, const octree_body *from, const octree_body *to)
@@ -323,13 +332,13 @@ octree_status octree_bodies_move(octree_bodies *bodies, const octree_body *from,
         return status;
     const octree_body old = *from, moved = *to;
     const unsigned begun = begin_set_callbacks(bodies);
-    status = move_point(bodies, &old, &moved, &here, &there);
+    status = move_point(bodies, &moved, &here, &there);
     end_callbacks(begun);
     if (status != OCTREE_OK)
         return status;
     if (!is_same_position(old.half, moved.half)) {
-        change_reach(bodies, find_level(bodies, old.half), old.half, -1);
-        change_reach(bodies, find_level(bodies, moved.half), moved.half, 1);
+        change_reach(bodies, here.level, old.half, -1);
+        change_reach(bodies, there.level, moved.half, 1);
     }
     rows_replace(&bodies->rows, here.row, &moved);
     return OCTREE_OK;

@@ -23,6 +23,7 @@ typedef struct level {
      * If a half extent is too large for that, and in sets that show points, `rest` is infinite. */
     double unit, rest;
     double inverse_unit; /* exactly 1 / unit */
+    double box_rest[3];  /* `unit`, with a bound of the rounding errors of the boxes of nodes (boxes.c) */
 } level;
 
 /* A function that stores the half extents of a point in half[]. They are at most the reach that was set with it. */

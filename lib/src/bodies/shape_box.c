@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* shape_box.c - the bodies in a box; see shape_kind. */
+#include "box_faces.h"
 #include "shape.h"
 
 static octree_status check(const octree_region *region)

@@ -191,8 +191,6 @@ static octree_status split_or_grow_leaf(octree *tree, node *leaf, const octree_p
 static octree_status insert_into_leaf(octree *tree, node *leaf, const octree_point *point, uint64_t code,
                                       unsigned depth, bool may_split, step *undo)
 {
-    if (leaf_find(leaf, point->position, point->id) != LEAF_NONE)
-        return OCTREE_DUPLICATE;
     if (leaf->count >= tree->def.leaf_capacity && !may_split)
         return OCTREE_FULL;
     if (leaf->count >= tree->def.leaf_capacity)
@@ -200,7 +198,15 @@ static octree_status insert_into_leaf(octree *tree, node *leaf, const octree_poi
     return append_to_leaf(tree, leaf, point, undo);
 }
 
-/* Insert a point at the end of the path to its code: into the leaf there, or as a new leaf of the inner node there. */
+/* Returns the index of a point in the leaf at the end of a path; LEAF_NONE if the point is not stored. */
+static uint32_t find_at_end_of_path(const path *p, const octree_point *point)
+{
+    const node *end = path_end(p);
+    return end->octants ? LEAF_NONE : leaf_find(end, point->position, point->id);
+}
+
+/* Insert a point that is not stored yet at the end of the path to its code: into the leaf there, or as a new leaf of
+ * the inner node there. */
 static octree_status insert_at_end_of_path(octree *tree, const path *p, const octree_point *point, uint64_t code,
                                            bool may_split, step *undo)
 {
@@ -231,7 +237,8 @@ octree_status insert_along_path(octree *tree, const path *p, const octree_point 
 octree_status insert_point(octree *tree, const octree_point *point, uint64_t code, bool may_split)
 {
     const path p = find_path(tree, code);
-    return insert_at_end_of_path(tree, &p, point, code, may_split, NULL);
+    return find_at_end_of_path(&p, point) == LEAF_NONE ? insert_at_end_of_path(tree, &p, point, code, may_split, NULL)
+                                                       : OCTREE_DUPLICATE;
 }
 
 octree_status octree_insert(octree *tree, const double position[3], uint64_t id)
@@ -344,17 +351,6 @@ octree_status remove_along_path(octree *tree, found_point *found, uint64_t code)
     return status;
 }
 
-void replace_point_id(octree *tree, const double position[3], uint64_t id, uint64_t new_id)
-{
-    found_point found;
-    if (!find_point(tree, position, id, &found))
-        return;
-    octree_point point = stored_point(&found);
-    point.id = new_id;
-    leaf_replace(path_end(&found.path), found.index, &point);
-    tree->version++;
-}
-
 octree_status prepare_removal(octree *tree, const double position[3], uint64_t id, prepared_removal *r)
 {
     if (!find_point(tree, position, id, &r->found))
@@ -403,7 +399,8 @@ octree_status octree_remove(octree *tree, const double position[3], uint64_t id)
 /* Move a point to another leaf. Only the insertion can be refused, so it comes first. The memory for the removal is
  * allocated before the insertion. This memory is enough: the insertion only adds points, so it cannot cause more nodes
  * to merge. */
-static octree_status move_to_other_leaf(octree *tree, found_point *found, single_move *m, const path *to, step *undo)
+static octree_status move_to_other_leaf(octree *tree, found_point *found, const single_move *m, const path *to,
+                                        step *undo)
 {
     node spare;
     if (!allocate_merged_leaf(tree, found, &spare))
@@ -421,24 +418,27 @@ static octree_status move_to_other_leaf(octree *tree, found_point *found, single
     return OCTREE_OK;
 }
 
-octree_status move_along_paths(octree *tree, single_move *m, found_point *found, const path *to, step *undo)
+octree_status move_found_point(octree *tree, const single_move *m, found_point *found, const path *to, step *undo)
 {
-    const node *end = path_end(&found->path);
     node *leaf = path_end(to);
-    found->index = end->octants ? LEAF_NONE : leaf_find(end, m->old.position, m->old.id);
-    if (found->index == LEAF_NONE)
-        return OCTREE_NOT_FOUND;
-    m->old = stored_point(found);
-    if (leaf != end)
+    if (leaf != path_end(&found->path))
         return move_to_other_leaf(tree, found, m, to, undo);
-    const uint32_t taken = leaf_find(leaf, m->moved.position, m->moved.id);
-    if (taken != LEAF_NONE && taken != found->index)
-        return OCTREE_DUPLICATE;
     leaf_replace(leaf, found->index, &m->moved);
     if (undo)
         *undo = (step){.kind = STEP_OVERWRITTEN, .depth = (uint8_t)to->depth};
     tree->version++;
     return OCTREE_OK;
+}
+
+octree_status move_along_paths(octree *tree, single_move *m, found_point *found, const path *to, step *undo)
+{
+    found->index = find_at_end_of_path(&found->path, &m->old);
+    if (found->index == LEAF_NONE)
+        return OCTREE_NOT_FOUND;
+    m->old = stored_point(found);
+    const uint32_t taken = find_at_end_of_path(to, &m->moved);
+    const bool is_itself = taken == found->index && path_end(to) == path_end(&found->path);
+    return taken == LEAF_NONE || is_itself ? move_found_point(tree, m, found, to, undo) : OCTREE_DUPLICATE;
 }
 
 octree_status octree_move(octree *tree, const double from[3], uint64_t id, const double to[3])
@@ -453,7 +453,9 @@ octree_status octree_move(octree *tree, const double from[3], uint64_t id, const
     m.from = morton_code(tree->axes, from);
     m.to = morton_code(tree->axes, to);
     found_point found = {.path = find_path(tree, m.from)};
-    const path end = find_path(tree, m.to);
+    path end;
+    begin_path_beside(&end, m.to, &found.path, m.from);
+    extend_path(&end, m.to);
     status = move_along_paths(tree, &m, &found, &end, NULL);
     if (status == OCTREE_OK && change_log_is_on(&tree->changes))
         change_log_append(tree, OCTREE_MOVED, &m.old, m.moved.position);

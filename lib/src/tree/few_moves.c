@@ -107,12 +107,8 @@ static void find_paths_of_move(move_group *g, size_t i)
     const single_move *m = &g->moves[i];
     path *from = &g->found[i].path, *to = &g->to[i];
     begin_path(from, g->tree);
-    begin_path(to, g->tree);
     extend_path(from, m->from);
-    while (to->depth < from->depth && morton_octant(m->from, to->depth) == morton_octant(m->to, to->depth)) {
-        to->depth++;
-        to->nodes[to->depth] = from->nodes[to->depth];
-    }
+    begin_path_beside(to, m->to, from, m->from);
     extend_path(to, m->to);
 }
 

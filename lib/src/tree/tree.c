@@ -293,55 +293,6 @@ static inline const node *find_deepest_node(const octree *tree, const uint64_t k
     return n;
 }
 
-#ifdef OCTREE_SSE2
-/* Compare the first coordinates of four points with `x`. Each 32-bit element of the result is -1 if equal, else 0. */
-static inline __m128i compare_four_x(const octree_point *points, __m128d x)
-{
-    const __m128d a = _mm_loadh_pd(_mm_load_sd(points[0].position), points[1].position);
-    const __m128d b = _mm_loadh_pd(_mm_load_sd(points[2].position), points[3].position);
-    const __m128 a_equal = _mm_castpd_ps(_mm_cmpeq_pd(a, x)), b_equal = _mm_castpd_ps(_mm_cmpeq_pd(b, x));
-    return _mm_castps_si128(_mm_shuffle_ps(a_equal, b_equal, _MM_SHUFFLE(2, 0, 2, 0)));
-}
-
-static inline uint64_t mask_four_equal(const octree_point *points, __m128d x)
-{
-    return (uint64_t)_mm_movemask_ps(_mm_castsi128_ps(compare_four_x(points, x)));
-}
-
-static inline uint64_t mask_sixteen_equal(const octree_point *points, __m128d x)
-{
-    const __m128i low = _mm_packs_epi32(compare_four_x(points, x), compare_four_x(points + 4, x));
-    const __m128i high = _mm_packs_epi32(compare_four_x(points + 8, x), compare_four_x(points + 12, x));
-    return (uint64_t)_mm_movemask_epi8(_mm_packs_epi16(low, high));
-}
-#endif
-
-/* Returns a bit mask of the points, 1 to 64, whose first coordinate equals `x`. Points are compared 16 or four at a
- * time; the last 16 or four may overlap the previous ones.
- */
-static inline uint64_t mask_equal_x(const octree_point *points, unsigned count, double x)
-{
-    uint64_t equal = 0;
-#ifdef OCTREE_SSE2
-    const __m128d both = _mm_set1_pd(x);
-    if (count >= 16) {
-        const octree_point *last = points + (count - 16);
-        for (unsigned i = 0; points < last; i += 16, points += 16)
-            equal |= mask_sixteen_equal(points, both) << i;
-        return equal | mask_sixteen_equal(last, both) << (count - 16);
-    }
-    if (count >= 4) {
-        const octree_point *last = points + (count - 4);
-        for (unsigned i = 0; points < last; i += 4, points += 4)
-            equal |= mask_four_equal(points, both) << i;
-        return equal | mask_four_equal(last, both) << (count - 4);
-    }
-#endif
-    for (unsigned i = 0; i < count; i++)
-        equal |= (uint64_t)(points[i].position[0] == x) << i;
-    return equal;
-}
-
 /* Returns the point at a position that has the lowest id. Returns null if no point of the leaf is at the position. */
 static inline const octree_point *find_lowest_id_in_leaf(const node *leaf, const double position[3])
 {

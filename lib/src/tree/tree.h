@@ -100,12 +100,23 @@ typedef struct path {
     unsigned depth; /* the depth of the path's last node */
 } path;
 
-/* begin_path() makes a path that ends at the root. extend_path() continues a path towards a code, down to the last node
- * that exists. path_end() returns the last node of a path. find_path() returns the whole path to a code. */
+/* begin_path() makes a path that ends at the root. begin_path_beside() makes the path that begins with the nodes which
+ * the path to another code shares with it. extend_path() continues a path towards a code, down to the last node that
+ * exists. path_end() returns the last node of a path. find_path() returns the whole path to a code. */
 static inline void begin_path(path *p, octree *tree)
 {
     p->nodes[0] = &tree->root;
     p->depth = 0;
+}
+
+static inline void begin_path_beside(path *p, uint64_t code, const path *other, uint64_t other_code)
+{
+    p->nodes[0] = other->nodes[0];
+    for (p->depth = 0;
+         p->depth < other->depth && morton_octant(code, p->depth) == morton_octant(other_code, p->depth);) {
+        p->depth++;
+        p->nodes[p->depth] = other->nodes[p->depth];
+    }
 }
 
 static inline node *path_end(const path *p)
@@ -130,17 +141,14 @@ static inline octree_point stored_point(const found_point *found)
 /* Find a pair (position, id). Returns false if the tree does not have the pair. */
 bool find_point(const octree *tree, const double position[3], uint64_t id, found_point *found);
 
-/* Insert a point at the end of the path to its code. The last node of the path may then have new nodes below. Returns
- * the statuses of insert_point(). The change log must be off. Under OCTREE_AUTO the caller calls tune_if_due(). */
+/* Insert a point that is not stored yet at the end of the path to its code. The last node of the path may then have new
+ * nodes below. Returns the statuses of insert_point() but DUPLICATE. The change log must be off. Under OCTREE_AUTO the
+ * caller calls tune_if_due(). */
 octree_status insert_along_path(octree *tree, const path *p, const octree_point *point, uint64_t code);
 
 /* Remove a point that was found, and shorten the path to the nodes that still exist. `code` is the point's Morton code.
  * Returns OK or NO_MEMORY. The change log must be off. */
 octree_status remove_along_path(octree *tree, found_point *found, uint64_t code);
-
-/* Give a stored point another id. The pair of the position and the new id is not stored. The change log does not list
- * the change. */
-void replace_point_id(octree *tree, const double position[3], uint64_t id, uint64_t new_id);
 
 /* A removal whose memory is allocated before the point is removed. prepare_removal() returns OK, NOT_FOUND or
  * NO_MEMORY. If it returns OK, one of the other two functions must be called before the tree changes; they cannot

@@ -37,10 +37,15 @@ typedef struct single_move {
     uint64_t from, to;       /* the Morton codes of the two positions */
 } single_move;
 
+/* Move a point that was found to a position where it is not stored yet; its id may change too. `to` is the path of that
+ * position. `undo` may be null. Otherwise undo[0] and undo[1] must be STEP_NONE before the call. undo[0] receives the
+ * arrival of the point or its move within a leaf, undo[1] its departure. Returns the statuses of insert_point() but
+ * DUPLICATE. The change log must be off. */
+octree_status move_found_point(octree *tree, const single_move *m, found_point *found, const path *to, step *undo);
+
 /* Move a point. found->path and `to` are the paths of the two positions; found->index is not read. m->old.position
- * becomes the position as it was stored. `undo` may be null. Otherwise undo[0] and undo[1] must be STEP_NONE before the
- * call. undo[0] receives the arrival of the point or its move within a leaf, undo[1] its departure. Returns the
- * statuses of octree_move(). */
+ * becomes the position as it was stored. `undo` is that of move_found_point(). Returns the statuses of octree_move().
+ */
 octree_status move_along_paths(octree *tree, single_move *m, found_point *found, const path *to, step *undo);
 
 /* Returns whether a move has moved or replaced inner nodes, so that the paths of other points may be wrong. If the
