@@ -57,6 +57,18 @@ static void find_by_hash(const octree_bodies *set, const level *l, const octree_
             leaf_find(path_end(&found->at.path), body->position, make_point_id(l, found->row, body->half));
 }
 
+/* Start to load the box of the leaf at the end of a path. A change reads it after the leaf's points. */
+static void prefetch_box_of_leaf(const level *l, const path *p)
+{
+    if (p->depth == 0 || !has_boxes(&l->tree->store))
+        return;
+    const node *parent = p->nodes[p->depth - 1];
+    const octree_box *boxes = boxes_of_group(children_of(parent), bits_count8(parent->octants));
+    const octree_box *box = boxes + (path_end(p) - children_of(parent));
+    prefetch_memory(&box->min[0]);
+    prefetch_memory(&box->max[2]);
+}
+
 /* Find a body, and hash the rows of the set `changed` before if the leaf is crowded. Null: the set is not changed. */
 static inline bool find(const octree_bodies *set, const octree_body *body, octree_bodies *changed,
                         const found_body *near, found_body *found)
@@ -75,6 +87,8 @@ static inline bool find(const octree_bodies *set, const octree_body *body, octre
     const node *end = path_end(&found->at.path);
     if (end->octants)
         return false;
+    if (changed)
+        prefetch_box_of_leaf(l, &found->at.path);
     if (changed && is_crowded(end) && !rows_are_hashed(&set->rows))
         rows_hash(&changed->rows, 0);
     (rows_are_hashed(&set->rows) ? find_by_hash : find_in_leaf)(set, l, body, found);
