@@ -3,7 +3,9 @@
  *
  * The rows are changed one by one, with the results of the caller's order; so each body gets the status that a single
  * call would give. The hash table of the rows finds duplicates among the bodies of the call. It stays, because further
- * bulk calls are likely; only if the call fills an empty set, it is dropped. The resulting changes of the trees are
+ * bulk calls are likely. A call that fills an empty set needs no table, because it adds the bodies cell by cell
+ * (order.c): duplicates are in the same cell. Only if a cell has many bodies, it makes a table, and drops it. The
+ * resulting changes of the trees are
  * collected, and each level makes its changes in one bulk call of octree.h. If this call fails, it has changed nothing
  * in its tree, and the rows of this level's bodies are restored afterwards.
  *
@@ -64,13 +66,10 @@ static void end_bulk(bulk *b)
     arena_free(memory, b->to, (b->room + 1) * sizeof *b->to);
 }
 
-/* Hash the rows, with room for `more` bodies, and allocate the lists of a bulk call. Returns false, without the lists,
- * if memory runs out. */
-static bool begin_bulk(bulk *b, size_t count, size_t more)
+/* Allocate the lists of a bulk call. Returns false if memory runs out. */
+static bool begin_bulk(bulk *b, size_t count)
 {
     arena *memory = &b->set->memory;
-    if (count > 0 && !rows_hash(&b->set->rows, more))
-        return false;
     b->room = count;
     b->items = count <= SIZE_MAX / sizeof *b->items ? arena_allocate(memory, (count + 1) * sizeof *b->items) : NULL;
     b->points = b->items ? arena_allocate(memory, (count + 1) * sizeof *b->points) : NULL;
@@ -79,6 +78,12 @@ static bool begin_bulk(bulk *b, size_t count, size_t more)
         return true;
     end_bulk(b);
     return false;
+}
+
+/* Hash the rows, and do the same. */
+static bool begin_hashed_bulk(bulk *b, size_t count)
+{
+    return (count == 0 || rows_hash(&b->set->rows, 0)) && begin_bulk(b, count);
 }
 
 static void collect(bulk *b, size_t index, uint32_t row, unsigned level)
@@ -223,11 +228,27 @@ static void finish_insertion(bulk *b, const pending *p, bool made)
         rows_remove(&b->set->rows, p->row);
 }
 
-static void add_row(bulk *b, size_t index, uint32_t hash)
+/* Returns whether a body is the same as an earlier one of the same cell. */
+static bool is_repeated(const bulk *b, const row_order *order, size_t at)
 {
+    const octree_body *body = &b->from[body_in_order(order, at)];
+    for (size_t i = at; i-- > 0 && cell_in_order(order, i) == cell_in_order(order, at);)
+        if (is_same_body(&b->from[body_in_order(order, i)], body))
+            return true;
+    return false;
+}
+
+/* Add the row of a body. The hash is read only if the rows are hashed. */
+static void add_row(bulk *b, const row_order *order, size_t at, uint32_t hash)
+{
+    const size_t index = body_in_order(order, at);
     const octree_body *body = &b->from[index];
     const octree_status status = check_body(b->set, body);
-    const uint32_t row = status == OCTREE_OK ? rows_add_if_new(&b->set->rows, body, hash) : ROW_NONE;
+    uint32_t row = ROW_NONE;
+    if (status == OCTREE_OK && rows_are_hashed(&b->set->rows))
+        row = rows_add_if_new(&b->set->rows, body, hash);
+    else if (status == OCTREE_OK && !is_repeated(b, order, at))
+        row = rows_add(&b->set->rows, body);
     if (row == ROW_NONE)
         set_status(b, index, status == OCTREE_OK ? OCTREE_DUPLICATE : status);
     else
@@ -238,12 +259,12 @@ static void add_row(bulk *b, size_t index, uint32_t hash)
  * in memory. */
 static void add_rows(bulk *b, const row_order *order)
 {
-    uint32_t hashes[PREFETCH_AHEAD];
+    uint32_t hashes[PREFETCH_AHEAD] = {0};
     for (size_t i = 0; i < order->count + PREFETCH_AHEAD; i++) {
         uint32_t *hash = &hashes[i % PREFETCH_AHEAD];
         if (i >= PREFETCH_AHEAD)
-            add_row(b, body_in_order(order, i - PREFETCH_AHEAD), *hash);
-        if (i < order->count)
+            add_row(b, order, i - PREFETCH_AHEAD, *hash);
+        if (i < order->count && rows_are_hashed(&b->set->rows))
             *hash = rows_prefetch(&b->set->rows, &b->from[body_in_order(order, i)]);
         if (i + PREFETCH_AHEAD < order->count)
             prefetch_body(&b->from[body_in_order(order, i + PREFETCH_AHEAD)]);
@@ -260,12 +281,15 @@ octree_status octree_bodies_insert_many(octree_bodies *bodies, const octree_body
         return change_one_by_one(&b, count, changed, octree_bodies_insert);
     if (status == OCTREE_OK)
         status = rows_reserve(&bodies->rows, count);
-    const bool first = status == OCTREE_OK && bodies->rows.count == 0 && !rows_are_hashed(&bodies->rows);
-    if (status == OCTREE_OK && !begin_bulk(&b, count, count))
-        status = OCTREE_NO_MEMORY;
     if (status != OCTREE_OK)
         return refuse_all(status, statuses, count);
+    const bool first = bodies->rows.count == 0 && !rows_are_hashed(&bodies->rows);
     const row_order order = make_order(bodies, added, count);
+    const bool needs_hash = count > 0 && !(first && has_sparse_cells(&order));
+    if ((needs_hash && !rows_hash(&bodies->rows, count)) || !begin_bulk(&b, count)) {
+        free_order(bodies, &order);
+        return refuse_all(OCTREE_NO_MEMORY, statuses, count);
+    }
     if (order.keys && bodies->rows.count == 0)
         choose_floor(bodies, &order);
     add_rows(&b, &order);
@@ -320,7 +344,7 @@ octree_status octree_bodies_remove_many(octree_bodies *bodies, const octree_body
     bulk b = {.set = bodies, .from = removed, .statuses = statuses};
     if (status == OCTREE_OK && are_few(bodies, count))
         return change_one_by_one(&b, count, changed, octree_bodies_remove);
-    if (status == OCTREE_OK && !begin_bulk(&b, count, 0))
+    if (status == OCTREE_OK && !begin_hashed_bulk(&b, count))
         status = OCTREE_NO_MEMORY;
     if (status != OCTREE_OK)
         return refuse_all(status, statuses, count);
@@ -402,7 +426,7 @@ octree_status octree_bodies_move_many(octree_bodies *bodies, const octree_body *
     bulk b = {.set = bodies, .from = from, .moved = to, .statuses = statuses};
     if (status == OCTREE_OK && are_few(bodies, count))
         return change_one_by_one(&b, count, changed, NULL);
-    if (status == OCTREE_OK && !begin_bulk(&b, count, 0))
+    if (status == OCTREE_OK && !begin_hashed_bulk(&b, count))
         status = OCTREE_NO_MEMORY;
     if (status != OCTREE_OK)
         return refuse_all(status, statuses, count);

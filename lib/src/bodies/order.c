@@ -101,6 +101,15 @@ void free_order(octree_bodies *set, const row_order *order)
     arena_free(&set->memory, order->keys, bytes_of_order(order));
 }
 
+bool has_sparse_cells(const row_order *order)
+{
+    enum { FEW = 32 };
+    bool sparse = order->keys != NULL;
+    for (size_t i = FEW; sparse && i < order->count; i++)
+        sparse = cell_in_order(order, i) != cell_in_order(order, i - FEW);
+    return sparse;
+}
+
 /* ---- The floor ---------------------------------------------------------------------------------------------- */
 
 /* Returns the index of the first of the keys begin .. end - 1 whose cell is not below a cell; `end` if there is none.
@@ -109,7 +118,7 @@ static size_t find_cell(const row_order *order, size_t begin, size_t end, uint32
 {
     while (begin < end) {
         const size_t middle = begin + (end - begin) / 2;
-        if (order->keys[middle] >> 32 < cell)
+        if (cell_in_order(order, middle) < cell)
             begin = middle + 1;
         else
             end = middle;

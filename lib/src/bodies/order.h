@@ -22,6 +22,14 @@ static inline size_t body_in_order(const row_order *order, size_t i)
     return order->keys ? (uint32_t)order->keys[i] : i;
 }
 
+static inline uint32_t cell_in_order(const row_order *order, size_t i)
+{
+    return (uint32_t)(order->keys[i] >> 32);
+}
+
+/* Returns whether the order is that of cells, and each has so few bodies that comparing them all is fast. */
+bool has_sparse_cells(const row_order *order);
+
 /* Choose the floor of an empty set that will have these bodies. */
 void choose_floor(octree_bodies *set, const row_order *order);
 

@@ -165,6 +165,53 @@ static void crowds_of_a_first_insertion_keep_the_table(void **state)
     octree_bodies_destroy(set);
 }
 
+/* Insert bodies into an empty set, in one call and one by one, and compare the statuses. */
+static void assert_statuses_of_first_insertion(const octree_body *bodies, size_t count)
+{
+    static octree_status statuses[BODIES];
+    size_t changed;
+    octree_bodies *bulk = make_body_set(cube(-8, 8), 16), *single = make_body_set(cube(-8, 8), 16);
+    assert_int_equal(octree_bodies_insert_many(bulk, bodies, count, statuses, &changed), OCTREE_OK);
+    for (size_t i = 0; i < count; i++)
+        assert_int_equal(statuses[i], octree_bodies_insert(single, &bodies[i]));
+    assert_int_equal(changed, octree_bodies_count(single));
+    assert_true(octree_bodies_digest(bulk) == octree_bodies_digest(single));
+    assert_null(octree_bodies_check(bulk));
+    octree_bodies_destroy(bulk);
+    octree_bodies_destroy(single);
+}
+
+static void a_first_insertion_finds_repeated_bodies_in_sparse_cells(void **state)
+{
+    (void)state;
+    static octree_body bodies[BODIES];
+    uint64_t seed = 5;
+    for (uint64_t i = 0; i < BODIES; i++)
+        bodies[i] = small_body(0.1, &seed, i);
+    for (size_t i = 0; i < BODIES / 4; i++)
+        bodies[BODIES - 1 - 3 * i] = bodies[i];
+    for (size_t i = 0; i < 50; i += 10) { /* at the corner of eight cells, with other signs, ids and half extents */
+        bodies[i] = bodies[i + 1] = bodies[i + 2] = bodies[i + 3] = body_at(0, 0, 0, 0.05, i);
+        bodies[i + 1].position[1] = bodies[i + 1].half[0] = -0.0;
+        bodies[i + 2].position[2] = -0.0;
+        bodies[i + 3].half[2] = 0.06;
+        bodies[i + 4] = body_at(9, 0, 0, 0.05, i); /* outside */
+    }
+    assert_statuses_of_first_insertion(bodies, BODIES);
+}
+
+static void a_first_insertion_finds_repeated_bodies_in_dense_cells(void **state)
+{
+    (void)state;
+    enum { MOST = 40 };
+    octree_body bodies[2 * MOST];
+    for (size_t count = MOST / 2; count <= MOST; count++) {
+        for (uint64_t i = 0; i < count; i++)
+            bodies[i] = bodies[2 * count - 1 - i] = body_at(1 + 0.001 * (double)i, 1, 1, 0.05, i);
+        assert_statuses_of_first_insertion(bodies, 2 * count);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -173,6 +220,8 @@ int main(void)
         cmocka_unit_test(few_changes_without_memory_report_it),
         cmocka_unit_test(crowds_are_found_by_a_table),
         cmocka_unit_test(crowds_of_a_first_insertion_keep_the_table),
+        cmocka_unit_test(a_first_insertion_finds_repeated_bodies_in_sparse_cells),
+        cmocka_unit_test(a_first_insertion_finds_repeated_bodies_in_dense_cells),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
