@@ -3,13 +3,14 @@
  *
  * Problem: a search for each body descends from the root each time, and finds each pair twice.
  *
- * Idea: one descent of both sides at once. Clusters of bodies whose boxes do not meet have no pairs; of two clusters
- * that meet, the one with more bodies is replaced by its children, until two leaves are compared body by body. Each
- * pair is found once: pairs of two children of a node are visited for i < j only.
+ * Idea: descend in one tree, and carry along which clusters of the other tree meet the cluster that is visited. They
+ * are replaced by those of their children that meet it. The list of a child is chosen from its parent's. If both trees
+ * are the same, a list has only later clusters, so that each pair is found once.
  *
- * Two neighbouring leaves have few bodies that can meet: those that meet the common box of both leaves. These are
- * gathered from one leaf, and compared with those of the other. Boxes of floats are a quick test before the exact
- * test.
+ * The bodies of a leaf are compared with all bodies that may meet them, together: first with the others of the leaf,
+ * then with those of the clusters in its list that meet its box, which are gathered. So there is one loop for each
+ * body. A loop for each two neighbouring leaves would be too short: most processors mispredict its end. Boxes of floats
+ * are a quick test before the exact test.
  *
  * The descent runs over copies of the levels (snapshot.c), in which the order of clusters and bodies is a function of
  * the bodies alone. So is the order of the pairs.
@@ -18,12 +19,17 @@
 #include "../exact/body.h"
 #include "visit.h"
 
-/* Some of the bodies of one leaf, with a copy of their boxes. */
+/* At most so many bodies are compared with a leaf together. */
+enum { CANDIDATES = 256 };
+
+/* Bodies that may meet those of a leaf, with a copy of their boxes. */
 typedef struct candidates {
-    const octree_body *bodies[BOXES_AT_ONCE];
-    float faces[6][BOXES_AT_ONCE + BOX_PADDING];
+    const octree_body *bodies[CANDIDATES];
+    float faces[6][CANDIDATES + BOX_PADDING];
     box_columns boxes;
+    float_box around; /* all but the leaf's own */
     size_t count;
+    size_t own; /* the first candidates are all bodies of the leaf; 0: none is */
 } candidates;
 
 typedef struct pairing {
@@ -31,6 +37,9 @@ typedef struct pairing {
     octree_pair_visitor visit;
     void *context;
     bool stopped;
+    const snapshot *x, *y; /* the two levels; perhaps the same one */
+    uint32_t *list;        /* a stack of indices of clusters of y */
+    candidates near;
 } pairing;
 
 /* ---- Leaves ------------------------------------------------------------------------------------------------- */
@@ -50,97 +59,136 @@ static size_t size_of_chunk(size_t first, size_t end)
     return end - first < BOXES_AT_ONCE ? end - first : BOXES_AT_ONCE;
 }
 
-/* Visit the pairs of a body with the bodies first .. end - 1 of its snapshot. */
-static void pair_with_rest(pairing *p, const snapshot *s, size_t body, size_t first, size_t end)
+/* Visit the pairs of a body with others, whose boxes are given: first .. end - 1. */
+static void pair_with_others(pairing *p, const octree_body *body, const float_box *box, const octree_body **others,
+                             const box_columns *boxes, size_t first, size_t end)
 {
-    const float_box box = box_in_columns(&s->boxes, body);
-    for (; first < end && !p->stopped; first += BOXES_AT_ONCE) {
-        uint64_t left = find_meeting_boxes(&s->boxes, first, size_of_chunk(first, end), &box);
-        for (; left; left &= left - 1)
-            visit_if_pair(p, s->bodies[body], s->bodies[first + bits_lowest(left)]);
-    }
+    for (; first < end && !p->stopped; first += BOXES_AT_ONCE)
+        for (uint64_t left = find_meeting_boxes(boxes, first, size_of_chunk(first, end), box); left; left &= left - 1)
+            visit_if_pair(p, body, others[first + bits_lowest(left)]);
 }
 
-static void pair_within_leaf(pairing *p, const snapshot *s, const cluster *leaf)
+static void pair_within_leaf(pairing *p, const cluster *leaf)
 {
     const size_t end = leaf->first + leaf->count;
-    for (size_t i = leaf->first; i < end && !p->stopped; i++)
-        pair_with_rest(p, s, i, i + 1, end);
+    for (size_t i = leaf->first; i < end && !p->stopped; i++) {
+        const float_box box = box_in_columns(&p->x->boxes, i);
+        pair_with_others(p, p->x->bodies[i], &box, p->x->bodies, &p->x->boxes, i + 1, end);
+    }
 }
 
-static void add_candidate(candidates *c, const snapshot *s, size_t index)
+/* Visit the pairs of the bodies of a leaf with the candidates, and remove these. */
+static void pair_with_candidates(pairing *p, const cluster *leaf)
 {
-    const float_box box = box_in_columns(&s->boxes, index);
-    store_in_columns(&c->boxes, c->count, &box);
-    prefetch_memory(s->bodies[index]);
-    c->bodies[c->count++] = s->bodies[index];
-}
-
-/* Gather the bodies first .. first + count - 1 that meet a box. */
-static void gather_candidates(candidates *c, const snapshot *s, size_t first, size_t count, const float_box *box)
-{
-    c->count = 0;
-    for (uint64_t left = find_meeting_boxes(&s->boxes, first, count, box); left; left &= left - 1)
-        add_candidate(c, s, first + bits_lowest(left));
+    candidates *c = &p->near;
     for (int face = 0; face < 6; face++)
         memset(&c->faces[face][c->count], 0, BOX_PADDING * sizeof(float)); /* is read, but does not matter */
+    for (size_t i = 0; i < leaf->count && !p->stopped; i++) {
+        const float_box box = box_in_columns(&p->x->boxes, leaf->first + i);
+        if (c->own > 0 || float_boxes_meet(&box, &c->around))
+            pair_with_others(p, p->x->bodies[leaf->first + i], &box, c->bodies, &c->boxes, c->own > 0 ? i + 1 : 0,
+                             c->count);
+    }
+    c->count = c->own = 0;
+    c->around = make_empty_float_box();
 }
 
-static void pair_with_candidates(pairing *p, const octree_body *body, const float_box *box, const candidates *c)
+/* Begin with the bodies of the leaf itself if both sides are the same. A crowd is compared with itself alone. */
+static void begin_candidates(pairing *p, const cluster *leaf)
 {
-    for (uint64_t left = find_meeting_boxes(&c->boxes, 0, c->count, box); left; left &= left - 1)
-        visit_if_pair(p, body, c->bodies[bits_lowest(left)]);
-}
-
-static void pair_leaves(pairing *p, const snapshot *x, const cluster *a, const snapshot *y, const cluster *b)
-{
-    const float_box common = intersect_float_boxes(&a->box, &b->box);
-    const size_t end_a = a->first + a->count, end_b = b->first + b->count;
-    candidates of_b;
+    candidates *c = &p->near;
+    c->count = c->own = 0;
+    c->around = make_empty_float_box();
+    if (p->x != p->y)
+        return;
+    if (leaf->count > BOXES_AT_ONCE) {
+        pair_within_leaf(p, leaf);
+        return;
+    }
+    c->count = c->own = leaf->count;
+    for (size_t i = 0; i < leaf->count; i++)
+        prefetch_body(p->x->bodies[leaf->first + i]);
+    memcpy(c->bodies, p->x->bodies + leaf->first, leaf->count * sizeof *c->bodies);
     for (int k = 0; k < 3; k++) {
-        of_b.boxes.min[k] = of_b.faces[k];
-        of_b.boxes.max[k] = of_b.faces[k + 3];
+        memcpy(c->boxes.min[k], p->x->boxes.min[k] + leaf->first, leaf->count * sizeof(float));
+        memcpy(c->boxes.max[k], p->x->boxes.max[k] + leaf->first, leaf->count * sizeof(float));
     }
-    for (size_t j = b->first; j < end_b && !p->stopped; j += BOXES_AT_ONCE) {
-        gather_candidates(&of_b, y, j, size_of_chunk(j, end_b), &common);
-        for (size_t i = a->first; of_b.count > 0 && i < end_a && !p->stopped; i += BOXES_AT_ONCE) {
-            uint64_t left = find_meeting_boxes(&x->boxes, i, size_of_chunk(i, end_a), &common);
-            for (; left; left &= left - 1) {
-                const size_t body = i + bits_lowest(left);
-                const float_box box = box_in_columns(&x->boxes, body);
-                pair_with_candidates(p, x->bodies[body], &box, &of_b);
-            }
-        }
-    }
+}
+
+static void add_candidate(pairing *p, const cluster *leaf, size_t index)
+{
+    candidates *c = &p->near;
+    const float_box box = box_in_columns(&p->y->boxes, index);
+    if (c->count == CANDIDATES)
+        pair_with_candidates(p, leaf);
+    store_in_columns(&c->boxes, c->count, &box);
+    include_float_box(&c->around, &box);
+    prefetch_body(p->y->bodies[index]);
+    c->bodies[c->count++] = p->y->bodies[index];
+}
+
+/* Gather the bodies of a cluster that meet the box of a leaf. */
+static void gather_candidates(pairing *p, const cluster *leaf, const cluster *other)
+{
+    const size_t end = other->first + other->count;
+    if (!float_boxes_meet(&leaf->box, &other->box))
+        return;
+    for (unsigned i = 0; i < other->child_count; i++)
+        gather_candidates(p, leaf, cluster_at(p->y, other->child + i));
+    for (size_t i = other->first; other->child_count == 0 && i < end; i += BOXES_AT_ONCE)
+        for (uint64_t left = find_meeting_boxes(&p->y->boxes, i, size_of_chunk(i, end), &leaf->box); left;
+             left &= left - 1)
+            add_candidate(p, leaf, i + bits_lowest(left));
+}
+
+static void pair_leaf(pairing *p, const cluster *leaf, size_t begin, size_t end)
+{
+    begin_candidates(p, leaf);
+    for (size_t i = begin; i < end && !p->stopped; i++)
+        gather_candidates(p, leaf, cluster_at(p->y, p->list[i]));
+    pair_with_candidates(p, leaf);
 }
 
 /* ---- Nodes -------------------------------------------------------------------------------------------------- */
 
-/* Visit the pairs of one body in cluster `a` and one body in cluster `b`, which is another cluster. */
-static void pair_clusters(pairing *p, const snapshot *x, const cluster *a, const snapshot *y, const cluster *b)
+/* Append a cluster of y to the list if it meets a box. Returns the new end. */
+static size_t list_if_met(pairing *p, const float_box *box, size_t cluster, size_t end)
 {
-    if (p->stopped || !float_boxes_meet(&a->box, &b->box))
-        return;
-    if (a->child_count == 0 && b->child_count == 0) {
-        pair_leaves(p, x, a, y, b);
-        return;
-    }
-    const bool divides_a = b->child_count == 0 || (a->child_count > 0 && a->count >= b->count);
-    for (unsigned i = 0; divides_a && i < a->child_count; i++)
-        pair_clusters(p, x, cluster_at(x, a->child + i), y, b);
-    for (unsigned i = 0; !divides_a && i < b->child_count; i++)
-        pair_clusters(p, x, a, y, cluster_at(y, b->child + i));
+    p->list[end] = (uint32_t)cluster;
+    return end + float_boxes_meet(box, &cluster_at(p->y, cluster)->box);
 }
 
-/* Visit the pairs of two bodies in a cluster. */
-static void pair_within_cluster(pairing *p, const snapshot *s, const cluster *c)
+/* Append the clusters of a list that meet a box, instead of inner ones their children. Returns the new end. */
+static size_t list_children(pairing *p, const float_box *box, size_t begin, size_t end)
 {
-    if (c->child_count == 0)
-        pair_within_leaf(p, s, c);
-    for (unsigned i = 0; i < c->child_count && !p->stopped; i++) {
-        pair_within_cluster(p, s, cluster_at(s, c->child + i));
-        for (unsigned j = i + 1; j < c->child_count; j++)
-            pair_clusters(p, s, cluster_at(s, c->child + i), s, cluster_at(s, c->child + j));
+    size_t next = end;
+    for (size_t i = begin; i < end; i++) {
+        const cluster *other = cluster_at(p->y, p->list[i]);
+        if (other->child_count == 0)
+            p->list[next++] = p->list[i];
+        for (unsigned k = 0; k < other->child_count; k++)
+            next = list_if_met(p, box, other->child + k, next);
+    }
+    return next;
+}
+
+/* Visit the pairs of the bodies of a cluster with those of the clusters begin .. end - 1 of the list, and, if both
+ * sides are the same, with each other. */
+static void pair_cluster(pairing *p, const cluster *a, size_t begin, size_t end)
+{
+    if (a->child_count == 0) {
+        pair_leaf(p, a, begin, end);
+        return;
+    }
+    const size_t next = list_children(p, &a->box, begin, end);
+    for (unsigned i = 0; i < a->child_count && !p->stopped; i++) {
+        const cluster *child = cluster_at(p->x, a->child + i);
+        size_t last = next;
+        for (unsigned k = i + 1; p->x == p->y && k < a->child_count; k++)
+            last = list_if_met(p, &child->box, a->child + k, last);
+        for (size_t k = end; k < next; k++)
+            last = list_if_met(p, &child->box, p->list[k], last);
+        pair_cluster(p, child, next, last);
     }
 }
 
@@ -150,14 +198,21 @@ static void pair_within_cluster(pairing *p, const snapshot *s, const cluster *c)
 typedef struct snapshots {
     snapshot levels[OCTREE_BODY_LEVELS];
     unsigned count;
+    unsigned depth;    /* the greatest of a level */
+    size_t leaf_count; /* the same */
 } snapshots;
 
 static bool make_snapshots(snapshots *s, const octree_bodies *set, const float_frame *frame, arena *memory)
 {
     bool made = true;
-    for (unsigned i = 0; i < OCTREE_BODY_LEVELS && made; i++)
-        if (octree_count(set->levels[i].tree) > 0)
-            made = snapshot_make(&s->levels[s->count++], set, &set->levels[i], frame, memory);
+    for (unsigned i = 0; i < OCTREE_BODY_LEVELS && made; i++) {
+        if (octree_count(set->levels[i].tree) == 0)
+            continue;
+        snapshot *level = &s->levels[s->count++];
+        made = snapshot_make(level, set, &set->levels[i], frame, memory);
+        s->depth = level->depth > s->depth ? level->depth : s->depth;
+        s->leaf_count = level->leaf_count > s->leaf_count ? level->leaf_count : s->leaf_count;
+    }
     return made;
 }
 
@@ -167,20 +222,32 @@ static void release_snapshots(snapshots *s)
         snapshot_release(&s->levels[i]);
 }
 
-static void pair_within_set(pairing *p, const snapshots *s)
+/* The greatest length of the list: each cluster on the way down has a list, and one of their children, which may have
+ * all leaves of the other level. */
+static size_t length_of_list(const snapshots *a, const snapshots *b)
 {
-    for (unsigned i = 0; i < s->count && !p->stopped; i++) {
-        pair_within_cluster(p, &s->levels[i], cluster_at(&s->levels[i], 0));
-        for (unsigned j = i + 1; j < s->count; j++)
-            pair_clusters(p, &s->levels[i], cluster_at(&s->levels[i], 0), &s->levels[j], cluster_at(&s->levels[j], 0));
-    }
+    return (2 * (size_t)a->depth + 2) * (b->leaf_count + 1);
 }
 
+/* Visit the pairs of two levels, or of one. */
+static void pair_levels(pairing *p, const snapshot *x, const snapshot *y)
+{
+    p->x = x;
+    p->y = y;
+    p->list[0] = 0; /* the root */
+    pair_cluster(p, cluster_at(x, 0), 0, x == y ? 0 : 1);
+}
+
+/* Visit the pairs of all levels of two sets, which may be the same. */
 static void pair_sets(pairing *p, const snapshots *a, const snapshots *b)
 {
+    for (int k = 0; k < 3; k++) {
+        p->near.boxes.min[k] = p->near.faces[k];
+        p->near.boxes.max[k] = p->near.faces[k + 3];
+    }
     for (unsigned i = 0; i < a->count; i++)
-        for (unsigned j = 0; j < b->count; j++)
-            pair_clusters(p, &a->levels[i], cluster_at(&a->levels[i], 0), &b->levels[j], cluster_at(&b->levels[j], 0));
+        for (unsigned j = p->within ? i : 0; j < b->count && !p->stopped; j++)
+            pair_levels(p, &a->levels[i], &b->levels[j]);
 }
 
 octree_status octree_bodies_pairs(const octree_bodies *bodies, const octree_bodies *other, octree_pair_visitor visit,
@@ -196,14 +263,16 @@ octree_status octree_bodies_pairs(const octree_bodies *bodies, const octree_bodi
         make_float_frame(&anchor_of(bodies)->def.world, &anchor_of(other ? other : bodies)->def.world);
     const bool made =
         make_snapshots(&a, bodies, &frame, &memory) && (!other || make_snapshots(&b, other, &frame, &memory));
+    const snapshots *second = other ? &b : &a;
+    const size_t bytes = length_of_list(&a, second) * sizeof *p.list;
+    p.list = made ? arena_allocate(&memory, bytes) : NULL;
     const unsigned begun = begin_set_callbacks(bodies), begun_other = begin_set_callbacks(other ? other : bodies);
-    if (made && other)
-        pair_sets(&p, &a, &b);
-    else if (made)
-        pair_within_set(&p, &a);
+    if (p.list)
+        pair_sets(&p, &a, second);
     end_callbacks(begun_other);
     end_callbacks(begun);
+    arena_free(&memory, p.list, bytes);
     release_snapshots(&a);
     release_snapshots(&b);
-    return made ? OCTREE_OK : OCTREE_NO_MEMORY;
+    return p.list ? OCTREE_OK : OCTREE_NO_MEMORY;
 }

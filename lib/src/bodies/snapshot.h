@@ -26,6 +26,8 @@ typedef struct snapshot {
     float_frame frame;
     size_t capacity;            /* a leaf is not divided, nor is a node with at most this number of bodies */
     list clusters;              /* of clusters; the first is the root */
+    unsigned depth;             /* of the deepest cluster */
+    size_t leaf_count;          /* the number of clusters without children */
     const octree_body **bodies; /* in the order of the leaves of the tree, and in each leaf sorted */
     octree_body *made;          /* the bodies of a set that shows points, which has no rows; else null */
     box_columns boxes;          /* the boxes of the bodies, in the same order, and BOX_PADDING more that are not used */
