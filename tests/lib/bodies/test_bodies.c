@@ -41,6 +41,10 @@ static void bodies_that_differ_in_one_member_are_different(void **state)
     for (int i = 0; i < 3; i++)
         assert_int_equal(octree_bodies_insert(set, &other[i]), OCTREE_OK);
     assert_int_equal(octree_bodies_move(set, &other[0], &same), OCTREE_DUPLICATE);
+    const octree_body small = body_at(1, 1, 1, 0.01, 1); /* in another level */
+    assert_int_equal(octree_bodies_insert(set, &small), OCTREE_OK);
+    assert_int_equal(octree_bodies_move(set, &small, &same), OCTREE_DUPLICATE);
+    assert_int_equal(octree_bodies_remove(set, &small), OCTREE_OK);
     assert_int_equal(octree_bodies_count(set), 4);
     same.position[1] = -0.0;
     other[0] = same;

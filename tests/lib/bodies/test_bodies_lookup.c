@@ -148,6 +148,32 @@ static void crowds_are_found_by_a_table(void **state)
     octree_bodies_destroy(set);
 }
 
+/* A crowd is one body larger than a leaf that is searched without a table, and there is no memory for a table. */
+static void crowds_are_found_without_memory_for_a_table(void **state)
+{
+    (void)state;
+    enum { MOST = 65 };
+    counting_allocator counts = {0};
+    octree_bodies *set;
+    octree_def def = define(cube(-8, 8), 16, 21, OCTREE_GROW);
+    def.allocator = counting_allocator_use(&counts);
+    assert_int_equal(octree_bodies_create(&def, &set), OCTREE_OK);
+    octree_body crowd[MOST];
+    for (uint64_t i = 0; i < MOST; i++) {
+        crowd[i] = body_at(1, 2, 3, 0.05, i);
+        assert_int_equal(octree_bodies_insert(set, &crowd[i]), OCTREE_OK);
+    }
+    assert_finds_all(set, crowd, MOST);
+    counting_allocator_fail_at(&counts, 0);
+    counts.fail_until = SIZE_MAX;
+    assert_int_equal(octree_bodies_remove(set, &crowd[MOST - 1]), OCTREE_OK);
+    counting_allocator_stop_failing(&counts);
+    assert_false(octree_bodies_contain(set, &crowd[MOST - 1]));
+    assert_finds_all(set, crowd, MOST - 1);
+    octree_bodies_destroy(set);
+    assert_all_returned(&counts);
+}
+
 static void crowds_of_a_first_insertion_keep_the_table(void **state)
 {
     (void)state;
@@ -219,6 +245,7 @@ int main(void)
         cmocka_unit_test(few_changes_in_one_call_need_no_table),
         cmocka_unit_test(few_changes_without_memory_report_it),
         cmocka_unit_test(crowds_are_found_by_a_table),
+        cmocka_unit_test(crowds_are_found_without_memory_for_a_table),
         cmocka_unit_test(crowds_of_a_first_insertion_keep_the_table),
         cmocka_unit_test(a_first_insertion_finds_repeated_bodies_in_sparse_cells),
         cmocka_unit_test(a_first_insertion_finds_repeated_bodies_in_dense_cells),

@@ -49,16 +49,18 @@ static void move_refuses_a_full_leaf_and_stays(void **state)
 static void move_refuses_a_pair_that_is_stored(void **state)
 {
     (void)state;
-    octree *tree = make_tree(cube(-1, 1), 4, 5, OCTREE_REFUSE);
     const double a[3] = {0.5, 0.5, 0.5}, b[3] = {-0.5, -0.5, -0.5}, c[3] = {0.5, 0.5, 0.625};
-    assert_int_equal(octree_insert(tree, a, 1), OCTREE_OK);
-    assert_int_equal(octree_insert(tree, b, 1), OCTREE_OK);
-    assert_int_equal(octree_insert(tree, c, 1), OCTREE_OK);
-    assert_stays(tree, a, 1, b, OCTREE_DUPLICATE);
-    assert_stays(tree, a, 1, c, OCTREE_DUPLICATE); /* within one leaf */
-    assert_int_equal(octree_insert(tree, b, 2), OCTREE_OK);
-    assert_int_equal(octree_move(tree, b, 2, a), OCTREE_OK); /* another id at the same place is no duplicate */
-    octree_destroy(tree);
+    for (size_t capacity = 1; capacity <= 4; capacity += 3) { /* in three leaves, and in one */
+        octree *tree = make_tree(cube(-1, 1), capacity, 5, OCTREE_GROW);
+        assert_int_equal(octree_insert(tree, a, 1), OCTREE_OK);
+        assert_int_equal(octree_insert(tree, b, 1), OCTREE_OK);
+        assert_int_equal(octree_insert(tree, c, 1), OCTREE_OK);
+        assert_stays(tree, a, 1, b, OCTREE_DUPLICATE);
+        assert_stays(tree, a, 1, c, OCTREE_DUPLICATE);
+        assert_int_equal(octree_insert(tree, b, 2), OCTREE_OK);
+        assert_int_equal(octree_move(tree, b, 2, a), OCTREE_OK); /* another id at the same place is no duplicate */
+        octree_destroy(tree);
+    }
 }
 
 static void move_within_a_full_leaf_always_succeeds(void **state)
