@@ -75,22 +75,22 @@ static double find_inverse_speed(const cast *c, int axis, double way)
 }
 
 /* Some 8 roundings of at most 2^-53 * (distance + reach) / speed are covered, and the underflow of products. */
-static axis_bounds prepare_axis_of_times(const level *l, const cast *c, int i)
+static void prepare_axis_of_times(axis_bounds *axis, const level *l, const cast *c, int i)
 {
     const double way = find_farthest(l, i, c->origin[i]) + l->reach[i] + c->half[i];
     const double inverse = find_inverse_speed(c, i, way), latest = way * inverse;
     const half_steps half = half_steps_of(l, i);
     const double extra = c->half[i] * inverse + latest * 0x1p-49 + 0x1p-1000;
-    return (axis_bounds){.origin = c->origin[i],
-                         .factor = !(latest < 0x1p1000) ? NAN
-                                   : c->sign[i] < 0     ? -inverse
-                                                        : inverse,
-                         .step = half.step * inverse,
-                         .rest = half.rest * inverse + extra,
-                         .unit = inverse,
-                         .extra = extra,
-                         .min = exact_add_down(c->origin[i], -c->half[i]),
-                         .max = exact_add_up(c->origin[i], c->half[i])};
+    *axis = (axis_bounds){.origin = c->origin[i],
+                          .factor = !(latest < 0x1p1000) ? NAN
+                                    : c->sign[i] < 0     ? -inverse
+                                                         : inverse,
+                          .step = half.step * inverse,
+                          .rest = half.rest * inverse + extra,
+                          .unit = inverse,
+                          .extra = extra,
+                          .min = c->half[i] > 0 ? exact_add_down(c->origin[i], -c->half[i]) : c->origin[i],
+                          .max = c->half[i] > 0 ? exact_add_up(c->origin[i], c->half[i]) : c->origin[i]};
 }
 
 void prepare_times(query_bounds *b, const level *l, const cast *c)
@@ -98,7 +98,7 @@ void prepare_times(query_bounds *b, const level *l, const cast *c)
     b->in_lanes = choose_functions();
     b->length = c->length < 0x1p1000 ? c->length : HUGE_VAL;
     for (int i = 0; i < 3; i++)
-        b->axes[i] = prepare_axis_of_times(l, c, i);
+        prepare_axis_of_times(&b->axes[i], l, c, i);
 }
 
 void bound_times_of_octants(const query_bounds *b, const cell_halves *h, double bounds[8])

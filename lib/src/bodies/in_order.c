@@ -364,7 +364,7 @@ static void search_in_order(ordered_search *s, size_t *count)
     s->keys = keys;
     set_limit(s, HUGE_VAL);
     for (unsigned i = 0; i < OCTREE_BODY_LEVELS && s->k > 0; i++)
-        if (octree_count(s->set->levels[i].tree) > 0)
+        if (count_in_level(&s->set->levels[i]) > 0)
             search_level(s, &s->set->levels[i]);
     end_callbacks(begun);
     sort_hits(s);

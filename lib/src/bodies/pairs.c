@@ -206,7 +206,7 @@ static bool make_snapshots(snapshots *s, const octree_bodies *set, const float_f
 {
     bool made = true;
     for (unsigned i = 0; i < OCTREE_BODY_LEVELS && made; i++) {
-        if (octree_count(set->levels[i].tree) == 0)
+        if (count_in_level(&set->levels[i]) == 0)
             continue;
         snapshot *level = &s->levels[s->count++];
         made = snapshot_make(level, set, &set->levels[i], frame, memory);

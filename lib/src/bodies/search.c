@@ -219,7 +219,7 @@ octree_status octree_bodies_search(const octree_bodies *bodies, const octree_reg
     const octree_box bounds = s.shape.kind->bounds(&s.shape);
     const unsigned begun = begin_set_callbacks(bodies);
     for (unsigned i = 0; i < OCTREE_BODY_LEVELS && !s.stopped; i++)
-        if (octree_count(bodies->levels[i].tree) > 0)
+        if (count_in_level(&bodies->levels[i]) > 0)
             search_level(&s, &bodies->levels[i], &bounds);
     end_callbacks(begun);
     return OCTREE_OK;

@@ -48,6 +48,11 @@ struct octree_bodies {
     const void *half_context;
 };
 
+static inline size_t count_in_level(const level *l)
+{
+    return l->tree ? l->tree->root.count : 0;
+}
+
 /* A tree that every set has, for its definition and its axes. */
 static inline const octree *anchor_of(const octree_bodies *set)
 {

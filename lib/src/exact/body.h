@@ -13,12 +13,18 @@
 #include <stdbool.h>
 
 /* Returns the sign of the real sum a + b + c + d: -1, 0 or 1. The error of the computed sum is at most 3 * 2^-53 times
- * the sum of the absolute values, which itself is rounded; sums of subnormal numbers are exact. */
+ * the sum of the absolute values, which itself is rounded; sums of subnormal numbers are exact. Often a + b and c + d
+ * cancel, as for two boxes on one floor. Then the rounding errors of both remain, whose rounded sum has the sign of the
+ * real one. */
 static inline int body_sign(double a, double b, double c, double d)
 {
-    const double sum = (a + b) + (c + d), size = (fabs(a) + fabs(b)) + (fabs(c) + fabs(d));
+    const double one = a + b, other = c + d, sum = one + other, size = (fabs(a) + fabs(b)) + (fabs(c) + fabs(d));
     if (fabs(sum) > size * 0x1p-50)
         return sum > 0 ? 1 : -1;
+    if (sum == 0) {
+        const double rest = exact_error_of_sum(a, b, one) + exact_error_of_sum(c, d, other);
+        return (rest > 0) - (rest < 0);
+    }
     return exact_sign_of_sum((double[]){a, b, c, d}, 4);
 }
 

@@ -13,7 +13,7 @@
  * offset - reach is a sum of four doubles, and d a sum of one or two. Times are first compared as doubles with an error
  * bound. If the bound does not decide, the fractions are compared by their cross products in exact sums (exact.h).
  *
- * Cost: six divisions; exact sums only where the box grazes.
+ * Cost: three divisions a cast; exact sums only where the box grazes.
  */
 #include "cast.h"
 
@@ -54,19 +54,18 @@ typedef struct passage {
     double latest; /* an upper bound of the times of entering */
 } passage;
 
-/* Intersect the passage with that on one more axis. Let u = 2^-53. The error of the numerators is at most 3u *
- * (|offset|
- * + reach), that of the speed at most u, that of the quotient u. The last term covers underflow. Returns false if a
- * value overflowed. */
-static bool narrow_passage(passage *known, double offset, double reach, double speed)
+/* Intersect the passage with that on one more axis. `inverse` is 1 / speed. Let u = 2^-53. The error of the numerators
+ * is at most 3u * (|offset| + reach), that of the speed u, that of its inverse u, and that of the product u. The last
+ * term covers underflow. Returns false if a value overflowed. */
+static bool narrow_passage(passage *known, double offset, double reach, double inverse)
 {
-    const double enter = (offset - reach) / speed, leave = (offset + reach) / speed;
-    const double error = (fabs(offset) + reach) / speed * 0x1p-50 + 0x1p-1000;
+    const double enter = (offset - reach) * inverse, leave = (offset + reach) * inverse;
+    const double error = (fabs(offset) + reach) * inverse * 0x1p-50 + 0x1p-1000;
     known->enter = enter > known->enter ? enter : known->enter;
     known->leave = leave < known->leave ? leave : known->leave;
     known->error = error > known->error ? error : known->error;
     known->latest = enter + error > known->latest ? enter + error : known->latest;
-    return speed <= DBL_MAX && error <= DBL_MAX;
+    return error <= DBL_MAX;
 }
 
 /* Returns 1 if the box touches the body, 0 if it does not, and -1 if doubles do not decide. */
@@ -77,7 +76,7 @@ static int test_in_doubles(const cast *c, const octree_body *e, cast_time *first
     for (int i = 0; i < 3; i++) {
         const double offset = e->position[i] - c->origin[i], reach = e->half[i] + c->half[i];
         if (c->sign[i]) {
-            certain &= narrow_passage(&known, c->sign[i] * offset, reach, c->speed[i]);
+            certain &= narrow_passage(&known, c->sign[i] * offset, reach, c->inverse[i]);
             continue;
         }
         if (body_sign(e->position[i], -c->origin[i], -e->half[i], -c->half[i]) > 0 ||
@@ -193,7 +192,7 @@ static bool find_entry_in_doubles(const cast *c, const octree_body *e, int *axis
         if (c->sign[i] == 0)
             continue;
         passage one = {-HUGE_VAL, HUGE_VAL, 0, -HUGE_VAL};
-        if (!narrow_passage(&one, c->sign[i] * (e->position[i] - c->origin[i]), e->half[i] + c->half[i], c->speed[i]))
+        if (!narrow_passage(&one, c->sign[i] * (e->position[i] - c->origin[i]), e->half[i] + c->half[i], c->inverse[i]))
             return false;
         second = one.enter > latest ? latest : one.enter > second ? one.enter : second;
         *axis = one.enter > latest ? i : *axis;
