@@ -57,6 +57,8 @@ static bool change_inside_level(const octree_point *point, void *context)
     assert_int_equal(octree_bodies_insert(set, &other), OCTREE_BUSY);
     assert_int_equal(octree_bodies_remove(set, &body), OCTREE_BUSY);
     assert_int_equal(octree_bodies_move(set, &body, &other), OCTREE_BUSY);
+    const octree_body larger = body_at(1, 1, 1, 4, 99); /* in another level */
+    assert_int_equal(octree_bodies_move(set, &body, &larger), OCTREE_BUSY);
     return true;
 }
 
