@@ -81,7 +81,7 @@ octree_status octree_bodies_move(octree_bodies *bodies, const octree_body *from,
  * status is OK are changed, and all others are as before.
  * Errors: NULL_ARGUMENT, BUSY, NO_MEMORY, TOO_MANY. Cost: that of the bulk changes of octree.h. The first call that
  * changes a sixteenth of the bodies or more makes the hash table, 10 to 15 bytes a body, which the set keeps; a call
- * that fills an empty set drops it again. */
+ * that fills an empty set keeps none, unless more than 64 bodies share a leaf. */
 octree_status octree_bodies_insert_many(octree_bodies *bodies, const octree_body *added, size_t count,
                                         octree_status *statuses, size_t *changed);
 octree_status octree_bodies_remove_many(octree_bodies *bodies, const octree_body *removed, size_t count,
@@ -126,8 +126,9 @@ size_t octree_bodies_memory(const octree_bodies *bodies);
 #define OCTREE_BODY_LEVELS 12
 
 /* Returns the tree of a level, for reading its nodes (octree_walk, octree_statistics). The id of a point of this tree
- * is the argument of octree_bodies_at(). reach[] receives bounds of the half extents in this level; `reach` may be
- * null. The tree may be empty. Returns null if the level has no tree yet, and for level >= OCTREE_BODY_LEVELS. */
+ * is the argument of octree_bodies_at(). reach[] receives upper bounds of the half extents: in level 0 close to those
+ * of its bodies, in other levels the upper end of its sizes; `reach` may be null. The tree may be empty. Returns null
+ * if the level has no tree yet, and for level >= OCTREE_BODY_LEVELS. */
 const octree *octree_bodies_level(const octree_bodies *bodies, unsigned level, double reach[3]);
 
 /* Store the body of a point of a level in *body. The point must be one that the level's tree holds. */

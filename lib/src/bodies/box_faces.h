@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* box_faces.h - compares the faces of two boxes, all at once. Private. */
+/* box_faces.h - compares the faces of two boxes, all at once. Private. For two lanes only: lanes.h. */
 #ifndef OCTREE_BOX_FACES_H
 #define OCTREE_BOX_FACES_H
 

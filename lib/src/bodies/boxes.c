@@ -134,8 +134,8 @@ static bool touches_face(const octree_box *around, const octree_box *box)
     return find_faces_beyond(around, box) != ALL_FACES;
 }
 
-/* The boxes of the bodies that left and entered a leaf, or the box of a child before and after a change. Either may be
- * null for a leaf. */
+/* The boxes of the bodies that left and entered a leaf, or the box of a child before and after a change. At a leaf,
+ * one of them may be null. */
 typedef struct box_change {
     const octree_box *removed, *added;
 } box_change;
@@ -160,7 +160,7 @@ static octree_box change_box_of_leaf(const level *l, const node *leaf, const oct
 }
 
 /* Returns the box of an inner node after the box of a child has changed. It is computed from all children only if the
- * child had a face of the node's box and has lost it. */
+ * child touched a face of the node's box and no longer does. */
 static octree_box change_box_of_node(const level *l, const node *n, const octree_box *old, const box_change *child)
 {
     octree_box box = *old;
@@ -170,8 +170,8 @@ static octree_box change_box_of_node(const level *l, const node *n, const octree
     return box;
 }
 
-/* Update the boxes on a path from its end towards the root, up to the first box that stays the same. So each new node
- * is reached: it is on the path of a change, or a sibling of such a node, and its box is unknown. */
+/* Update the boxes on a path from its end towards the root, up to the first box that stays the same. A new node is on
+ * the path of a change, or a sibling of such a node. Its box is unknown, so that the way up does not end below it. */
 static void fit_boxes_on_path(const level *l, const path *p, box_change change)
 {
     octree_box before; /* the box of a child */
@@ -208,7 +208,7 @@ static void fit_points(const level *l, const path *p, const octree_point *remove
         boxes[1] = box_of_point(l, added);
         change.added = &boxes[1];
     }
-    if (end->octants == 0 && p->depth > 0) {
+    if (end->octants == 0 && p->depth > 0) { /* most changes end here */
         const node *parent = p->nodes[p->depth - 1];
         const octree_box *box = box_of_child(parent, (unsigned)(end - children_of(parent)));
         if (!is_unknown(box) && keeps_box(box, &change))

@@ -19,7 +19,7 @@ void fit_moves(const level *l, const octree_point *points, const double (*to)[3]
  * `removed` and `added` may be null. */
 void fit_path(const level *l, const path *p, const octree_point *removed, const octree_point *added);
 
-/* Returns whether the known boxes of a level are those of its bodies. */
+/* Returns whether all boxes of a level are known and are those of its bodies. */
 bool are_boxes_right(const level *l);
 
 /* Returns an upper bound, but for rounding, of the distances from a coordinate to the positions of a level. */

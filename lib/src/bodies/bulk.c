@@ -3,11 +3,13 @@
  *
  * The rows are changed one by one, with the results of the caller's order; so each body gets the status that a single
  * call would give. The hash table of the rows finds duplicates among the bodies of the call. It stays, because further
- * bulk calls are likely. A call that fills an empty set needs no table, because it adds the bodies cell by cell
- * (order.c): duplicates are in the same cell. Only if a cell has many bodies, it makes a table, and drops it. The
- * resulting changes of the trees are
- * collected, and each level makes its changes in one bulk call of octree.h. If this call fails, it has changed nothing
- * in its tree, and the rows of this level's bodies are restored afterwards.
+ * bulk calls are likely.
+ *
+ * A call that fills an empty set adds the bodies cell by cell (order.c), and duplicates are in the same cell. So it
+ * needs no table. Only if a cell has many bodies, it makes a table, and drops it afterwards.
+ *
+ * The resulting changes of the trees are collected, and each level makes its changes in one bulk call of octree.h. If
+ * this call fails, it has changed nothing in its tree, and the rows of this level's bodies are restored afterwards.
  *
  * A move that changes the level of a body, or the half extents in the id of its point, is made alone, after the
  * collected changes.
@@ -80,7 +82,7 @@ static bool begin_bulk(bulk *b, size_t count)
     return false;
 }
 
-/* Hash the rows, and do the same. */
+/* Hash the rows, and call begin_bulk(). */
 static bool begin_hashed_bulk(bulk *b, size_t count)
 {
     return (count == 0 || rows_hash(&b->set->rows, 0)) && begin_bulk(b, count);

@@ -44,7 +44,7 @@ static inline few_bodies load_few_bodies(const octree_point *points, unsigned co
     return few;
 }
 
-/* Returns half the extents of a body in a level for few_bodies.steps of 1. Products with it are exact. */
+/* Returns the factor that turns few_bodies.steps of an axis into half extents. The product is exact. */
 static inline double step_of_half_extents(const level *l, int axis)
 {
     return l->unit / (double)(1 << STEP_BITS * axis);

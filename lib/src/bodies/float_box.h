@@ -36,16 +36,6 @@ static inline void include_float_box(float_box *around, const float_box *box)
     }
 }
 
-static inline float_box intersect_float_boxes(const float_box *a, const float_box *b)
-{
-    float_box both;
-    for (int k = 0; k < 3; k++) {
-        both.min[k] = a->min[k] > b->min[k] ? a->min[k] : b->min[k];
-        both.max[k] = a->max[k] < b->max[k] ? a->max[k] : b->max[k];
-    }
-    return both;
-}
-
 /* Without branches, because they would be unpredictable. */
 static inline bool float_boxes_meet(const float_box *a, const float_box *b)
 {

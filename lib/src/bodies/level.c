@@ -10,10 +10,10 @@
  * although they differ more: they are not large beside its leaves. A bulk insertion into an empty set chooses the floor
  * (order.c).
  *
- * Level 0 has no boxes. Its nodes are extended by its `reach`, an upper bound of its half extents, axis by axis, so
- * that thin plates are extended little across. The reach must not depend on the history of the set, so that costs and
- * traces are reproducible: the half extents are counted in buckets, and the reach is the upper end of the highest
- * bucket in use. The reach of another level is the upper end of its sizes.
+ * Level 0 has no boxes, nor has a set that shows points. Their nodes are extended by the `reach`, an upper bound of the
+ * half extents, axis by axis, so that thin plates are extended little across. The reach must not depend on the history
+ * of the set, so that costs and traces are reproducible: the half extents are counted in buckets, and the reach is the
+ * upper end of the highest bucket in use. The reach of another level is the upper end of its sizes.
  *
  * Cost: a query descends once in each level in use. A change in level 0 updates three counters.
  */
@@ -92,7 +92,7 @@ static double value_of_number(int64_t number)
 static double end_of_bucket(int64_t number)
 {
     const double value = value_of_number(number + 1);
-    return value <= DBL_MAX ? value : DBL_MAX; /* the value may be NaN */
+    return value <= DBL_MAX ? value : DBL_MAX; /* beyond the range of doubles, the bits are an infinity or NaN */
 }
 
 /* The unit is the least power of two of which MAX_STEPS + 1 reach the upper end of the highest bucket. Below 2^-1022 it

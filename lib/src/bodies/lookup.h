@@ -17,7 +17,8 @@ typedef struct found_body {
 bool find_body(const octree_bodies *set, const octree_body *body, found_body *found);
 
 /* Does the same before a change. If the body would be in a crowded leaf, the rows are hashed first, unless memory is
- * short. `near` is null or the result for another body, perhaps near by, from whose path the search begins. */
+ * short. `near` is null, or the result for another body of this set, which has not changed since. The search begins
+ * with the nodes that both paths share. */
 bool find_body_for_change(octree_bodies *set, const octree_body *body, const found_body *near, found_body *found);
 
 /* Returns whether a leaf of the set is crowded, so that a body in it is found slowly without the hash table. Cost:

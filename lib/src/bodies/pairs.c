@@ -27,9 +27,9 @@ typedef struct candidates {
     const octree_body *bodies[CANDIDATES];
     float faces[6][CANDIDATES + BOX_PADDING];
     box_columns boxes;
-    float_box around; /* all but the leaf's own */
+    float_box around; /* around the boxes of all candidates but the leaf's own bodies */
     size_t count;
-    size_t own; /* the first candidates are all bodies of the leaf; 0: none is */
+    size_t own; /* the number of the leaf's own bodies, which come first among the candidates; 0: there are none */
 } candidates;
 
 typedef struct pairing {
@@ -59,7 +59,7 @@ static size_t size_of_chunk(size_t first, size_t end)
     return end - first < BOXES_AT_ONCE ? end - first : BOXES_AT_ONCE;
 }
 
-/* Visit the pairs of a body with others, whose boxes are given: first .. end - 1. */
+/* Visit the pairs of a body with the bodies first .. end - 1 of an array, whose boxes are given. */
 static void pair_with_others(pairing *p, const octree_body *body, const float_box *box, const octree_body **others,
                              const box_columns *boxes, size_t first, size_t end)
 {
@@ -77,7 +77,7 @@ static void pair_within_leaf(pairing *p, const cluster *leaf)
     }
 }
 
-/* Visit the pairs of the bodies of a leaf with the candidates, and remove these. */
+/* Visit the pairs of the bodies of a leaf with the candidates, and empty the list of candidates. */
 static void pair_with_candidates(pairing *p, const cluster *leaf)
 {
     candidates *c = &p->near;
@@ -93,7 +93,8 @@ static void pair_with_candidates(pairing *p, const cluster *leaf)
     c->around = make_empty_float_box();
 }
 
-/* Begin with the bodies of the leaf itself if both sides are the same. A crowd is compared with itself alone. */
+/* Begin with the bodies of the leaf itself if both sides are the same. Those of a crowded leaf are compared with each
+ * other at once, and are not copied. */
 static void begin_candidates(pairing *p, const cluster *leaf)
 {
     candidates *c = &p->near;
@@ -131,11 +132,11 @@ static void add_candidate(pairing *p, const cluster *leaf, size_t index)
 static void gather_candidates(pairing *p, const cluster *leaf, const cluster *other)
 {
     const size_t end = other->first + other->count;
-    if (!float_boxes_meet(&leaf->box, &other->box))
+    if (p->stopped || !float_boxes_meet(&leaf->box, &other->box))
         return;
     for (unsigned i = 0; i < other->child_count; i++)
         gather_candidates(p, leaf, cluster_at(p->y, other->child + i));
-    for (size_t i = other->first; other->child_count == 0 && i < end; i += BOXES_AT_ONCE)
+    for (size_t i = other->first; other->child_count == 0 && i < end && !p->stopped; i += BOXES_AT_ONCE)
         for (uint64_t left = find_meeting_boxes(&p->y->boxes, i, size_of_chunk(i, end), &leaf->box); left;
              left &= left - 1)
             add_candidate(p, leaf, i + bits_lowest(left));
@@ -158,7 +159,8 @@ static size_t list_if_met(pairing *p, const float_box *box, size_t cluster, size
     return end + float_boxes_meet(box, &cluster_at(p->y, cluster)->box);
 }
 
-/* Append the clusters of a list that meet a box, instead of inner ones their children. Returns the new end. */
+/* Append the leaves of a part of the list, and those children of its inner clusters that meet a box. Returns the new
+ * end. */
 static size_t list_children(pairing *p, const float_box *box, size_t begin, size_t end)
 {
     size_t next = end;
@@ -198,8 +200,8 @@ static void pair_cluster(pairing *p, const cluster *a, size_t begin, size_t end)
 typedef struct snapshots {
     snapshot levels[OCTREE_BODY_LEVELS];
     unsigned count;
-    unsigned depth;    /* the greatest of a level */
-    size_t leaf_count; /* the same */
+    unsigned depth;    /* the greatest depth of a level */
+    size_t leaf_count; /* the greatest number of leaves of a level */
 } snapshots;
 
 static bool make_snapshots(snapshots *s, const octree_bodies *set, const float_frame *frame, arena *memory)
@@ -209,7 +211,7 @@ static bool make_snapshots(snapshots *s, const octree_bodies *set, const float_f
         if (count_in_level(&set->levels[i]) == 0)
             continue;
         snapshot *level = &s->levels[s->count++];
-        made = snapshot_make(level, set, &set->levels[i], frame, memory);
+        made = snapshot_make(level, set, &set->levels[i], frame, memory) && level->clusters.count <= UINT32_MAX;
         s->depth = level->depth > s->depth ? level->depth : s->depth;
         s->leaf_count = level->leaf_count > s->leaf_count ? level->leaf_count : s->leaf_count;
     }
@@ -222,8 +224,9 @@ static void release_snapshots(snapshots *s)
         snapshot_release(&s->levels[i]);
 }
 
-/* The greatest length of the list: each cluster on the way down has a list, and one of their children, which may have
- * all leaves of the other level. */
+/* The greatest length of the list. Each cluster on the way down has two parts of the list: the clusters that meet it,
+ * and their children. No part has two clusters of which one contains the other, so it has at most as many as there are
+ * leaves. One more is written before it is known to meet. */
 static size_t length_of_list(const snapshots *a, const snapshots *b)
 {
     return (2 * (size_t)a->depth + 2) * (b->leaf_count + 1);

@@ -17,8 +17,10 @@ enum { GROWTH_BEFORE_REBUILD = 4 };
 /* The bodies of similar size. The largest half extents of two bodies differ by a factor below 4; only the bodies of
  * the first level may be larger than that, and those of the last level smaller. */
 typedef struct level {
-    octree *tree;    /* the positions of the bodies; for the ids of its points see few_bodies.h. Null: never used */
-    double reach[3]; /* an upper bound of the half extents on each axis; in level 0, a function of the counts */
+    octree *tree; /* the positions of the bodies; for the ids of its points see few_bodies.h. Null: never used */
+    /* an upper bound of the half extents on each axis: in level 0 a function of the counts, in other levels the upper
+     * end of their sizes, and in sets that show points the caller's */
+    double reach[3];
     /* The ids of points have the half extents in multiples of `unit`, and the rest is at most `rest` (few_bodies.h).
      * If a half extent is too large for that, and in sets that show points, `rest` is infinite. */
     double unit, rest;
@@ -96,7 +98,8 @@ octree_status create_level(octree_bodies *set, unsigned number);
 /* Make a level without a tree. */
 level make_empty_level(const octree_bodies *set, unsigned number);
 
-/* Add the half extents of a body to the reach of its level (change = 1), or remove them (change = -1). */
+/* Add the half extents of a body of level 0 to the reach of this level (change = 1), or remove them (change = -1).
+ * change_reach() does the same for a body of any level; other levels do not count half extents. */
 void count_half_extents(octree_bodies *set, const double half[3], int change);
 static inline void change_reach(octree_bodies *set, unsigned number, const double half[3], int change)
 {

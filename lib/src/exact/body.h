@@ -14,8 +14,8 @@
 
 /* Returns the sign of the real sum a + b + c + d: -1, 0 or 1. The error of the computed sum is at most 3 * 2^-53 times
  * the sum of the absolute values, which itself is rounded; sums of subnormal numbers are exact. Often a + b and c + d
- * cancel, as for two boxes on one floor. Then the rounding errors of both remain, whose rounded sum has the sign of the
- * real one. */
+ * cancel, as for two boxes on one floor. Then the real sum is that of the two rounding errors. Rounding keeps its sign.
+ */
 static inline int body_sign(double a, double b, double c, double d)
 {
     const double one = a + b, other = c + d, sum = one + other, size = (fabs(a) + fabs(b)) + (fabs(c) + fabs(d));

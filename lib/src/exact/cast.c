@@ -13,7 +13,8 @@
  * offset - reach is a sum of four doubles, and d a sum of one or two. Times are first compared as doubles with an error
  * bound. If the bound does not decide, the fractions are compared by their cross products in exact sums (exact.h).
  *
- * Cost: three divisions a cast; exact sums only where the box grazes.
+ * Cost: three divisions when a cast is made, none for a body, and one for the time of a hit; exact sums only where the
+ * box grazes.
  */
 #include "cast.h"
 

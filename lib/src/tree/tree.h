@@ -112,8 +112,8 @@ static inline void begin_path(path *p, octree *tree)
 static inline void begin_path_beside(path *p, uint64_t code, const path *other, uint64_t other_code)
 {
     p->nodes[0] = other->nodes[0];
-    for (p->depth = 0;
-         p->depth < other->depth && morton_octant(code, p->depth) == morton_octant(other_code, p->depth);) {
+    p->depth = 0;
+    while (p->depth < other->depth && morton_octant(code, p->depth) == morton_octant(other_code, p->depth)) {
         p->depth++;
         p->nodes[p->depth] = other->nodes[p->depth];
     }
