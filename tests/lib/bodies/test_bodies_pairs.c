@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "body_sets.h"
-#include "octree/sample.h"
+#include "brute_bodies.h"
 
 enum { MOST = 700, CROWD = 200 };
 
@@ -25,18 +25,10 @@ static bool record_pair(const octree_body *a, const octree_body *b, void *contex
     return ++seen.count != seen.stop_at;
 }
 
-/* Positions and half extents are multiples of 2^-8, so that this is exact. */
-static bool overlap(const octree_body *a, const octree_body *b)
-{
-    bool meet = true;
-    for (int k = 0; k < 3; k++)
-        meet &= fabs(a->position[k] - b->position[k]) <= a->half[k] + b->half[k];
-    return meet;
-}
-
+/* Returns a random multiple of 2^-8: so brute_bodies_overlap() is exact. */
 static double random_step(uint64_t *seed, double least, double most)
 {
-    return ldexp(floor(ldexp(least + (most - least) * octree_random_unit(seed), 8)), -8);
+    return ldexp(floor(ldexp(random_between(seed, least, most), 8)), -8);
 }
 
 /* Make bodies with half extents up to `most`; those below `crowd` are at one place. */
@@ -68,7 +60,7 @@ static void assert_pairs_within(const octree_body *bodies, size_t count, bool in
     assert_int_equal(octree_bodies_pairs(set, NULL, record_pair, NULL), OCTREE_OK);
     for (size_t i = 0; i < count; i++)
         for (size_t k = 0; k < count; k++)
-            assert_int_equal(seen.times[i][k], i < k && overlap(&bodies[i], &bodies[k]));
+            assert_int_equal(seen.times[i][k], i < k && brute_bodies_overlap(&bodies[i], &bodies[k]));
     octree_bodies_destroy(set);
 }
 
@@ -79,7 +71,7 @@ static void assert_pairs_between(const octree_body *a, size_t a_count, const oct
     assert_int_equal(octree_bodies_pairs(one, other, record_pair, NULL), OCTREE_OK);
     for (size_t i = 0; i < a_count; i++)
         for (size_t k = 0; k < b_count; k++)
-            assert_int_equal(seen.times[i][k], overlap(&a[i], &b[k]));
+            assert_int_equal(seen.times[i][k], brute_bodies_overlap(&a[i], &b[k]));
     octree_bodies_destroy(one);
     octree_bodies_destroy(other);
 }
