@@ -175,23 +175,21 @@ static octree_box change_box_of_node(const level *l, const node *n, const octree
 static void fit_boxes_on_path(const level *l, const path *p, box_change change)
 {
     octree_box before; /* the box of a child */
-    const node *n = path_end(p);
-    fit_children(l, n, find_unknown_boxes(n), false);
-    for (unsigned depth = p->depth; depth-- > 0;) {
-        const node *parent = p->nodes[depth];
-        octree_box *box = box_of_child(parent, (unsigned)(n - children_of(parent)));
+    fit_children(l, path_end(p), find_unknown_boxes(path_end(p)), false);
+    for (unsigned depth = p->depth; depth > 0; depth--) {
+        const node *n = p->nodes[depth], *parent = p->nodes[depth - 1];
+        octree_box *box = box_on_path(p, depth);
         const octree_box old = *box;
         if (is_unknown(&old))
             fit_children(l, parent, find_unknown_boxes(parent), false);
         else if (n->octants == 0)
             *box = change_box_of_leaf(l, n, &old, &change);
         else
-            *box = depth + 1 == p->depth ? box_of_node(l, n) : change_box_of_node(l, n, &old, &change);
+            *box = depth == p->depth ? box_of_node(l, n) : change_box_of_node(l, n, &old, &change);
         if (is_same_box(&old, box))
             return;
         before = old;
         change = (box_change){&before, box};
-        n = parent;
     }
 }
 
@@ -199,7 +197,6 @@ static void fit_points(const level *l, const path *p, const octree_point *remove
 {
     octree_box boxes[2];
     box_change change = {NULL, NULL};
-    const node *end = path_end(p);
     if (removed) {
         boxes[0] = box_of_point(l, removed);
         change.removed = &boxes[0];
@@ -208,9 +205,8 @@ static void fit_points(const level *l, const path *p, const octree_point *remove
         boxes[1] = box_of_point(l, added);
         change.added = &boxes[1];
     }
-    if (end->octants == 0 && p->depth > 0) { /* most changes end here */
-        const node *parent = p->nodes[p->depth - 1];
-        const octree_box *box = box_of_child(parent, (unsigned)(end - children_of(parent)));
+    if (path_end(p)->octants == 0 && p->depth > 0) { /* most changes end here */
+        const octree_box *box = box_on_path(p, p->depth);
         if (!is_unknown(box) && keeps_box(box, &change))
             return;
     }

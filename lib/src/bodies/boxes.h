@@ -28,6 +28,13 @@ static inline double find_farthest(const level *l, int axis, double origin)
     return larger(fabs(l->tree->axes[axis].min - origin), fabs(l->tree->axes[axis].max - origin));
 }
 
+/* Returns the box of the node of a depth above 0 on a path. */
+static inline octree_box *box_on_path(const path *p, unsigned depth)
+{
+    const node *parent = p->nodes[depth - 1];
+    return boxes_of_group(children_of(parent), bits_count8(parent->octants)) + (p->nodes[depth] - children_of(parent));
+}
+
 /* The boxes of the children of a node, for queries. */
 typedef struct sibling_boxes {
     const octree_box *items;

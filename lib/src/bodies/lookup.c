@@ -12,6 +12,7 @@
  * Cost: O(depth), and O(n) once if a leaf is crowded.
  */
 #include "lookup.h"
+#include "boxes.h"
 #include "few_bodies.h"
 
 static bool is_crowded(const node *leaf)
@@ -31,12 +32,10 @@ static bool is_point_of_body(const octree_bodies *set, const level *l, const oct
 /* Find a body among the points of its leaf. */
 static void find_in_leaf(const octree_bodies *set, const level *l, const octree_body *body, found_body *found)
 {
-    enum { TOGETHER = 64 };
     const node *leaf = path_end(&found->at.path);
-    for (uint32_t begin = 0; begin < leaf->count; begin += TOGETHER) {
+    for (uint32_t begin = 0; begin < leaf->count; begin += SCAN_POINTS) {
         const octree_point *points = leaf_points(leaf) + begin;
-        const uint32_t left = leaf->count - begin;
-        uint64_t equal = mask_equal_x(points, left < TOGETHER ? left : TOGETHER, body->position[0]);
+        uint64_t equal = mask_equal_x(points, count_scanned(leaf, begin), body->position[0]);
         for (; equal; equal &= equal - 1) {
             const unsigned i = bits_lowest(equal);
             if (is_point_of_body(set, l, &points[i], body)) {
@@ -62,9 +61,7 @@ static void prefetch_box_of_leaf(const level *l, const path *p)
 {
     if (p->depth == 0 || !has_boxes(&l->tree->store))
         return;
-    const node *parent = p->nodes[p->depth - 1];
-    const octree_box *boxes = boxes_of_group(children_of(parent), bits_count8(parent->octants));
-    const octree_box *box = boxes + (path_end(p) - children_of(parent));
+    const octree_box *box = box_on_path(p, p->depth);
     prefetch_memory(&box->min[0]);
     prefetch_memory(&box->max[2]);
 }

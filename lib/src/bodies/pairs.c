@@ -19,7 +19,7 @@
 #include "../exact/body.h"
 #include "visit.h"
 
-/* At most so many bodies are compared with a leaf together. */
+/* The greatest number of bodies that are compared with a leaf together. */
 enum { CANDIDATES = 256 };
 
 /* Bodies that may meet those of a leaf, with a copy of their boxes. */

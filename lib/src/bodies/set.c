@@ -259,8 +259,6 @@ octree_status octree_bodies_remove(octree_bodies *bodies, const octree_body *bod
 static octree_status move_to_level(octree *old, const octree_point *from, octree *new, const octree_point *to)
 {
     prepared_removal leaving;
-    if (is_running_callback(old))
-        return OCTREE_BUSY;
     octree_status status = prepare_removal(old, from->position, from->id, &leaving);
     if (status != OCTREE_OK)
         return status;
@@ -272,41 +270,34 @@ static octree_status move_to_level(octree *old, const octree_point *from, octree
     return status;
 }
 
-/* Move a point within a level, and update the boxes. If it stays in its leaf, no node changes. */
-static octree_status move_within_level(const level *l, const octree_point *leaving, const octree_point *arriving,
+static octree_status move_within_level(octree *tree, const octree_point *leaving, const octree_point *arriving,
                                        found_body *from, const found_body *to)
 {
     const single_move m = {.old = *leaving, .moved = *arriving, .from = from->code, .to = to->code};
-    const bool stays_in_leaf = path_end(&from->at.path) == path_end(&to->at.path);
-    if (is_running_callback(l->tree))
-        return OCTREE_BUSY;
-    const octree_status status = move_found_point(l->tree, &m, &from->at, &to->at.path, NULL);
-    if (status != OCTREE_OK)
-        return status;
-    if (stays_in_leaf) {
-        fit_path(l, &to->at.path, leaving, arriving);
-    } else {
-        fit_changes(l, leaving, 1, false);
-        fit_changes(l, arriving, 1, true);
-    }
-    return OCTREE_OK;
+    return move_found_point(tree, &m, &from->at, &to->at.path, NULL);
 }
 
-/* Move the point of a body, perhaps from one level to another. `from` and `to` are the body's places before and after
- * the move. */
+/* Move the point of a body, perhaps from one level to another, and update the boxes. `from` and `to` are the body's
+ * places before and after the move. */
 static octree_status move_point(octree_bodies *set, const octree_body *moved, found_body *from, const found_body *to)
 {
     level *l = &set->levels[from->level], *next = &set->levels[to->level];
     const octree_point leaving = stored_point(&from->at), arriving = make_point(next, from->row, moved);
-    if (l == next)
-        return move_within_level(l, &leaving, &arriving, from, to);
+    const bool stays_in_leaf = l == next && path_end(&from->at.path) == path_end(&to->at.path);
+    if (is_running_callback(l->tree))
+        return OCTREE_BUSY;
     octree_status status = create_level(set, to->level);
     if (status == OCTREE_OK)
-        status = move_to_level(l->tree, &leaving, next->tree, &arriving);
+        status = l == next ? move_within_level(l->tree, &leaving, &arriving, from, to)
+                           : move_to_level(l->tree, &leaving, next->tree, &arriving);
     if (status != OCTREE_OK)
         return status;
-    fit_changes(l, &leaving, 1, false);
-    fit_changes(next, &arriving, 1, true);
+    if (stays_in_leaf) { /* then no node has changed */
+        fit_path(l, &to->at.path, &leaving, &arriving);
+    } else {
+        fit_changes(l, &leaving, 1, false);
+        fit_changes(next, &arriving, 1, true);
+    }
     return OCTREE_OK;
 }
 

@@ -18,9 +18,9 @@
 
 #include <stdlib.h>
 
-/* A node with at most so many bodies is a cluster without children: those of eight full leaves, but not too many. With
- * 128 at most, the pairs of 1e5 bodies in streets take 1.15 times the instructions; with 32 at most, it is more than
- * with 64, too. */
+/* A node is a cluster without children if it has at most the bodies of eight full leaves, and at most CLUSTER_AT_MOST.
+ * With 128 at most, the pairs of 1e5 bodies in streets take 1.14 times the instructions; with 32 at most, those of 1e5
+ * uniform bodies take 1.02 times (callgrind). */
 enum { LEAVES_IN_CLUSTER = 8, CLUSTER_AT_MOST = 64 };
 
 /* ---- Boxes of floats ---------------------------------------------------------------------------------------- */
