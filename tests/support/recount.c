@@ -43,33 +43,22 @@ typedef struct region {
     octree_cost cost;
 } region;
 
-/* A cell has its lower faces; its upper ones are its neighbour's, but for the world's. Bodies reach out of their cells.
- */
+/* A cell of points has its lower faces; its upper ones are its neighbour's, but for the world's. Bodies reach out of
+ * their cells, whose boxes have all faces. */
 static relation to_box(const region *r, const octree_box *box, const octree_box *cell)
 {
     relation found = INSIDE;
     for (int i = 0; i < 3; i++) {
         const double reach = r->reach ? r->reach[i] : 0;
         const double step = r->step ? r->step[i] : 0, rounding = 0x1p-40;
-        const bool last = cell->max[i] == r->world.max[i];
-        const double low = box->min[i] - reach - (step < 0 ? rounding : 0);
-        const double high = box->max[i] + reach + (step > 0 ? rounding : 0);
-        if (high < cell->min[i] || low > cell->max[i] || (low == cell->max[i] && !last))
+        const bool has_upper_face = r->reach || cell->max[i] == r->world.max[i];
+        const double low = box->min[i] - (step < 0 ? rounding : 0), high = box->max[i] + (step > 0 ? rounding : 0);
+        if (high < cell->min[i] - reach || low > cell->max[i] + reach || (low == cell->max[i] && !has_upper_face))
             return APART;
-        if (box->max[i] < cell->max[i] || box->min[i] > cell->min[i])
+        if (box->max[i] < cell->max[i] + reach || box->min[i] > cell->min[i] - reach)
             found = MEETS;
     }
     return found;
-}
-
-static octree_box box_of_ball(const region *r)
-{
-    octree_box box;
-    for (int i = 0; i < 3; i++) {
-        box.min[i] = r->center[i] - r->radius;
-        box.max[i] = r->center[i] + r->radius;
-    }
-    return box;
 }
 
 static relation to_ball(const region *r, const octree_box *cell)
@@ -78,7 +67,7 @@ static relation to_ball(const region *r, const octree_box *cell)
     for (int i = 0; i < 3; i++) {
         const double reach = r->reach ? r->reach[i] : 0;
         const double below = cell->min[i] - r->center[i], above = r->center[i] - cell->max[i];
-        const double gap = fmax(fmax(below, above) - reach, 0), farther = fmax(-below, -above);
+        const double gap = fmax(fmax(below, above) - reach, 0), farther = fmax(-below, -above) + reach;
         near += gap * gap;
         far += farther * farther;
     }
@@ -86,21 +75,9 @@ static relation to_ball(const region *r, const octree_box *cell)
     return near > square ? APART : far < square ? INSIDE : MEETS;
 }
 
-/* Searches among bodies begin with the box around the ball, and the box alone decides about the root. */
-static relation to_ball_of_bodies(const region *r, const octree_node *node)
-{
-    const octree_box box = box_of_ball(r);
-    const relation by_box = to_box(r, &box, &node->box);
-    if (by_box == APART || node->address == OCTREE_ROOT)
-        return by_box == APART ? APART : MEETS;
-    return to_ball(r, &node->box);
-}
-
 static relation relate(const region *r, const octree_node *node)
 {
-    if (!r->box)
-        return r->reach ? to_ball_of_bodies(r, node) : to_ball(r, &node->box);
-    const relation is = to_box(r, r->box, &node->box);
+    const relation is = r->box ? to_box(r, r->box, &node->box) : to_ball(r, &node->box);
     return is == INSIDE && r->step ? MEETS : is;
 }
 

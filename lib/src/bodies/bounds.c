@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* bounds.c - lower bounds of distances and times for the bodies of a leaf, the boxes of nodes, and the octants of
- * cells.
+/* bounds.c - lower bounds of distances and times for the bodies of a leaf and the boxes of nodes.
  *
  * Everything that is the same for all bodies of a level is folded into two numbers an axis: a body's half extent, with
  * the extent of the query and a bound of all rounding errors, is at most steps * step + rest. The bound of the errors
@@ -21,11 +20,6 @@ static const bound_functions *choose_functions(void)
     return &bounds_in_two_lanes;
 }
 
-static inline lanes reach_of_halves(const axis_bounds *a, const cell_halves *h, int axis)
-{
-    return lanes_add(lanes_multiply(lanes_load(h->outer[axis]), lanes_all(a->unit)), lanes_all(a->extra));
-}
-
 /* ---- Distances ---------------------------------------------------------------------------------------------- */
 
 /* Three roundings of at most 2^-53 * (distance + reach) each are covered, and by the factor those of the squares. Far
@@ -42,27 +36,9 @@ void prepare_squares(query_bounds *b, const level *l, const double target[3])
                                    .factor = moderate ? scale * (1 - 0x1p-51) : 0,
                                    .step = half.step,
                                    .rest = moderate ? half.rest + error : HUGE_VAL,
-                                   .unit = 1,
-                                   .extra = moderate ? error : HUGE_VAL,
                                    .min = target[i],
                                    .max = target[i]};
     }
-}
-
-/* The halves of the cell are bounded once. */
-void bound_squares_of_octants(const query_bounds *b, const cell_halves *h, double bounds[8])
-{
-    double squares[2][2];
-    lanes gap;
-    for (int i = 0; i < 3; i++) {
-        const axis_lanes a = fill_lanes(&b->axes[i]);
-        gap = bound_gap(&a, lanes_load(h->center[i]), reach_of_halves(&b->axes[i], h, i));
-        if (i < 2)
-            lanes_store(squares[i], lanes_multiply(gap, gap));
-    }
-    const lanes z = lanes_subtract(lanes_multiply(gap, gap), lanes_all(0x1p-1000));
-    for (unsigned o = 0; o < 8; o += 2)
-        lanes_store(&bounds[o], lanes_add(lanes_all(squares[0][o >> 2] + squares[1][o >> 1 & 1]), z));
 }
 
 /* ---- Times -------------------------------------------------------------------------------------------------- */
@@ -80,15 +56,12 @@ static void prepare_axis_of_times(axis_bounds *axis, const level *l, const cast 
     const double way = find_farthest(l, i, c->origin[i]) + l->reach[i] + c->half[i];
     const double inverse = find_inverse_speed(c, i, way), latest = way * inverse;
     const half_steps half = half_steps_of(l, i);
-    const double extra = c->half[i] * inverse + latest * 0x1p-49 + 0x1p-1000;
     *axis = (axis_bounds){.origin = c->origin[i],
                           .factor = !(latest < 0x1p1000) ? NAN
                                     : c->sign[i] < 0     ? -inverse
                                                          : inverse,
                           .step = half.step * inverse,
-                          .rest = half.rest * inverse + extra,
-                          .unit = inverse,
-                          .extra = extra,
+                          .rest = (half.rest + c->half[i]) * inverse + latest * 0x1p-49 + 0x1p-1000,
                           .min = c->half[i] > 0 ? exact_add_down(c->origin[i], -c->half[i]) : c->origin[i],
                           .max = c->half[i] > 0 ? exact_add_up(c->origin[i], c->half[i]) : c->origin[i]};
 }
@@ -99,28 +72,6 @@ void prepare_times(query_bounds *b, const level *l, const cast *c)
     b->length = c->length < 0x1p1000 ? c->length : HUGE_VAL;
     for (int i = 0; i < 3; i++)
         prepare_axis_of_times(&b->axes[i], l, c, i);
-}
-
-void bound_times_of_octants(const query_bounds *b, const cell_halves *h, double bounds[8])
-{
-    double enter[2][2], leave[2][2];
-    spans halves;
-    for (int i = 0; i < 3; i++) {
-        halves = (spans){lanes_all(0), lanes_all(HUGE_VAL)};
-        const axis_lanes a = fill_lanes(&b->axes[i]);
-        narrow_spans(&halves, &a, lanes_load(h->center[i]), reach_of_halves(&b->axes[i], h, i));
-        if (i < 2) {
-            lanes_store(enter[i], halves.enter);
-            lanes_store(leave[i], halves.leave);
-        }
-    }
-    for (unsigned o = 0; o < 8; o += 2) {
-        const unsigned x = o >> 2, y = o >> 1 & 1;
-        const lanes begin = lanes_larger(lanes_all(larger(enter[0][x], enter[1][y])), halves.enter);
-        const lanes end = lanes_smaller(lanes_all(-larger(-leave[0][x], -leave[1][y])), halves.leave);
-        const lanes excess = lanes_subtract(begin, lanes_smaller(end, lanes_all(b->length)));
-        lanes_store(&bounds[o], lanes_larger(lanes_if_positive(excess, HUGE_VAL), begin));
-    }
 }
 
 /* ---- Boxes -------------------------------------------------------------------------------------------------- */

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* bounds.h - lower bounds of distances and times for the bodies of a leaf, the boxes of nodes, and the octants of
- * cells. Private.
+/* bounds.h - lower bounds of distances and times for the bodies of a leaf and the boxes of nodes. Private.
  *
  * A bound is certain in spite of rounding: no body is nearer, or is touched earlier. A computation that overflows
  * excludes nothing; no bound is NaN. A query is prepared once for each level; then a body costs some 30 instructions.
@@ -10,14 +9,12 @@
 
 #include "../exact/cast.h"
 #include "boxes.h"
-#include "cell.h"
 
 /* A query on one axis. The half extent of a body, with all that is added to it, is at most `steps * step + rest`;
- * `steps` is in the id of the body's point (few_bodies.h). That of a box with a half extent is half * unit + extra. */
+ * `steps` is in the id of the body's point (few_bodies.h). */
 typedef struct axis_bounds {
     double origin, factor;
     double step, rest;
-    double unit, extra;
     double min, max; /* the extent of the query: of the target, the region or the moving box at its origin */
     double inner; /* only for boxes: a body certainly meets the box if its distance - steps * step is less than this */
 } axis_bounds;
@@ -60,9 +57,5 @@ void prepare_times(query_bounds *b, const level *l, const cast *c);
 
 /* Prepare the test whether a body meets a box. Corners of the box may be infinite. */
 void prepare_box_test(query_bounds *b, const level *l, const octree_box *box);
-
-/* Compute bounds for the bodies in the eight octants of a cell. HUGE_VAL: the cast never touches them. */
-void bound_squares_of_octants(const query_bounds *b, const cell_halves *h, double bounds[8]);
-void bound_times_of_octants(const query_bounds *b, const cell_halves *h, double bounds[8]);
 
 #endif

@@ -5,7 +5,7 @@
 
 #include "../exact/lanes.h"
 #include "../query/search.h"
-#include "set.h"
+#include "cell.h"
 
 /* Compute the boxes of all nodes of a level. Nothing is done in a level without boxes. */
 void fit_all(const level *l);
@@ -41,10 +41,33 @@ typedef struct sibling_boxes {
     unsigned count;
 } sibling_boxes;
 
-static inline sibling_boxes boxes_of_children(const node *n)
+/* Returns the boxes of the children of a node. `c` is its cell if nodes have no boxes, which are then made; else null.
+ */
+static inline sibling_boxes boxes_of_children(const node *n, const divided_cell *c, octree_box made[8])
 {
     const unsigned count = bits_look_up_count8(n->octants);
-    return (sibling_boxes){boxes_of_group(children_of(n), count), count};
+    if (!c)
+        return (sibling_boxes){boxes_of_group(children_of(n), count), count};
+    make_boxes_of_children(n, c, made);
+    return (sibling_boxes){made, count};
+}
+
+/* Returns the cells that boxes_of_children() needs: null if nodes have boxes. */
+static inline const divided_cell *cell_of_root(const level *l, divided_cell *root)
+{
+    if (has_boxes(&l->tree->store))
+        return NULL;
+    divide_root_cell(l, root);
+    return root;
+}
+
+static inline const divided_cell *cell_of_child(const level *l, const node *n, const divided_cell *c, unsigned index,
+                                                divided_cell *child)
+{
+    if (!c || children_of(n)[index].octants == 0)
+        return NULL;
+    divide_child(l, n, c, index, child);
+    return child;
 }
 
 static inline unsigned mask_of_siblings(const sibling_boxes *b)

@@ -1,50 +1,62 @@
 /* SPDX-License-Identifier: MIT */
-/* cell.c - boxes around the bodies of the eight octants of a cell, in levels whose nodes have no boxes: in sets that
- * show the points of a tree, and in level 0. */
+/* cell.c - the boxes of nodes that store none: those of level 0, and of sets that show the points of a tree.
+ *
+ * A search makes them while it descends: the cell of a node, extended by the reach of the level, contains all of the
+ * node's bodies. So all searches know boxes only.
+ */
 #include "cell.h"
-#include "../exact/lanes.h"
-#include "../query/search.h"
+#include "boxes.h"
 
-/* Compute the centres and the half extents of both halves of a cell on one axis. Let u = 2^-53. A centre has an error
- * of at most u * |centre| plus 2^-1074, and the sums below of 3u; the bounds cover more than that. */
-static inline void bound_halves(cell_halves *h, int axis, double reach)
+/* The reach covers the rounding of a face that is extended by it: at most 2^-53 of the sum of both. A reach of 0 is
+ * exact. */
+void divide_root_cell(const level *l, divided_cell *root)
 {
-    const lanes low = lanes_of(h->low[axis], h->middle[axis]), high = lanes_of(h->middle[axis], h->high[axis]);
-    const lanes size = lanes_add(lanes_absolute(low), lanes_absolute(high)), one_half = lanes_all(0.5);
-    const lanes extent =
-        lanes_add(lanes_multiply(lanes_subtract(high, low), one_half), lanes_multiply(size, lanes_all(0x1p-50)));
-    const lanes inner = lanes_add(lanes_multiply(extent, lanes_all(1 + 0x1p-50)), lanes_all(0x1p-1070));
-    const lanes outer = lanes_multiply(lanes_add(inner, lanes_all(reach)), lanes_all(1 + 0x1p-50));
-    const lanes excess = lanes_subtract(lanes_add(size, lanes_all(reach)), lanes_all(DBL_MAX / 16));
-    const lanes beyond = lanes_if_positive(excess, HUGE_VAL); /* infinite in worlds near the range of doubles */
-    lanes_store(h->center[axis], lanes_add(lanes_multiply(low, one_half), lanes_multiply(high, one_half)));
-    lanes_store(h->inner[axis], lanes_larger(inner, beyond));
-    lanes_store(h->outer[axis], lanes_larger(outer, beyond));
-}
-
-static void divide_cell(const level *l, cell c, cell_halves *h)
-{
-    for (int i = 0; i < 3; i++) {
-        h->middle[i] = plane_at(&l->tree->axes[i], c.low[i] + cell_size(c.depth) / 2);
-        bound_halves(h, i, l->reach[i]);
+    root->cell = root_cell();
+    for (int k = 0; k < 3; k++) {
+        const axis *a = &l->tree->axes[k];
+        const double error = (find_farthest(l, k, 0) + l->reach[k]) * 0x1p-50 + 0x1p-1070;
+        root->planes[k][0] = a->min;
+        root->planes[k][1] = plane_at(a, PLANE_GRID / 2);
+        root->planes[k][2] = a->max;
+        root->reach[k] = l->reach[k] > 0 ? l->reach[k] + error : 0;
     }
 }
 
-void divide_root_cell(const level *l, cell_halves *h)
+void divide_child(const level *l, const node *n, const divided_cell *parent, unsigned index, divided_cell *child)
 {
-    for (int i = 0; i < 3; i++) {
-        h->low[i] = l->tree->axes[i].min;
-        h->high[i] = l->tree->axes[i].max;
+    const unsigned octant = bits_lowest(spread_mask(n, 1u << index));
+    child->cell = cell_child(parent->cell, octant);
+    for (int k = 0; k < 3; k++) {
+        const unsigned upper = octant >> (2 - k) & 1;
+        child->planes[k][0] = parent->planes[k][upper];
+        child->planes[k][1] = plane_at(&l->tree->axes[k], child->cell.low[k] + cell_size(child->cell.depth) / 2);
+        child->planes[k][2] = parent->planes[k][upper + 1];
+        child->reach[k] = parent->reach[k];
     }
-    divide_cell(l, root_cell(), h);
 }
 
-void divide_octant(const level *l, const cell_halves *parent, unsigned octant, cell c, cell_halves *h)
+octree_box box_of_cell(const divided_cell *c)
 {
-    for (int i = 0; i < 3; i++) {
-        const unsigned half = half_of_octant(octant, i);
-        h->low[i] = half ? parent->middle[i] : parent->low[i];
-        h->high[i] = half ? parent->high[i] : parent->middle[i];
+    octree_box box;
+    for (int k = 0; k < 3; k++) {
+        box.min[k] = c->planes[k][0] - c->reach[k];
+        box.max[k] = c->planes[k][2] + c->reach[k];
     }
-    divide_cell(l, c, h);
+    return box;
+}
+
+void make_boxes_of_children(const node *n, const divided_cell *c, octree_box boxes[8])
+{
+    double min[3][2], max[3][2];
+    for (int k = 0; k < 3; k++)
+        for (int upper = 0; upper < 2; upper++) {
+            min[k][upper] = c->planes[k][upper] - c->reach[k];
+            max[k][upper] = c->planes[k][upper + 1] + c->reach[k];
+        }
+    for (unsigned left = n->octants; left; left &= left - 1, boxes++)
+        for (int k = 0; k < 3; k++) {
+            const unsigned upper = bits_lowest(left) >> (2 - k) & 1;
+            boxes->min[k] = min[k][upper];
+            boxes->max[k] = max[k][upper];
+        }
 }

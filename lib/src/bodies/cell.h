@@ -1,29 +1,26 @@
 /* SPDX-License-Identifier: MIT */
-/* cell.h - boxes around the bodies of the eight octants of a cell. Private. */
+/* cell.h - the boxes of nodes that store none. Private. */
 #ifndef OCTREE_BODY_CELL_H
 #define OCTREE_BODY_CELL_H
 
 #include "set.h"
 
-/* A cell, and on each axis its lower and its upper half (index 0 and 1). The octant with the number o has the half
- * `o >> (2 - i) & 1` on axis i. All half extents are rounded up. They are infinite in worlds near the range of doubles,
- * where nothing can be excluded. */
-typedef struct cell_halves {
-    double low[3], middle[3], high[3]; /* the cell's faces, and the planes that divide it */
-    double center[3][2];
-    double inner[3][2]; /* center +- inner contains the positions of the half */
-    double outer[3][2]; /* center +- outer contains the boxes of all bodies of the half */
-} cell_halves;
+/* The cell of an inner node. */
+typedef struct divided_cell {
+    cell cell;
+    double planes[3][3]; /* on each axis: the lower face, the plane that divides the cell, and the upper face */
+    double reach[3];     /* the level's reach, and more than all rounding errors */
+} divided_cell;
 
-/* Compute the halves of the root cell of a level, and of an octant of a cell whose halves are known. `c` is the cell
- * that is divided. */
-void divide_root_cell(const level *l, cell_halves *h);
-void divide_octant(const level *l, const cell_halves *parent, unsigned octant, cell c, cell_halves *h);
+void divide_root_cell(const level *l, divided_cell *root);
 
-/* Returns the half of an octant on an axis. */
-static inline unsigned half_of_octant(unsigned octant, int axis)
-{
-    return octant >> (2 - axis) & 1;
-}
+/* Divide the cell of a child of a node, given by its index, whose own cell is `parent`. */
+void divide_child(const level *l, const node *n, const divided_cell *parent, unsigned index, divided_cell *child);
+
+/* Returns a box around all bodies of a cell. */
+octree_box box_of_cell(const divided_cell *c);
+
+/* Make boxes around all bodies of the children of a node: their cells, extended by the reach. */
+void make_boxes_of_children(const node *n, const divided_cell *c, octree_box boxes[8]);
 
 #endif

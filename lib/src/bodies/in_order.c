@@ -2,8 +2,8 @@
 /* in_order.c - searches that return the first k bodies in an order: octree_bodies_nearest() and octree_bodies_cast().
  *
  * Both searches are one algorithm (branch and bound, Roussopoulos et al. 1995). Each body has a key: the squared
- * distance of its box, or the time at which a ray enters it. The key of the box of a node (boxes.c), or of an octant
- * of a cell (cell.c), is a lower bound of the keys of its bodies. A descent visits the children of a node in the order
+ * distance of its box, or the time at which a ray enters it. The key of the box of a node (boxes.c, cell.c) is a lower
+ * bound of the keys of its bodies. A descent visits the children of a node in the order
  * of these bounds, and skips a node if its bound is above the k-th best key so far. The k best bodies are a heap with
  * the worst on top.
  *
@@ -26,9 +26,6 @@ typedef struct ordered_search ordered_search;
 /* What the search for neighbours and the cast do differently. */
 typedef struct search_kind {
     void (*prepare)(ordered_search *s); /* Prepare the bounds for s->level. */
-    /* Compute lower bounds of the keys of the bodies in the eight octants of a cell; HUGE_VAL if no such body counts.
-     */
-    void (*bound_octants)(const query_bounds *b, const cell_halves *h, double bounds[8]);
     /* Compute the key of a body. Returns false if the body does not count. */
     bool (*measure)(const ordered_search *s, const octree_body *body, key *k);
     /* Returns the sign of the key of `a` minus that of `b`, in real numbers. */
@@ -89,7 +86,6 @@ static double finish_distance(const ordered_search *s, const octree_body *body)
 
 static const search_kind by_distance = {
     .prepare = prepare_distances,
-    .bound_octants = bound_squares_of_octants,
     .measure = measure_distance,
     .compare = compare_distances,
     .finish = finish_distance,
@@ -122,7 +118,6 @@ static double finish_time(const ordered_search *s, const octree_body *body)
 
 static const search_kind by_time = {
     .prepare = prepare_first_times,
-    .bound_octants = bound_times_of_octants,
     .measure = measure_time,
     .compare = compare_first_times,
     .finish = finish_time,
@@ -294,17 +289,19 @@ static void scan_leaf(ordered_search *s, const node *leaf)
         scan_points(s, leaf_points(leaf) + start, count_scanned(leaf, start));
 }
 
-/* Search a node whose children have boxes, or a leaf. Mostly few children remain after the nearest one is searched, so
- * they are not sorted. */
-static void descend_boxes(ordered_search *s, const node *n, octree_address address)
+/* Search a node. `c` is the cell of an inner node if nodes have no boxes, else null. Mostly few children remain after
+ * the nearest one is searched, so they are not sorted. */
+static void descend(ordered_search *s, const node *n, octree_address address, const divided_cell *c)
 {
     double bounds[8];
+    octree_box made[8];
+    divided_cell below;
     meter_record_visited(&s->meter, address);
     if (n->octants == 0) {
         scan_leaf(s, n);
         return;
     }
-    const sibling_boxes boxes = boxes_of_children(n);
+    const sibling_boxes boxes = boxes_of_children(n, c, made);
     unsigned left = s->bound_boxes(&s->bounds, &boxes, s->cut, bounds);
     meter_record_pruned_siblings(&s->meter, address, n, mask_of_siblings(&boxes) & ~left);
     prefetch_children(n, left);
@@ -312,49 +309,19 @@ static void descend_boxes(ordered_search *s, const node *n, octree_address addre
         const unsigned nearest = find_nearest(bounds, left);
         if (bounds[nearest] > s->cut)
             break;
-        descend_boxes(s, &children_of(n)[nearest], address_of_sibling(&s->meter, address, n, nearest));
+        descend(s, &children_of(n)[nearest], address_of_sibling(&s->meter, address, n, nearest),
+                cell_of_child(s->level, n, c, nearest, &below));
         left &= ~(1u << nearest);
     }
     meter_record_pruned_siblings(&s->meter, address, n, left);
 }
 
-/* Search a node without boxes, whose cell is `c`. `h` has the halves of this cell; it is not read for a leaf. */
-static void descend_cells(ordered_search *s, const node *n, cell c, const cell_halves *h, octree_address address)
-{
-    double bounds[8];
-    cell_halves halves;
-    meter_record_visited(&s->meter, address);
-    if (n->octants == 0) {
-        scan_leaf(s, n);
-        return;
-    }
-    s->kind->bound_octants(&s->bounds, h, bounds);
-    unsigned left = n->octants;
-    while (left) {
-        const unsigned nearest = find_nearest(bounds, left);
-        const node *child = look_up_child(n, nearest);
-        if (bounds[nearest] > s->cut)
-            break;
-        const cell below = cell_child(c, nearest);
-        if (child->octants)
-            divide_octant(s->level, h, nearest, below, &halves);
-        descend_cells(s, child, below, &halves, address << 3 | nearest);
-        left &= ~(1u << nearest);
-    }
-    meter_record_pruned(&s->meter, address, left);
-}
-
 static void search_level(ordered_search *s, const level *l)
 {
-    cell_halves halves;
+    divided_cell root;
     s->level = l;
     s->kind->prepare(s);
-    if (has_boxes(&l->tree->store)) {
-        descend_boxes(s, &l->tree->root, OCTREE_ROOT);
-        return;
-    }
-    divide_root_cell(l, &halves);
-    descend_cells(s, &l->tree->root, root_cell(), &halves, OCTREE_ROOT);
+    descend(s, &l->tree->root, OCTREE_ROOT, cell_of_root(l, &root));
 }
 
 static void search_in_order(ordered_search *s, size_t *count)

@@ -4,14 +4,7 @@
  * Each level is searched by itself. Nodes whose boxes cannot meet the region are pruned, and nodes whose boxes are
  * certainly in it are taken whole. The bodies of the remaining leaves are filtered, and those for which that is not
  * decisive are tested exactly.
- *
- * A level without boxes is searched by the traversal of region.h, with two tests. By integer keys: cells that do not
- * meet the box around the region, extended by the level's reach, are pruned. By the region's own bounds: octants whose
- * bodies cannot meet the region are pruned, and nodes whose bodies certainly match are taken whole. A body contains its
- * own position; so its node can be taken whole if the region contains its cell. If only contained bodies match, the
- * region must contain the box around all bodies of the cell instead.
  */
-#include "../exact/exact.h"
 #include "shape.h"
 #include "visit.h"
 
@@ -23,14 +16,8 @@ typedef struct body_search {
     octree_body_visitor visit;
     void *context;
     bool stopped; /* the visitor stopped the search */
-    /* of the search of a level with boxes: */
     meter meter;
     leaf_queue leaves;
-    /* of the search of a level without boxes: */
-    box_shape around;
-    octree_box box;                       /* the box of `around`: the bounds of the region, extended by the reach */
-    bool by_keys;                         /* the keys alone decide about nodes */
-    cell_halves halves[OCTREE_MAX_DEPTH]; /* of the current cell at each depth */
 } body_search;
 
 static bool is_match(const body_search *s, const octree_body *body)
@@ -69,7 +56,7 @@ static bool visit_bodies(body_search *s, const octree_point *points, uint64_t fo
     return true;
 }
 
-/* ---- Nodes with boxes --------------------------------------------------------------------------------------- */
+/* ---- Nodes -------------------------------------------------------------------------------------------------- */
 
 static bool scan_leaf(body_search *s, const node *leaf)
 {
@@ -102,10 +89,12 @@ static bool visit_bodies_below(body_search *s, const node *n)
     return going;
 }
 
-/* Visit the bodies of a node that meets the region; `inside`: its box is in the region. Returns false if the visitor
- * stopped the search. */
-static bool visit_node(body_search *s, const node *n, octree_address address, bool inside)
+/* Visit the bodies of a node that meets the region; `inside`: its box is in the region. `c` is the cell of an inner
+ * node if nodes have no boxes, else null. Returns false if the visitor stopped the search. */
+static bool visit_node(body_search *s, const node *n, octree_address address, bool inside, const divided_cell *c)
 {
+    octree_box made[8];
+    divided_cell below;
     if (inside) {
         meter_record_taken(&s->meter, address);
         return visit_bodies_below(s, n);
@@ -113,86 +102,45 @@ static bool visit_node(body_search *s, const node *n, octree_address address, bo
     meter_record_visited(&s->meter, address);
     if (n->octants == 0)
         return queue_leaf(s, n);
-    const sibling_boxes boxes = boxes_of_children(n);
+    const sibling_boxes boxes = boxes_of_children(n, c, made);
     const octant_masks masks = s->shape.kind->relate_siblings(&s->shape, &boxes);
     bool going = true;
     prefetch_children(n, masks.meets);
     meter_record_pruned_siblings(&s->meter, address, n, mask_of_siblings(&boxes) & ~masks.meets);
     for (unsigned left = masks.meets; going && left; left &= left - 1) {
         const unsigned i = bits_lowest(left);
-        going = visit_node(s, &children_of(n)[i], address_of_sibling(&s->meter, address, n, i), masks.inside >> i & 1);
+        going = visit_node(s, &children_of(n)[i], address_of_sibling(&s->meter, address, n, i), masks.inside >> i & 1,
+                           cell_of_child(s->shape.level, n, c, i, &below));
     }
     return going;
 }
 
-/* Search a level whose nodes have boxes. */
-static void search_boxes(body_search *s)
+/* Relate the region to the whole level. `c` is the root cell if nodes have no boxes, else null: then the level is
+ * searched. */
+static octant_masks relate_root(const body_search *s, const divided_cell *c)
 {
-    s->meter = (meter){.how = s->how};
-    s->leaves.added = s->leaves.removed = 0;
-    bool going = visit_node(s, &s->shape.level->tree->root, OCTREE_ROOT, false);
-    while (going && s->leaves.removed < s->leaves.added)
-        going = scan_leaf(s, leaf_queue_remove(&s->leaves));
-    meter_add_to_cost(&s->meter);
+    if (!c)
+        return (octant_masks){1, 0};
+    const octree_box box = box_of_cell(c);
+    const sibling_boxes alone = {&box, 1};
+    return s->shape.kind->relate_siblings(&s->shape, &alone);
 }
 
-/* ---- Nodes without boxes ------------------------------------------------------------------------------------ */
-
-static octant_masks enter_cell(void *shape, const octree *tree, unsigned depth, unsigned octant)
+static void search_level(body_search *s, const level *l)
 {
-    body_search *s = shape;
-    const octant_masks masks = box_shape_enter(&s->around, tree, depth, octant);
-    if (s->by_keys)
-        return masks;
-    const int32_t *low = s->around.low[depth];
-    const cell c = {{(uint32_t)low[0], (uint32_t)low[1], (uint32_t)low[2]}, depth};
-    if (depth == 0)
-        divide_root_cell(s->shape.level, &s->halves[0]);
-    else
-        divide_octant(s->shape.level, &s->halves[depth - 1], octant, c, &s->halves[depth]);
-    return s->shape.kind->relate_octants(&s->shape, &s->halves[depth], masks.meets, s->contained);
-}
-
-/* An octree_point_visitor. */
-static bool visit_body(const octree_point *point, void *context)
-{
-    return visit_bodies(context, point, 1);
-}
-
-static octree_box extend_box(const octree_box *box, const double reach[3])
-{
-    octree_box extended;
-    for (int i = 0; i < 3; i++) {
-        extended.min[i] = box->min[i] >= -DBL_MAX ? exact_add_down(box->min[i], -reach[i]) : box->min[i];
-        extended.max[i] = box->max[i] <= DBL_MAX ? exact_add_up(box->max[i], reach[i]) : box->max[i];
-    }
-    return extended;
-}
-
-/* Search a level whose nodes have no boxes. */
-static void search_cells(body_search *s, const octree_box *bounds)
-{
-    const level *l = s->shape.level;
-    region r = {l->tree, s, enter_cell, scan_bodies, visit_body, s, .meter.how = s->how};
-    s->box = s->contained ? *bounds : extend_box(bounds, l->reach);
-    s->by_keys = s->shape.region->kind == OCTREE_REGION_BOX && !s->contained;
-    s->around = box_shape_make(l->tree, &s->box, s->by_keys ? bounds : &s->box);
-    octant_masks root = box_shape_root(&s->around, l->tree);
-    if (!s->by_keys)
-        root.inside = 0;
-    region_search(&r, root);
-}
-
-/* ---- Levels ------------------------------------------------------------------------------------------------- */
-
-static void search_level(body_search *s, const level *l, const octree_box *bounds)
-{
+    divided_cell root;
     s->shape.level = l;
     s->shape.kind->prepare(&s->shape);
-    if (has_boxes(&l->tree->store))
-        search_boxes(s);
-    else
-        search_cells(s, bounds);
+    s->meter = (meter){.how = s->how};
+    s->leaves.added = s->leaves.removed = 0;
+    const divided_cell *c = cell_of_root(l, &root);
+    const octant_masks whole = relate_root(s, c);
+    bool going = whole.meets && visit_node(s, &l->tree->root, OCTREE_ROOT, whole.inside & 1, c);
+    while (going && s->leaves.removed < s->leaves.added)
+        going = scan_leaf(s, leaf_queue_remove(&s->leaves));
+    if (!whole.meets)
+        meter_record_pruned_root(&s->meter);
+    meter_add_to_cost(&s->meter);
 }
 
 octree_status octree_bodies_search(const octree_bodies *bodies, const octree_region *region, const octree_search *how,
@@ -216,11 +164,10 @@ octree_status octree_bodies_search(const octree_bodies *bodies, const octree_reg
     s.visit = visit;
     s.context = context;
     s.stopped = false;
-    const octree_box bounds = s.shape.kind->bounds(&s.shape);
     const unsigned begun = begin_set_callbacks(bodies);
     for (unsigned i = 0; i < OCTREE_BODY_LEVELS && !s.stopped; i++)
         if (count_in_level(&bodies->levels[i]) > 0)
-            search_level(&s, &bodies->levels[i], &bounds);
+            search_level(&s, &bodies->levels[i]);
     end_callbacks(begun);
     return OCTREE_OK;
 }

@@ -32,21 +32,14 @@ typedef struct shape_kind {
     octree_status (*check)(const octree_region *region);
     /* Complete the shape of a valid region. Null: it is complete. */
     void (*begin)(shape *s);
-    /* Returns a box that contains the region. Its corners may be infinite. */
-    octree_box (*bounds)(const shape *s);
     /* Return, exactly, whether a body has a common point with the region, and whether the body is in the region.
      * `contains` is null for rays and moving boxes. */
     bool (*meets)(const shape *s, const octree_body *body);
     bool (*contains)(const shape *s, const octree_body *body);
     /* Prepare the search of s->level. */
     void (*prepare)(shape *s);
-    /* Relate a region to the eight octants of a cell, in doubles. `meets`: the box around the octant's bodies may meet
-     * the region; an octant that is not in `octants` may be left out. `inside`: the octant's bodies certainly match -
-     * those whose position is in the octant, or if `contained` is true only if their whole boxes are in the region. */
-    octant_masks (*relate_octants)(const shape *s, const cell_halves *h, unsigned octants, bool contained);
     /* Relate a region to the boxes of siblings, in doubles; bit i is for sibling i. `meets`: the box may meet the
-     * region. `inside`: the box is certainly in the region, and so are all of its bodies. A box that is unknown is
-     * infinite: it meets every region. */
+     * region. `inside`: the box is certainly in the region, and so are all of its bodies. */
     octant_masks (*relate_siblings)(const shape *s, const sibling_boxes *boxes);
     /* Test at most SCAN_POINTS points of the level, in doubles. `near`: the body may have a common point with the
      * region. `sure`: it certainly has one. Bit i is for points[i]. */

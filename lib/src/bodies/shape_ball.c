@@ -8,16 +8,6 @@ static octree_status check(const octree_region *region)
     return status == OCTREE_OK ? check_length(region->radius) : status;
 }
 
-static octree_box bounds_of_region(const shape *s)
-{
-    octree_box bounds;
-    for (int i = 0; i < 3; i++) {
-        bounds.min[i] = exact_add_down(s->region->center[i], -s->region->radius);
-        bounds.max[i] = exact_add_up(s->region->center[i], s->region->radius);
-    }
-    return bounds;
-}
-
 static bool meets(const shape *s, const octree_body *body)
 {
     return body_meets_ball(body, s->region->center, s->region->radius);
@@ -31,29 +21,6 @@ static bool contains(const shape *s, const octree_body *body)
 static void prepare(shape *s)
 {
     prepare_squares(&s->bounds, s->level, s->region->center);
-}
-
-/* If the radius is so large that its square overflows, no octant is excluded or inside. */
-static octant_masks relate_octants(const shape *s, const cell_halves *h, unsigned octants, bool contained)
-{
-    double near[8], far[3][2];
-    const double scale = s->level->tree->scale, radius = s->region->radius * scale, square = radius * radius;
-    const double above = metric_above(square), below = square * (1 - 0x1p-40) - 0x1p-900;
-    unsigned meets = 0, inside = 0;
-    bound_squares_of_octants(&s->bounds, h, near);
-    for (int i = 0; i < 3; i++)
-        for (int half = 0; half < 2; half++) {
-            const double center = h->center[i][half];
-            const double extent = contained ? h->outer[i][half] : h->inner[i][half];
-            far[i][half] = (fabs(s->region->center[i] - center) + extent) * scale;
-        }
-    for (unsigned left = octants; left; left &= left - 1) {
-        const unsigned o = bits_lowest(left), x = o >> 2, y = o >> 1 & 1, z = o & 1;
-        const double farthest = (far[0][x] * far[0][x] + far[1][y] * far[1][y]) + far[2][z] * far[2][z];
-        meets |= mask_if(!(near[o] > above), 1u << o);
-        inside |= mask_if(farthest < below && below <= DBL_MAX, 1u << o);
-    }
-    return (octant_masks){(uint8_t)meets, (uint8_t)inside};
 }
 
 /* Returns the square of the distance from a target to the farthest corner of a box, multiplied by that of a scale. */
@@ -91,11 +58,9 @@ static body_masks filter(const shape *s, const octree_point *points, unsigned co
 
 const shape_kind shape_of_ball = {
     .check = check,
-    .bounds = bounds_of_region,
     .meets = meets,
     .contains = contains,
     .prepare = prepare,
-    .relate_octants = relate_octants,
     .relate_siblings = relate_siblings,
     .filter = filter,
 };

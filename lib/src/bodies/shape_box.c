@@ -8,11 +8,6 @@ static octree_status check(const octree_region *region)
     return check_box(&region->box);
 }
 
-static octree_box bounds_of_region(const shape *s)
-{
-    return s->region->box;
-}
-
 static bool meets(const shape *s, const octree_body *body)
 {
     return body_meets_box(body, &s->region->box);
@@ -26,25 +21,6 @@ static bool contains(const shape *s, const octree_body *body)
 static void prepare(shape *s)
 {
     prepare_box_test(&s->bounds, s->level, &s->region->box);
-}
-
-/* Whether all points within `half` of a centre are in an interval. */
-static bool is_half_within(double center, double half, double low, double high)
-{
-    const double error = (fabs(center) + half) * 0x1p-50;
-    return (center - half) - error >= low && (center + half) + error <= high;
-}
-
-/* The keys of the traversal have excluded octants already. */
-static octant_masks relate_octants(const shape *s, const cell_halves *h, unsigned octants, bool contained)
-{
-    unsigned inside = 0xff;
-    for (int i = 0; i < 3; i++)
-        for (int half = 0; half < 2; half++)
-            if (!is_half_within(h->center[i][half], contained ? h->outer[i][half] : h->inner[i][half],
-                                s->region->box.min[i], s->region->box.max[i]))
-                inside &= ~(unsigned)octants_beside[i][half];
-    return (octant_masks){(uint8_t)octants, (uint8_t)inside};
 }
 
 static octant_masks relate_siblings(const shape *s, const sibling_boxes *boxes)
@@ -65,11 +41,9 @@ static body_masks filter(const shape *s, const octree_point *points, unsigned co
 
 const shape_kind shape_of_box = {
     .check = check,
-    .bounds = bounds_of_region,
     .meets = meets,
     .contains = contains,
     .prepare = prepare,
-    .relate_octants = relate_octants,
     .relate_siblings = relate_siblings,
     .filter = filter,
 };

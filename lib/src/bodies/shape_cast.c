@@ -37,21 +37,6 @@ static void begin(shape *s)
     s->cast = make_cast_of_region(s->region);
 }
 
-/* The end of the motion is rounded outwards: its error is below 4 * 2^-53 of the terms. */
-static octree_box bounds_of_region(const shape *s)
-{
-    const cast *c = &s->cast;
-    octree_box bounds;
-    for (int i = 0; i < 3; i++) {
-        const double way = c->sign[i] == 0 ? 0 : c->sign[i] * (c->speed[i] * c->length);
-        const double end = c->origin[i] + way, error = (fabs(c->origin[i]) + fabs(way)) * 0x1p-50 + 0x1p-1000;
-        const double low = way < 0 ? end - error : c->origin[i], high = way > 0 ? end + error : c->origin[i];
-        bounds.min[i] = low < -DBL_MAX ? low : exact_add_down(low, -c->half[i]);
-        bounds.max[i] = high > DBL_MAX ? high : exact_add_up(high, c->half[i]);
-    }
-    return bounds;
-}
-
 static bool meets(const shape *s, const octree_body *body)
 {
     cast_time first;
@@ -61,17 +46,6 @@ static bool meets(const shape *s, const octree_body *body)
 static void prepare(shape *s)
 {
     prepare_times(&s->bounds, s->level, &s->cast);
-}
-
-static octant_masks relate_octants(const shape *s, const cell_halves *h, unsigned octants, bool contained)
-{
-    double bounds[8];
-    unsigned meets = 0;
-    (void)contained;
-    bound_times_of_octants(&s->bounds, h, bounds);
-    for (unsigned o = 0; o < 8; o++)
-        meets |= mask_if(bounds[o] <= DBL_MAX, 1u << o);
-    return (octant_masks){(uint8_t)(meets & octants), 0};
 }
 
 static octant_masks relate_siblings(const shape *s, const sibling_boxes *boxes)
@@ -89,10 +63,8 @@ static body_masks filter(const shape *s, const octree_point *points, unsigned co
 const shape_kind shape_of_cast = {
     .check = check,
     .begin = begin,
-    .bounds = bounds_of_region,
     .meets = meets,
     .prepare = prepare,
-    .relate_octants = relate_octants,
     .relate_siblings = relate_siblings,
     .filter = filter,
 };

@@ -24,12 +24,6 @@ static octree_status check(const octree_region *region)
     return status;
 }
 
-static octree_box bounds_of_region(const shape *s)
-{
-    (void)s;
-    return (octree_box){{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, {HUGE_VAL, HUGE_VAL, HUGE_VAL}};
-}
-
 static bool meets(const shape *s, const octree_body *body)
 {
     for (size_t i = 0; i < s->region->half_space_count; i++)
@@ -70,60 +64,7 @@ static void prepare(shape *s)
     }
 }
 
-/* ---- Octants and siblings ---------------------------------------------------------------------------------------- */
-
-/* The products of a half-space with the halves of a cell on one axis. */
-typedef struct half_products {
-    double middle[2]; /* normal * center */
-    double inner[2];  /* |normal| * the half extent whose points must be inside */
-    double outer[2];
-} half_products;
-
-/* Returns more than the error of any sum of these products and the offset. */
-static double multiply_halves(const octree_half_space *space, const cell_halves *h, bool contained,
-                              half_products products[3])
-{
-    double size = fabs(space->offset);
-    for (int i = 0; i < 3; i++) {
-        half_products *p = &products[i];
-        const lanes normal = lanes_all(space->normal[i]), steep = lanes_absolute(normal);
-        lanes_store(p->middle, lanes_multiply(normal, lanes_load(h->center[i])));
-        lanes_store(p->outer, lanes_multiply(steep, lanes_load(h->outer[i])));
-        lanes_store(p->inner, lanes_multiply(steep, lanes_load(contained ? h->outer[i] : h->inner[i])));
-        size += larger(fabs(p->middle[0]) + p->outer[0], fabs(p->middle[1]) + p->outer[1]);
-    }
-    return size * 0x1p-48 + 0x1p-1000;
-}
-
-/* A sum that is NaN, or infinite with an infinite error, excludes nothing. */
-static octant_masks relate_octants_to_one(const octree_half_space *space, const cell_halves *h, bool contained)
-{
-    half_products p[3];
-    const double error = multiply_halves(space, h, contained, p);
-    const lanes middle_z = lanes_load(p[2].middle), outer_z = lanes_load(p[2].outer), inner_z = lanes_load(p[2].inner);
-    const lanes limit = lanes_all(error), inner_limit = lanes_all(-error);
-    unsigned misses = 0, inside = 0;
-    for (unsigned o = 0; o < 8; o += 2) {
-        const unsigned x = o >> 2, y = o >> 1 & 1;
-        const lanes middle = lanes_add(lanes_all(p[0].middle[x] + p[1].middle[y] - space->offset), middle_z);
-        const lanes outer = lanes_add(lanes_all(p[0].outer[x] + p[1].outer[y]), outer_z);
-        const lanes inner = lanes_add(lanes_all(p[0].inner[x] + p[1].inner[y]), inner_z);
-        misses |= lanes_less(limit, lanes_subtract(middle, outer)) << o;
-        inside |= lanes_less(lanes_add(middle, inner), inner_limit) << o;
-    }
-    return (octant_masks){(uint8_t)~misses, (uint8_t)inside};
-}
-
-static octant_masks relate_octants(const shape *s, const cell_halves *h, unsigned octants, bool contained)
-{
-    octant_masks all = {(uint8_t)octants, 0xff};
-    for (size_t i = 0; i < s->region->half_space_count && all.meets; i++) {
-        const octant_masks masks = relate_octants_to_one(&s->region->half_spaces[i], h, contained);
-        all.meets &= masks.meets;
-        all.inside &= masks.inside;
-    }
-    return all;
-}
+/* ---- Siblings ---------------------------------------------------------------------------------------------------- */
 
 /* The least and the greatest values of normal . x in two boxes. */
 typedef struct two_ranges {
@@ -237,11 +178,9 @@ static body_masks filter(const shape *s, const octree_point *points, unsigned co
 
 const shape_kind shape_of_half_spaces = {
     .check = check,
-    .bounds = bounds_of_region,
     .meets = meets,
     .contains = contains,
     .prepare = prepare,
-    .relate_octants = relate_octants,
     .relate_siblings = relate_siblings,
     .filter = filter,
 };

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* lanes.h - arithmetic on two doubles at once, in SSE2 or in portable C, or on four in AVX2. Private.
  *
- * Loops that compare a query with many cells or bodies are written once, in these operations. Each lane has the same
+ * Loops that compare a query with many boxes or bodies are written once, in these operations. Each lane has the same
  * results in all three. Comparisons follow SSE2: lanes_larger() and lanes_smaller() return the second operand if one of
  * both is NaN. A source file that is compiled for AVX2 defines OCTREE_FOUR_LANES; it runs only on processors that have
  * AVX2 (bodies/bounds_avx2.c).
@@ -57,12 +57,6 @@ static inline lanes lanes_larger(lanes a, lanes b)
 static inline lanes lanes_smaller(lanes a, lanes b)
 {
     return _mm_min_pd(a, b);
-}
-
-/* Returns `value` in the lanes in which a > 0, and 0 in the others. */
-static inline lanes lanes_if_positive(lanes a, double value)
-{
-    return _mm_and_pd(_mm_cmpgt_pd(a, _mm_setzero_pd()), _mm_set1_pd(value));
 }
 
 /* Returns a mask of two bits: whether a < b. */
@@ -145,11 +139,6 @@ static inline lanes lanes_larger(lanes a, lanes b)
 static inline lanes lanes_smaller(lanes a, lanes b)
 {
     return (lanes){{a.at[0] < b.at[0] ? a.at[0] : b.at[0], a.at[1] < b.at[1] ? a.at[1] : b.at[1]}};
-}
-
-static inline lanes lanes_if_positive(lanes a, double value)
-{
-    return (lanes){{a.at[0] > 0 ? value : 0, a.at[1] > 0 ? value : 0}};
 }
 
 static inline unsigned lanes_less(lanes a, lanes b)

@@ -84,8 +84,7 @@ typedef struct box_shape {
     int32_t low[OCTREE_MAX_DEPTH][3]; /* low[d]: the lowest keys of the current cell of depth d */
 } box_shape;
 
-/* Make the shape of a box. `whole` decides which nodes are taken whole: the same box, or a box widened by epsilon,
- * or the box of a search for bodies without their reach. */
+/* Make the shape of a box. A node is taken whole if its cell is in `whole`: the same box, or one widened by epsilon. */
 box_shape box_shape_make(const octree *tree, const octree_box *box, const octree_box *whole);
 
 /* The functions of a box's shape, for region_search(). */
