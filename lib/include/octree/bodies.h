@@ -14,9 +14,9 @@
  * of whose bodies are at one place, does not shrink when bodies are removed.
  *
  * Bodies that are not large beside the leaves need no levels of their own. A bulk insertion into an empty set,
- * replace_all and compact choose the size up to which bodies share the last level; a set that has grown fourfold since
- * chooses it again. In a set filled by single insertions the levels depend on the bodies alone, until
- * octree_bodies_compact().
+ * replace_all, compact and a call that changes a third of the bodies choose the size up to which bodies share the last
+ * level; a set that has grown fourfold since chooses it again. In a set filled by single insertions the levels depend
+ * on the bodies alone, until octree_bodies_compact().
  *
  * All answers are decided by real numbers: no body is missed or added because of rounding. A node is skipped only if a
  * box that contains all of its bodies fails the test by which a body is accepted.
@@ -79,9 +79,9 @@ octree_status octree_bodies_move(octree_bodies *bodies, const octree_body *from,
 /* Insert, remove or move many bodies, with the same result as single calls in the given order. statuses[i] receives the
  * status of bodies[i], and *changed the number of statuses OK; both may be null. If memory runs out, the bodies whose
  * status is OK are changed, and all others are as before.
- * Errors: NULL_ARGUMENT, BUSY, NO_MEMORY, TOO_MANY. Cost: that of the bulk changes of octree.h. The first call that
- * changes a sixteenth of the bodies or more makes the hash table, 10 to 15 bytes a body, which the set keeps; a call
- * that fills an empty set keeps none, unless more than 64 bodies share a leaf. */
+ * Errors: NULL_ARGUMENT, BUSY, NO_MEMORY, TOO_MANY. Cost: O(n log n) for a call that inserts into an empty set, or
+ * changes a third of the bodies or more: it fills the set anew, while the old bodies and two copies are in memory. That
+ * of single calls for others, and where memory is too short for this. */
 octree_status octree_bodies_insert_many(octree_bodies *bodies, const octree_body *added, size_t count,
                                         octree_status *statuses, size_t *changed);
 octree_status octree_bodies_remove_many(octree_bodies *bodies, const octree_body *removed, size_t count,

@@ -219,42 +219,12 @@ void fit_path(const level *l, const path *p, const octree_point *removed, const 
         fit_points(l, p, removed, added);
 }
 
-static void find_and_fit_point(const level *l, const octree_point *point, bool adds)
+void fit_point(const level *l, const octree_point *point, bool added)
 {
+    if (!has_boxes(&l->tree->store))
+        return;
     const path p = find_path(l->tree, morton_code(l->tree->axes, point->position));
-    fit_points(l, &p, adds ? NULL : point, adds ? point : NULL);
-}
-
-/* If a larger share of the bodies has changed, all boxes are computed again. */
-enum { BODIES_FOR_A_CHANGE = 64 };
-
-static bool fits_each(const level *l, size_t count)
-{
-    return count <= l->tree->root.count / BODIES_FOR_A_CHANGE + 1;
-}
-
-void fit_changes(const level *l, const octree_point *points, size_t count, bool adds)
-{
-    if (!fits_each(l, count))
-        fit_all(l);
-    else if (has_boxes(&l->tree->store))
-        for (size_t i = 0; i < count; i++)
-            find_and_fit_point(l, &points[i], adds);
-}
-
-void fit_moves(const level *l, const octree_point *points, const double (*to)[3], size_t count)
-{
-    if (!fits_each(l, 2 * count))
-        fit_all(l);
-    else if (has_boxes(&l->tree->store)) {
-        for (size_t i = 0; i < count; i++) {
-            octree_point moved = points[i];
-            memcpy(moved.position, to[i], sizeof moved.position);
-            find_and_fit_point(l, &moved, true);
-        }
-        for (size_t i = 0; i < count; i++) /* last: a body that was moved twice has left its first new place */
-            find_and_fit_point(l, &points[i], false);
-    }
+    fit_points(l, &p, added ? NULL : point, added ? point : NULL);
 }
 
 /* ---- Check -------------------------------------------------------------------------------------------------- */

@@ -10,14 +10,13 @@
 /* Compute the boxes of all nodes of a level. Nothing is done in a level without boxes. */
 void fit_all(const level *l);
 
-/* Update the boxes after points were added to the tree of a level or removed from it, or were moved. A single point
- * that was moved can be removed first, then added. */
-void fit_changes(const level *l, const octree_point *points, size_t count, bool adds);
-void fit_moves(const level *l, const octree_point *points, const double (*to)[3], size_t count);
-
 /* Update the boxes after insert_along_path() or remove_along_path(), with that path, or after both changes of one leaf.
  * `removed` and `added` may be null. */
 void fit_path(const level *l, const path *p, const octree_point *removed, const octree_point *added);
+
+/* Update the boxes after a point was added to the tree of a level, or removed from it. After a move, first call this
+ * for the removal. */
+void fit_point(const level *l, const octree_point *point, bool added);
 
 /* Returns whether all boxes of a level are known and are those of its bodies. */
 bool are_boxes_right(const level *l);

@@ -1,156 +1,26 @@
 /* SPDX-License-Identifier: MIT */
 /* bulk.c - changes of many bodies in one call.
  *
- * The rows are changed one by one, with the results of the caller's order; so each body gets the status that a single
- * call would give. The hash table of the rows finds duplicates among the bodies of the call. It stays, because further
- * bulk calls are likely.
+ * A call that fills an empty set adds the rows cell by cell (order.c), and the points of each level in one bulk call of
+ * octree.h. Duplicates are in the same cell, so that this needs no hash table. Only if a cell has many bodies, a table
+ * is made, and dropped afterwards.
  *
- * A call that fills an empty set adds the bodies cell by cell (order.c), and duplicates are in the same cell. So it
- * needs no table. Only if a cell has many bodies, it makes a table, and drops it afterwards.
+ * A call that changes a large share of the bodies changes a copy of the rows, whose hash table finds them, and fills
+ * the set anew with the result. A call that changes fewer bodies changes them one by one; so does one that finds too
+ * little memory for the copy.
  *
- * The resulting changes of the trees are collected, and each level makes its changes in one bulk call of octree.h. If
- * this call fails, it has changed nothing in its tree, and the rows of this level's bodies are restored afterwards.
- *
- * A move that changes the level of a body, or the half extents in the id of its point, is made alone, after the
- * collected changes.
- *
- * Cost: that of the bulk calls, and one cache miss in the hash table for each body. The first call of many bodies
- * hashes all rows.
+ * In both cases each body gets the status that a single call would give.
  */
 #include "../exact/float_mode.h"
 #include "../exact/point.h"
 #include "../query/search.h"
 #include "boxes.h"
 #include "bulk.h"
+#include "few_bodies.h"
 #include "lookup.h"
 #include "order.h"
-#include "few_bodies.h"
 
 enum { PREFETCH_AHEAD = 8 };
-
-/* A change of a tree that is collected, but not made yet. */
-typedef struct pending {
-    size_t index; /* the index of the body in the caller's arrays */
-    uint32_t row;
-    unsigned level;
-} pending;
-
-/* Change the tree of a level, and its boxes. */
-typedef octree_status bulk_change(const level *l, const octree_point *points, const double (*to)[3], size_t count);
-
-typedef struct bulk {
-    octree_bodies *set;
-    pending *items;
-    size_t count, room;
-    /* While changes are collected, ends[level + 1] is their number for a level. After gather_points(), ends[level] is
-     * the end of the level's points. */
-    size_t ends[OCTREE_BODY_LEVELS + 1];
-    octree_point *points; /* the points of the changes, level by level */
-    double (*to)[3];
-    const octree_body *from, *moved; /* the caller's arrays; `moved` is null unless bodies are moved */
-    octree_status *statuses;         /* may be null */
-    octree_status failure;           /* the first status of a bulk call that is not OK */
-    size_t changed;
-} bulk;
-
-static void set_status(bulk *b, size_t index, octree_status status)
-{
-    if (b->statuses)
-        b->statuses[index] = status;
-    b->changed += status == OCTREE_OK;
-}
-
-static void end_bulk(bulk *b)
-{
-    arena *memory = &b->set->memory;
-    arena_free(memory, b->items, (b->room + 1) * sizeof *b->items);
-    arena_free(memory, b->points, (b->room + 1) * sizeof *b->points);
-    arena_free(memory, b->to, (b->room + 1) * sizeof *b->to);
-}
-
-/* Allocate the lists of a bulk call. Returns false if memory runs out. */
-static bool begin_bulk(bulk *b, size_t count)
-{
-    arena *memory = &b->set->memory;
-    b->room = count;
-    b->items = count <= SIZE_MAX / sizeof *b->items ? arena_allocate(memory, (count + 1) * sizeof *b->items) : NULL;
-    b->points = b->items ? arena_allocate(memory, (count + 1) * sizeof *b->points) : NULL;
-    b->to = b->points && b->moved ? arena_allocate(memory, (count + 1) * sizeof *b->to) : NULL;
-    if (b->points && (b->to || !b->moved))
-        return true;
-    end_bulk(b);
-    return false;
-}
-
-/* Hash the rows, and call begin_bulk(). */
-static bool begin_hashed_bulk(bulk *b, size_t count)
-{
-    return (count == 0 || rows_hash(&b->set->rows, 0)) && begin_bulk(b, count);
-}
-
-static void collect(bulk *b, size_t index, uint32_t row, unsigned level)
-{
-    b->items[b->count++] = (pending){index, row, level};
-    b->ends[level + 1]++;
-}
-
-/* Returns the body that is inserted or removed; before a move, the body that is moved. */
-static const octree_body *body_of(const bulk *b, const pending *p)
-{
-    return b->moved ? &b->from[p->index] : row_at(&b->set->rows, p->row);
-}
-
-/* Fill the lists of points. */
-static void gather_points(bulk *b)
-{
-    for (unsigned level = 0; level < OCTREE_BODY_LEVELS; level++)
-        b->ends[level + 1] += b->ends[level];
-    for (size_t i = 0; i < b->count; i++) {
-        const pending *p = &b->items[i];
-        const octree_body *body = body_of(b, p);
-        const size_t at = b->ends[p->level]++;
-        b->points[at].id = make_point_id(&b->set->levels[p->level], p->row, body->half);
-        memcpy(b->points[at].position, body->position, sizeof body->position);
-        if (b->moved)
-            memcpy(b->to[at], b->moved[p->index].position, sizeof b->to[at]);
-    }
-}
-
-/* Make the collected changes of a level in one bulk call. */
-static octree_status change_level_in_bulk(bulk *b, unsigned level, bulk_change *change)
-{
-    const size_t begin = level > 0 ? b->ends[level - 1] : 0, count = b->ends[level] - begin;
-    if (count == 0)
-        return OCTREE_OK;
-    const unsigned begun = begin_set_callbacks(b->set); /* the executor */
-    octree_status status = create_level(b->set, level);
-    if (status == OCTREE_OK)
-        status =
-            change(&b->set->levels[level], b->points + begin, b->to ? (const double(*)[3])b->to + begin : NULL, count);
-    end_callbacks(begun);
-    b->failure = b->failure == OCTREE_OK ? status : b->failure;
-    return status;
-}
-
-/* Make the collected changes of all levels. Then call `finish` for each change: in the caller's order if the bulk call
- * of the level succeeded; in the reverse order, to restore the rows, if it failed. */
-static void make_changes(bulk *b, bulk_change *change, void (*finish)(bulk *b, const pending *p, bool made))
-{
-    octree_status results[OCTREE_BODY_LEVELS];
-    gather_points(b);
-    for (unsigned level = 0; level < OCTREE_BODY_LEVELS; level++)
-        results[level] = change_level_in_bulk(b, level, change);
-    for (size_t i = 0; i < b->count; i++)
-        if (results[b->items[i].level] == OCTREE_OK)
-            finish(b, &b->items[i], true);
-    for (size_t i = b->count; i-- > 0;)
-        if (results[b->items[i].level] != OCTREE_OK)
-            finish(b, &b->items[i], false);
-    for (size_t i = 0; i < b->count; i++)
-        set_status(b, b->items[i].index, results[b->items[i].level]);
-    b->count = 0;
-    memset(b->ends, 0, sizeof b->ends);
-}
 
 octree_status refuse_all(octree_status status, octree_status *statuses, size_t count)
 {
@@ -169,108 +39,221 @@ octree_status check_bulk(const octree_bodies *set, const octree_body *bodies, si
     return count > ROWS_AT_MOST ? OCTREE_TOO_MANY : count > 0 && !bodies ? OCTREE_NULL_ARGUMENT : OCTREE_OK;
 }
 
-static octree_status finish_bulk(bulk *b, size_t *changed)
-{
-    end_bulk(b);
-    if (changed)
-        *changed = b->changed;
-    return b->failure;
-}
+/* ---- Fill an empty set -------------------------------------------------------------------------------------- */
 
-static void prefetch_row_of(const bulk *b, size_t index, size_t count)
-{
-    if (index + PREFETCH_AHEAD < count)
-        rows_prefetch(&b->set->rows, &b->from[index + PREFETCH_AHEAD]);
-}
-
-/* ---- Few changes --------------------------------------------------------------------------------------------- */
-
-/* Hashing the rows of a set for the first time costs about as much as a change of a sixteenth of its bodies. So calls
- * of fewer bodies make single changes. */
-enum { HASHING_CHANGES = 16 };
-
-static bool are_few(const octree_bodies *set, size_t count)
-{
-    return !rows_are_hashed(&set->rows) && count < set->rows.count / HASHING_CHANGES;
-}
-
-/* Change bodies one by one: move them, or call `change` for each. Returns the first status that is due to a lack of
- * room, or OK. */
-static octree_status change_one_by_one(bulk *b, size_t count, size_t *changed,
-                                       octree_status change(octree_bodies *set, const octree_body *body))
-{
-    for (size_t i = 0; i < count; i++) {
-        const octree_status status =
-            b->moved ? octree_bodies_move(b->set, &b->from[i], &b->moved[i]) : change(b->set, &b->from[i]);
-        set_status(b, i, status);
-        if (b->failure == OCTREE_OK && (status == OCTREE_NO_MEMORY || status == OCTREE_TOO_MANY))
-            b->failure = status;
-    }
-    if (changed)
-        *changed = b->changed;
-    return b->failure;
-}
-
-/* ---- Insert ------------------------------------------------------------------------------------------------- */
-
-static octree_status insert_points(const level *l, const octree_point *points, const double (*to)[3], size_t count)
-{
-    (void)to;
-    const octree_status status = octree_insert_many(l->tree, points, count, NULL, NULL);
-    if (status == OCTREE_OK)
-        fit_changes(l, points, count, true);
-    return status;
-}
-
-static void finish_insertion(bulk *b, const pending *p, bool made)
-{
-    if (made)
-        change_reach(b->set, p->level, body_of(b, p)->half, 1);
-    else
-        rows_remove(&b->set->rows, p->row);
-}
+typedef struct filling {
+    octree_bodies *set;
+    const octree_body *added;
+    octree_status *statuses; /* may be null */
+    row_order order;
+    uint8_t *levels; /* of each row */
+    octree_point *points;
+    size_t ends[OCTREE_BODY_LEVELS + 1]; /* ends[level + 1] is the number of rows in a level */
+} filling;
 
 /* Returns whether a body is the same as an earlier one of the same cell. */
-static bool is_repeated(const bulk *b, const row_order *order, size_t at)
+static bool is_repeated(const filling *f, size_t at)
 {
-    const octree_body *body = &b->from[body_in_order(order, at)];
-    for (size_t i = at; i-- > 0 && cell_in_order(order, i) == cell_in_order(order, at);)
-        if (is_same_body(&b->from[body_in_order(order, i)], body))
+    const octree_body *body = &f->added[body_in_order(&f->order, at)];
+    for (size_t i = at; i-- > 0 && cell_in_order(&f->order, i) == cell_in_order(&f->order, at);)
+        if (is_same_body(&f->added[body_in_order(&f->order, i)], body))
             return true;
     return false;
 }
 
 /* Add the row of a body. The hash is read only if the rows are hashed. */
-static void add_row(bulk *b, const row_order *order, size_t at, uint32_t hash)
+static void add_row(filling *f, size_t at, uint32_t hash)
 {
-    const size_t index = body_in_order(order, at);
-    const octree_body *body = &b->from[index];
-    const octree_status status = check_body(b->set, body);
+    const size_t index = body_in_order(&f->order, at);
+    const octree_body *body = &f->added[index];
+    octree_status status = check_body(f->set, body);
     uint32_t row = ROW_NONE;
-    if (status == OCTREE_OK && rows_are_hashed(&b->set->rows))
-        row = rows_add_if_new(&b->set->rows, body, hash);
-    else if (status == OCTREE_OK && !is_repeated(b, order, at))
-        row = rows_add(&b->set->rows, body);
-    if (row == ROW_NONE)
-        set_status(b, index, status == OCTREE_OK ? OCTREE_DUPLICATE : status);
-    else
-        collect(b, index, row, find_level(b->set, body->half));
+    if (status == OCTREE_OK && rows_are_hashed(&f->set->rows))
+        row = rows_add_if_new(&f->set->rows, body, hash);
+    else if (status == OCTREE_OK && !is_repeated(f, at))
+        row = rows_add(&f->set->rows, body);
+    if (row != ROW_NONE) {
+        const unsigned level = find_level(f->set, body->half);
+        f->levels[row] = (uint8_t)level;
+        f->ends[level + 1]++;
+    } else if (status == OCTREE_OK)
+        status = OCTREE_DUPLICATE;
+    if (f->statuses)
+        f->statuses[index] = status;
 }
 
 /* Add the rows in their order. The bodies and their slots of the hash table are loaded ahead, because they lie anywhere
  * in memory. */
-static void add_rows(bulk *b, const row_order *order)
+static void add_rows(filling *f)
 {
+    const size_t count = f->order.count;
     uint32_t hashes[PREFETCH_AHEAD] = {0};
-    for (size_t i = 0; i < order->count + PREFETCH_AHEAD; i++) {
+    for (size_t i = 0; i < count + PREFETCH_AHEAD; i++) {
         uint32_t *hash = &hashes[i % PREFETCH_AHEAD];
         if (i >= PREFETCH_AHEAD)
-            add_row(b, order, i - PREFETCH_AHEAD, *hash);
-        if (i < order->count && rows_are_hashed(&b->set->rows))
-            *hash = rows_prefetch(&b->set->rows, &b->from[body_in_order(order, i)]);
-        if (i + PREFETCH_AHEAD < order->count)
-            prefetch_body(&b->from[body_in_order(order, i + PREFETCH_AHEAD)]);
+            add_row(f, i - PREFETCH_AHEAD, *hash);
+        if (i < count && rows_are_hashed(&f->set->rows))
+            *hash = rows_prefetch(&f->set->rows, &f->added[body_in_order(&f->order, i)]);
+        if (i + PREFETCH_AHEAD < count)
+            prefetch_body(&f->added[body_in_order(&f->order, i + PREFETCH_AHEAD)]);
     }
+}
+
+/* Write the points of all rows, level by level. Then ends[level] is the end of the level's points. */
+static void write_points(filling *f)
+{
+    const octree_bodies *set = f->set;
+    for (unsigned level = 0; level < OCTREE_BODY_LEVELS; level++)
+        f->ends[level + 1] += f->ends[level];
+    for (uint32_t row = 0; row < set->rows.count; row++) {
+        const octree_body *body = row_at(&set->rows, row);
+        const unsigned level = f->levels[row];
+        octree_point *point = &f->points[f->ends[level]++];
+        point->id = make_point_id(&set->levels[level], row, body->half);
+        memcpy(point->position, body->position, sizeof body->position);
+    }
+}
+
+static octree_status fill_level(filling *f, unsigned number)
+{
+    octree_bodies *set = f->set;
+    const size_t begin = number > 0 ? f->ends[number - 1] : 0, count = f->ends[number] - begin;
+    octree_status status = count > 0 ? create_level(set, number) : OCTREE_OK;
+    if (status != OCTREE_OK || count == 0)
+        return status;
+    status = octree_insert_many(set->levels[number].tree, f->points + begin, count, NULL, NULL);
+    if (status == OCTREE_OK)
+        fit_all(&set->levels[number]);
+    for (size_t i = begin; status == OCTREE_OK && i < f->ends[number]; i++)
+        change_reach(set, number, row_at(&set->rows, row_of_point(&f->points[i]))->half, 1);
+    return status;
+}
+
+/* Add the rows, and then the points of all levels. */
+static octree_status fill_levels(filling *f)
+{
+    octree_status status = OCTREE_OK;
+    if (!has_sparse_cells(&f->order) && !rows_hash(&f->set->rows, f->order.count))
+        return OCTREE_NO_MEMORY;
+    if (f->order.keys)
+        choose_floor(f->set, &f->order);
+    add_rows(f);
+    write_points(f);
+    const unsigned begun = begin_set_callbacks(f->set); /* the executor */
+    for (unsigned level = 0; level < OCTREE_BODY_LEVELS && status == OCTREE_OK; level++)
+        status = fill_level(f, level);
+    end_callbacks(begun);
+    if (!has_crowded_leaf(f->set))
+        rows_drop_hash(&f->set->rows);
+    return status;
+}
+
+/* Insert bodies into an empty set, which stays empty if memory runs out. */
+static octree_status fill_set(octree_bodies *set, const octree_body *added, size_t count, octree_status *statuses)
+{
+    arena *memory = &set->memory;
+    rows_release(&set->rows);
+    octree_status status = rows_reserve(&set->rows, count);
+    filling f = {.set = set, .added = added, .statuses = statuses, .order = make_order(set, added, count)};
+    f.levels = arena_allocate(memory, count);
+    f.points = f.levels ? arena_allocate(memory, count * sizeof *f.points) : NULL;
+    if (status == OCTREE_OK)
+        status = f.points ? fill_levels(&f) : OCTREE_NO_MEMORY;
+    arena_free(memory, f.points, count * sizeof *f.points);
+    arena_free(memory, f.levels, count);
+    free_order(set, &f.order);
+    if (status != OCTREE_OK)
+        octree_bodies_clear(set);
+    return status == OCTREE_OK ? OCTREE_OK : refuse_all(status, statuses, count);
+}
+
+/* ---- Change a set that has bodies --------------------------------------------------------------------------- */
+
+/* Change a body in a list of rows, with the status of a single change. */
+typedef octree_status row_change(const octree_bodies *set, rows *r, const octree_body *from, const octree_body *to);
+typedef octree_status single_change(octree_bodies *set, const octree_body *from, const octree_body *to);
+
+typedef struct bulk {
+    octree_bodies *set;
+    const octree_body *from, *to; /* arrays of the caller */
+    size_t count;
+    row_change *in_rows;
+    single_change *alone;
+    octree_status *statuses; /* may be null */
+    size_t *changed;         /* may be null */
+} bulk;
+
+static void report(const bulk *b, size_t index, octree_status status)
+{
+    if (b->statuses)
+        b->statuses[index] = status;
+    if (b->changed)
+        *b->changed += status == OCTREE_OK;
+}
+
+/* Returns the first status that is due to a lack of room, or OK. */
+static octree_status change_one_by_one(const bulk *b)
+{
+    octree_status failure = OCTREE_OK;
+    for (size_t i = 0; i < b->count; i++) {
+        const octree_status status = b->alone(b->set, &b->from[i], &b->to[i]);
+        report(b, i, status);
+        if (failure == OCTREE_OK && (status == OCTREE_NO_MEMORY || status == OCTREE_TOO_MANY))
+            failure = status;
+    }
+    return failure;
+}
+
+/* Make the changes in a copy of the rows, and fill the set with it. Returns whether there was enough memory. */
+static bool change_copy(const bulk *b)
+{
+    arena memory = {.allocator = b->set->memory.allocator};
+    rows copy;
+    octree_body *bodies = NULL;
+    size_t size = 0;
+    rows_init(&copy, &memory);
+    if (rows_copy(&copy, &b->set->rows) && rows_reserve(&copy, b->count) == OCTREE_OK && rows_hash(&copy, b->count)) {
+        for (size_t i = 0; i < b->count; i++) {
+            if (i + PREFETCH_AHEAD < b->count)
+                rows_prefetch(&copy, &b->from[i + PREFETCH_AHEAD]);
+            report(b, i, b->in_rows(b->set, &copy, &b->from[i], &b->to[i]));
+        }
+        size = ((size_t)copy.count + 1) * sizeof *bodies;
+        bodies = arena_allocate(&memory, size);
+    }
+    const size_t count = bodies ? rows_list(&copy, bodies) : 0;
+    rows_release(&copy);
+    const bool made = bodies && rebuild_set(b->set, bodies, count, NULL, NULL) == OCTREE_OK;
+    arena_free(&memory, bodies, size);
+    if (!made && b->changed)
+        *b->changed = 0;
+    return made;
+}
+
+/* Filling a set anew takes about as long as changing a third of its bodies one by one. */
+enum { REBUILD_SHARE = 3 };
+
+static octree_status change_many(const bulk *b)
+{
+    const bool few = b->count < b->set->rows.count / REBUILD_SHARE;
+    return !few && change_copy(b) ? OCTREE_OK : change_one_by_one(b);
+}
+
+/* ---- Public functions --------------------------------------------------------------------------------------- */
+
+static octree_status insert_row(const octree_bodies *set, rows *r, const octree_body *from, const octree_body *to)
+{
+    (void)from;
+    const octree_status status = check_body(set, to);
+    if (status != OCTREE_OK)
+        return status;
+    return rows_add_if_new(r, to, rows_prefetch(r, to)) == ROW_NONE ? OCTREE_DUPLICATE : OCTREE_OK;
+}
+
+static octree_status insert_alone(octree_bodies *set, const octree_body *from, const octree_body *to)
+{
+    (void)from;
+    return octree_bodies_insert(set, to);
 }
 
 octree_status octree_bodies_insert_many(octree_bodies *bodies, const octree_body *added, size_t count,
@@ -278,144 +261,54 @@ octree_status octree_bodies_insert_many(octree_bodies *bodies, const octree_body
 {
     RETURN_IN_DEFAULT_MODE(octree_status, octree_bodies_insert_many, bodies, added, count, statuses, changed);
     octree_status status = check_bulk(bodies, added, count, changed);
-    bulk b = {.set = bodies, .from = added, .statuses = statuses};
-    if (status == OCTREE_OK && are_few(bodies, count))
-        return change_one_by_one(&b, count, changed, octree_bodies_insert);
-    if (status == OCTREE_OK)
-        status = rows_reserve(&bodies->rows, count);
     if (status != OCTREE_OK)
         return refuse_all(status, statuses, count);
-    const bool first = bodies->rows.count == 0 && !rows_are_hashed(&bodies->rows);
-    const row_order order = make_order(bodies, added, count);
-    const bool needs_hash = count > 0 && !(first && has_sparse_cells(&order));
-    if ((needs_hash && !rows_hash(&bodies->rows, count)) || !begin_bulk(&b, count)) {
-        free_order(bodies, &order);
-        return refuse_all(OCTREE_NO_MEMORY, statuses, count);
-    }
-    if (order.keys && bodies->rows.count == 0)
-        choose_floor(bodies, &order);
-    add_rows(&b, &order);
-    free_order(bodies, &order);
-    make_changes(&b, insert_points, finish_insertion);
-    status = finish_bulk(&b, changed);
-    if (first && !has_crowded_leaf(bodies))
-        rows_drop_hash(&bodies->rows);
-    rebuild_if_due(bodies);
+    if (bodies->rows.count > 0 || count == 0)
+        return change_many(&(bulk){bodies, added, added, count, insert_row, insert_alone, statuses, changed});
+    status = fill_set(bodies, added, count, statuses);
+    if (changed)
+        *changed = bodies->rows.count;
     return status;
 }
 
-/* ---- Remove ------------------------------------------------------------------------------------------------- */
-
-static octree_status remove_points(const level *l, const octree_point *points, const double (*to)[3], size_t count)
+static octree_status remove_row(const octree_bodies *set, rows *r, const octree_body *from, const octree_body *to)
 {
     (void)to;
-    const octree_status status = octree_remove_many(l->tree, points, count, NULL, NULL);
-    if (status == OCTREE_OK)
-        fit_changes(l, points, count, false);
-    return status;
+    const octree_status status = check_body(set, from);
+    const uint32_t row = status == OCTREE_OK ? rows_find(r, from) : ROW_NONE;
+    if (row == ROW_NONE)
+        return status == OCTREE_OK ? OCTREE_NOT_FOUND : status;
+    rows_remove(r, row);
+    return OCTREE_OK;
 }
 
-static void finish_removal(bulk *b, const pending *p, bool made)
+static octree_status remove_alone(octree_bodies *set, const octree_body *from, const octree_body *to)
 {
-    if (!made) {
-        rows_show(&b->set->rows, p->row);
-        return;
-    }
-    change_reach(b->set, p->level, body_of(b, p)->half, -1);
-    rows_free(&b->set->rows, p->row);
-}
-
-static void hide_row(bulk *b, size_t index)
-{
-    const octree_body *body = &b->from[index];
-    const octree_status status = check_body(b->set, body);
-    const uint32_t row = status == OCTREE_OK ? rows_find(&b->set->rows, body) : ROW_NONE;
-    if (row == ROW_NONE) {
-        set_status(b, index, status == OCTREE_OK ? OCTREE_NOT_FOUND : status);
-        return;
-    }
-    collect(b, index, row, find_level(b->set, body->half));
-    rows_hide(&b->set->rows, row);
+    (void)to;
+    return octree_bodies_remove(set, from);
 }
 
 octree_status octree_bodies_remove_many(octree_bodies *bodies, const octree_body *removed, size_t count,
                                         octree_status *statuses, size_t *changed)
 {
     RETURN_IN_DEFAULT_MODE(octree_status, octree_bodies_remove_many, bodies, removed, count, statuses, changed);
-    octree_status status = check_bulk(bodies, removed, count, changed);
-    bulk b = {.set = bodies, .from = removed, .statuses = statuses};
-    if (status == OCTREE_OK && are_few(bodies, count))
-        return change_one_by_one(&b, count, changed, octree_bodies_remove);
-    if (status == OCTREE_OK && !begin_hashed_bulk(&b, count))
-        status = OCTREE_NO_MEMORY;
+    const octree_status status = check_bulk(bodies, removed, count, changed);
     if (status != OCTREE_OK)
         return refuse_all(status, statuses, count);
-    for (size_t i = 0; i < count; i++) {
-        prefetch_row_of(&b, i, count);
-        hide_row(&b, i);
-    }
-    make_changes(&b, remove_points, finish_removal);
-    return finish_bulk(&b, changed);
+    return change_many(&(bulk){bodies, removed, removed, count, remove_row, remove_alone, statuses, changed});
 }
 
-/* ---- Move --------------------------------------------------------------------------------------------------- */
-
-static octree_status move_points(const level *l, const octree_point *points, const double (*to)[3], size_t count)
-{
-    const octree_status status = octree_move_many(l->tree, points, to, count, NULL, NULL);
-    if (status == OCTREE_OK)
-        fit_moves(l, points, to, count);
-    return status;
-}
-
-static void finish_move(bulk *b, const pending *p, bool made)
-{
-    if (!made) {
-        rows_replace(&b->set->rows, p->row, body_of(b, p));
-        return;
-    }
-    const double *half = body_of(b, p)->half, *half_moved = b->moved[p->index].half;
-    if (is_same_position(half, half_moved))
-        return;
-    change_reach(b->set, p->level, half, -1);
-    change_reach(b->set, p->level, half_moved, 1);
-}
-
-/* Check a move, and find the row of the moved body. */
-static octree_status find_moved_row(const octree_bodies *set, const octree_body *from, const octree_body *to,
-                                    uint32_t *row)
+static octree_status move_row(const octree_bodies *set, rows *r, const octree_body *from, const octree_body *to)
 {
     const octree_status status = check_move(set, from, to);
-    if (status != OCTREE_OK)
-        return status;
-    *row = rows_find(&set->rows, from);
-    if (*row == ROW_NONE)
-        return OCTREE_NOT_FOUND;
-    const uint32_t other = rows_find(&set->rows, to);
-    return other == ROW_NONE || other == *row ? OCTREE_OK : OCTREE_DUPLICATE;
-}
-
-static void move_row(bulk *b, size_t index)
-{
-    uint32_t row;
-    const octree_body *moved = &b->moved[index];
-    const octree_status status = find_moved_row(b->set, &b->from[index], moved, &row);
-    if (status != OCTREE_OK) {
-        set_status(b, index, status);
-        return;
-    }
-    const double *half = b->from[index].half;
-    const unsigned level = find_level(b->set, moved->half);
-    const struct level *l = &b->set->levels[level];
-    if (level == find_level(b->set, half) && make_point_id(l, 0, half) == make_point_id(l, 0, moved->half)) {
-        collect(b, index, row, level);
-        rows_replace(&b->set->rows, row, moved);
-        return;
-    }
-    make_changes(b, move_points, finish_move);
-    const octree_status made = octree_bodies_move(b->set, &b->from[index], moved);
-    set_status(b, index, made);
-    b->failure = b->failure == OCTREE_OK ? made : b->failure;
+    const uint32_t row = status == OCTREE_OK ? rows_find(r, from) : ROW_NONE;
+    if (row == ROW_NONE)
+        return status == OCTREE_OK ? OCTREE_NOT_FOUND : status;
+    const uint32_t other = rows_find(r, to);
+    if (other != ROW_NONE && other != row)
+        return OCTREE_DUPLICATE;
+    rows_replace(r, row, to);
+    return OCTREE_OK;
 }
 
 octree_status octree_bodies_move_many(octree_bodies *bodies, const octree_body *from, const octree_body *to,
@@ -425,17 +318,7 @@ octree_status octree_bodies_move_many(octree_bodies *bodies, const octree_body *
     octree_status status = check_bulk(bodies, from, count, changed);
     if (status == OCTREE_OK && count > 0 && !to)
         status = OCTREE_NULL_ARGUMENT;
-    bulk b = {.set = bodies, .from = from, .moved = to, .statuses = statuses};
-    if (status == OCTREE_OK && are_few(bodies, count))
-        return change_one_by_one(&b, count, changed, NULL);
-    if (status == OCTREE_OK && !begin_hashed_bulk(&b, count))
-        status = OCTREE_NO_MEMORY;
     if (status != OCTREE_OK)
         return refuse_all(status, statuses, count);
-    for (size_t i = 0; i < count; i++) {
-        prefetch_row_of(&b, i, count);
-        move_row(&b, i);
-    }
-    make_changes(&b, move_points, finish_move);
-    return finish_bulk(&b, changed);
+    return change_many(&(bulk){bodies, from, to, count, move_row, octree_bodies_move, statuses, changed});
 }

@@ -15,9 +15,6 @@
 #include "order.h"
 #include "../query/search.h"
 
-/* The least number of bodies that are sorted before they are added to others. */
-enum { LEAST_SORTED = 1024 };
-
 /* The depth of the grid. Crowds are sorted finely, but in small sets less so, because each digit of the radix sort
  * takes time. */
 enum { DEPTH = 7, DEPTH_OF_MANY = 10, MANY = 1 << 18 };
@@ -83,8 +80,6 @@ static size_t bytes_of_order(const row_order *order)
 row_order make_order(octree_bodies *set, const octree_body *added, size_t count)
 {
     row_order order = {.count = count, .depth = count < MANY ? DEPTH : DEPTH_OF_MANY};
-    if (count == 0 || (count < LEAST_SORTED && set->rows.count > 0))
-        return order;
     order.keys = arena_allocate(&set->memory, bytes_of_order(&order));
     if (!order.keys)
         return order;

@@ -6,7 +6,7 @@
 #include "set.h"
 
 /* The order in which rows are added: that of the cells of a fine grid, so that the bodies of a leaf are close together
- * in memory. Null keys: the order of the caller, for few bodies or if memory is short. */
+ * in memory. Null keys: the order of the caller, because memory is short. */
 typedef struct row_order {
     uint64_t *keys; /* sorted; the upper half is the number of a cell, the lower half the index of a body; owned */
     size_t count;

@@ -17,9 +17,8 @@ static void swap_sets(octree_bodies *a, octree_bodies *b)
     b->rows.memory = &b->memory;
 }
 
-/* Replace the contents of a set by bodies, unless memory runs out. */
-static octree_status rebuild_set(octree_bodies *set, const octree_body *bodies, size_t count, octree_status *statuses,
-                                 size_t *changed)
+octree_status rebuild_set(octree_bodies *set, const octree_body *bodies, size_t count, octree_status *statuses,
+                          size_t *changed)
 {
     octree_bodies *other;
     octree_status status = octree_bodies_create(&set->def, &other);

@@ -154,6 +154,16 @@ static bool reserve_slots(rows *r, uint64_t count)
 
 /* ---- Rows --------------------------------------------------------------------------------------------------- */
 
+/* Returns null if memory runs out. */
+static octree_body *add_chunk(rows *r)
+{
+    octree_body *chunk = arena_allocate(r->memory, ROWS_IN_CHUNK * sizeof *chunk);
+    if (chunk && list_push(r->memory, &r->chunks, &chunk, sizeof chunk))
+        return chunk;
+    arena_free(r->memory, chunk, chunk ? ROWS_IN_CHUNK * sizeof *chunk : 0);
+    return NULL;
+}
+
 octree_status rows_reserve(rows *r, size_t count)
 {
     const uint64_t total = (uint64_t)r->count + count;
@@ -161,19 +171,39 @@ octree_status rows_reserve(rows *r, size_t count)
         return OCTREE_TOO_MANY;
     if (rows_are_hashed(r) && !reserve_slots(r, total))
         return OCTREE_NO_MEMORY;
-    while ((uint64_t)r->chunks.count * ROWS_IN_CHUNK < total) {
-        octree_body *chunk = arena_allocate(r->memory, ROWS_IN_CHUNK * sizeof *chunk);
-        if (!chunk || !list_push(r->memory, &r->chunks, &chunk, sizeof chunk)) {
-            arena_free(r->memory, chunk, chunk ? ROWS_IN_CHUNK * sizeof *chunk : 0);
+    while ((uint64_t)r->chunks.count * ROWS_IN_CHUNK < total)
+        if (!add_chunk(r))
             return OCTREE_NO_MEMORY;
-        }
-    }
     return OCTREE_OK;
+}
+
+bool rows_copy(rows *copy, const rows *r)
+{
+    for (uint32_t first = 0; first < r->end; first += ROWS_IN_CHUNK) {
+        octree_body *chunk = add_chunk(copy);
+        if (!chunk)
+            return false;
+        const uint32_t left = r->end - first;
+        memcpy(chunk, row_at(r, first), (left < ROWS_IN_CHUNK ? left : ROWS_IN_CHUNK) * sizeof *chunk);
+    }
+    copy->end = r->end;
+    copy->free = r->free;
+    copy->count = r->count;
+    return true;
 }
 
 static bool is_row_free(const octree_body *row)
 {
     return row->half[0] < 0;
+}
+
+size_t rows_list(const rows *r, octree_body *to)
+{
+    size_t count = 0;
+    for (uint32_t i = 0; i < r->end; i++)
+        if (!is_row_free(row_at(r, i)))
+            to[count++] = *row_at(r, i);
+    return count;
 }
 
 bool rows_hash(rows *r, size_t count)
@@ -205,10 +235,17 @@ static uint32_t take_row(rows *r, const octree_body *body)
     return index;
 }
 
+/* Add a row to the hash table, if there is one. */
+static void show_row(rows *r, uint32_t index)
+{
+    if (rows_are_hashed(r))
+        fill_slot(r, hash_body(row_at(r, index)), index);
+}
+
 uint32_t rows_add(rows *r, const octree_body *body)
 {
     const uint32_t index = take_row(r, body);
-    rows_show(r, index);
+    show_row(r, index);
     return index;
 }
 
@@ -222,37 +259,26 @@ uint32_t rows_add_if_new(rows *r, const octree_body *body, uint32_t hash)
     return index;
 }
 
-void rows_hide(rows *r, uint32_t index)
+static void hide_row(rows *r, uint32_t index)
 {
     if (rows_are_hashed(r))
         clear_slot(r, find_slot_of_row(r, index));
 }
 
-void rows_show(rows *r, uint32_t index)
+void rows_remove(rows *r, uint32_t index)
 {
-    if (rows_are_hashed(r))
-        fill_slot(r, hash_body(row_at(r, index)), index);
-}
-
-void rows_free(rows *r, uint32_t index)
-{
+    hide_row(r, index);
     row_at(r, index)->id = r->free;
     row_at(r, index)->half[0] = -1;
     r->free = index;
     r->count--;
 }
 
-void rows_remove(rows *r, uint32_t index)
-{
-    rows_hide(r, index);
-    rows_free(r, index);
-}
-
 void rows_replace(rows *r, uint32_t index, const octree_body *body)
 {
-    rows_hide(r, index);
+    hide_row(r, index);
     *row_at(r, index) = *body;
-    rows_show(r, index);
+    show_row(r, index);
 }
 
 uint32_t rows_prefetch(const rows *r, const octree_body *body)

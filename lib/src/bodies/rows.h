@@ -28,6 +28,13 @@ typedef struct rows {
 void rows_init(rows *r, arena *memory);
 void rows_release(rows *r);
 
+/* Copy all rows, but no hash table, to an empty list of rows. Returns false if memory runs out; the copy must then be
+ * released. */
+bool rows_copy(rows *copy, const rows *r);
+
+/* Copy all bodies to an array. Returns their number. */
+size_t rows_list(const rows *r, octree_body *to);
+
 static inline octree_body *row_at(const rows *r, size_t index)
 {
     return ((octree_body **)r->chunks.items)[index / ROWS_IN_CHUNK] + index % ROWS_IN_CHUNK;
@@ -65,12 +72,7 @@ uint32_t rows_add(rows *r, const octree_body *body);
  * if the body is stored already. */
 uint32_t rows_add_if_new(rows *r, const octree_body *body, uint32_t hash);
 
-/* Remove the body of a row: rows_hide() and rows_free() in one. rows_hide() removes a body from the hash table only, if
- * there is one, and rows_show() restores it; rows_free() frees the row of a hidden body. */
 void rows_remove(rows *r, uint32_t index);
-void rows_hide(rows *r, uint32_t index);
-void rows_show(rows *r, uint32_t index);
-void rows_free(rows *r, uint32_t index);
 
 /* Replace the body of a row by a body that is not stored yet. */
 void rows_replace(rows *r, uint32_t index, const octree_body *body);

@@ -295,8 +295,8 @@ static octree_status move_point(octree_bodies *set, const octree_body *moved, fo
     if (stays_in_leaf) { /* then no node has changed */
         fit_path(l, &to->at.path, &leaving, &arriving);
     } else {
-        fit_changes(l, &leaving, 1, false);
-        fit_changes(next, &arriving, 1, true);
+        fit_point(l, &leaving, false);
+        fit_point(next, &arriving, true);
     }
     return OCTREE_OK;
 }
