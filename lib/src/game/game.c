@@ -327,6 +327,7 @@ static octree_status start_game(octree_game *game)
         status = game_load_bodies(game);
     if (status != OCTREE_OK)
         return status;
+    game_update_reach(game); /* the queries of a gap are asked later, if at all */
     store_player_positions(game);
     if (!game_list_movers(game))
         return OCTREE_NO_MEMORY;

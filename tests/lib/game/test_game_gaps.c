@@ -86,6 +86,21 @@ static void tick_0_may_be_a_gap(void **state)
     octree_game_destroy(game);
 }
 
+static void bodies_have_their_extents_in_a_gap_at_tick_0(void **state)
+{
+    (void)state;
+    const octree_gap first = {0, "a query has a NaN"};
+    const octree_game_body large = {.id = 1, .half = {5, 5, 5}};
+    const octree_query range = {.tick = OCTREE_EVERY_TICK, .kind = OCTREE_QUERY_RANGE, .box = {{4, 4, 4}, {6, 6, 6}}};
+    octree_session session = small_session(&large, 1);
+    session.gaps = &first;
+    session.gap_count = 1;
+    octree_game *game = start_game(&session);
+    assert_int_equal(octree_game_ask(game, &range, 1), OCTREE_OK);
+    assert_int_equal(octree_game_tick(game)->answers[0].count, 1);
+    octree_game_destroy(game);
+}
+
 static void a_gap_is_given_as_it_comes_too(void **state)
 {
     (void)state;
@@ -128,6 +143,7 @@ int main(void)
         cmocka_unit_test(nothing_is_played_in_a_gap_and_the_next_tick_has_its_own_number),
         cmocka_unit_test(movers_are_listed_in_a_gap_where_they_were),
         cmocka_unit_test(tick_0_may_be_a_gap),
+        cmocka_unit_test(bodies_have_their_extents_in_a_gap_at_tick_0),
         cmocka_unit_test(a_gap_is_given_as_it_comes_too),
         cmocka_unit_test(gaps_out_of_order_and_without_a_text_are_refused),
     };
