@@ -216,7 +216,7 @@ static void collect_nearest(judge_state *s, double slack)
     const size_t count = answer->count, k = answer->k;
     /* if there are fewer than k neighbours, all points are candidates */
     double reach = count < k ? DBL_MAX : k ? s->about->exact_neighbors[k - 1].distance + slack : 0;
-    for (; !s->failed; reach *= 2) {
+    for (double factor = 2; !s->failed; reach *= factor, factor *= factor) { /* soon DBL_MAX: a ray may lose hits */
         exact->count = 0;
         reach = reach < DBL_MAX ? reach : DBL_MAX;
         collect_candidates(s, reach, slack);
