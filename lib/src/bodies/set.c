@@ -97,11 +97,20 @@ void set_half_extents(octree_bodies *set, const double reach[3], half_lookup *ha
     set->half_context = context;
 }
 
+/* Returns whether this thread is running a callback of the set, or of the tree of one of its levels. */
+static bool is_running_set_callback(const octree_bodies *set)
+{
+    bool running = is_running_callback(listed_as(set));
+    for (unsigned i = 0; visits_of_thread.depth > 0 && !set->points && i < OCTREE_BODY_LEVELS; i++)
+        running |= is_running_callback(set->levels[i].tree);
+    return running;
+}
+
 octree_status check_set_change(const octree_bodies *set)
 {
     if (!set)
         return OCTREE_NULL_ARGUMENT;
-    return set->points ? OCTREE_BAD_OPTION : is_running_callback(listed_as(set)) ? OCTREE_BUSY : OCTREE_OK;
+    return set->points ? OCTREE_BAD_OPTION : is_running_set_callback(set) ? OCTREE_BUSY : OCTREE_OK;
 }
 
 octree_status octree_bodies_clear(octree_bodies *bodies)
@@ -122,7 +131,7 @@ octree_status octree_bodies_clear(octree_bodies *bodies)
 
 void octree_bodies_destroy(octree_bodies *bodies)
 {
-    if (!bodies || is_running_callback(listed_as(bodies)))
+    if (!bodies || is_running_set_callback(bodies))
         return;
     for (unsigned i = 0; !bodies->points && i < OCTREE_BODY_LEVELS; i++)
         octree_destroy(bodies->levels[i].tree);
@@ -177,7 +186,7 @@ static octree_status prepare_insertion(octree_bodies *set, const octree_body *bo
             return status;
         find_body_for_change(set, body, NULL, place);
     }
-    return is_running_callback(*tree) ? OCTREE_BUSY : rows_reserve(&set->rows, 1);
+    return rows_reserve(&set->rows, 1);
 }
 
 /* Insert the point of a body that is not stored, and for which there is room. The row is written before the tree is
@@ -242,8 +251,6 @@ octree_status octree_bodies_remove(octree_bodies *bodies, const octree_body *bod
     if (!find_body_for_change(bodies, &removed, NULL, &found))
         return OCTREE_NOT_FOUND;
     const level *l = &bodies->levels[found.level];
-    if (is_running_callback(l->tree))
-        return OCTREE_BUSY;
     const octree_point point = stored_point(&found.at);
     status = remove_along_path(l->tree, &found.at, found.code);
     if (status == OCTREE_OK) {
@@ -284,8 +291,6 @@ static octree_status move_point(octree_bodies *set, const octree_body *moved, fo
     level *l = &set->levels[from->level], *next = &set->levels[to->level];
     const octree_point leaving = stored_point(&from->at), arriving = make_point(next, from->row, moved);
     const bool stays_in_leaf = l == next && path_end(&from->at.path) == path_end(&to->at.path);
-    if (is_running_callback(l->tree))
-        return OCTREE_BUSY;
     octree_status status = create_level(set, to->level);
     if (status == OCTREE_OK)
         status = l == next ? move_within_level(l->tree, &leaving, &arriving, from, to)

@@ -59,6 +59,11 @@ static bool change_inside_level(const octree_point *point, void *context)
     assert_int_equal(octree_bodies_move(set, &body, &other), OCTREE_BUSY);
     const octree_body larger = body_at(1, 1, 1, 4, 99); /* in another level */
     assert_int_equal(octree_bodies_move(set, &body, &larger), OCTREE_BUSY);
+    assert_int_equal(octree_bodies_remove_many(set, &body, 1, NULL, NULL), OCTREE_BUSY);
+    assert_int_equal(octree_bodies_clear(set), OCTREE_BUSY);
+    assert_int_equal(octree_bodies_compact(set), OCTREE_BUSY);
+    assert_int_equal(octree_bodies_replace_all(set, &other, 1, NULL, NULL), OCTREE_BUSY);
+    octree_bodies_destroy(set);
     return true;
 }
 
@@ -74,6 +79,7 @@ static void visitors_of_a_level_cannot_change_the_set(void **state)
     assert_int_equal(octree_range(level, &all, change_inside_level, set), OCTREE_OK);
     assert_true(octree_bodies_contain(set, &body));
     assert_int_equal(octree_bodies_count(set), 1);
+    assert_null(octree_bodies_check(set));
     octree_bodies_destroy(set);
 }
 
