@@ -96,9 +96,8 @@ octree_status octree_bodies_move_many(octree_bodies *bodies, const octree_body *
 octree_status octree_bodies_replace_all(octree_bodies *bodies, const octree_body *added, size_t count,
                                         octree_status *statuses, size_t *changed);
 
-/* Store the bodies in the order of their leaves, divide them by size again, and release unused memory. Queries are then
- * faster. Answers stay the same. Errors: NULL_ARGUMENT, BUSY, NO_MEMORY; the set is then unchanged. Cost: O(n log n).
- */
+/* Store neighbouring bodies together, divide them by size again, and release unused memory. Queries are then faster.
+ * Answers stay the same. Errors: NULL_ARGUMENT, BUSY, NO_MEMORY; the set is then unchanged. Cost: O(n log n). */
 octree_status octree_bodies_compact(octree_bodies *bodies);
 
 /* ---- Read --------------------------------------------------------------------------------------------------- */

@@ -204,30 +204,28 @@ static octree_status change_one_by_one(const bulk *b)
     return failure;
 }
 
-/* Make the changes in a copy of the rows, and fill the set with it. Returns whether there was enough memory. */
+/* Make the changes in a copy of the rows, and fill the set with it, if anything has changed. Returns whether there was
+ * enough memory. */
 static bool change_copy(const bulk *b)
 {
     arena memory = {.allocator = b->set->memory.allocator};
     rows copy;
-    octree_body *bodies = NULL;
-    size_t size = 0;
+    size_t made = 0;
     rows_init(&copy, &memory);
-    if (rows_copy(&copy, &b->set->rows) && rows_reserve(&copy, b->count) == OCTREE_OK && rows_hash(&copy, b->count)) {
-        for (size_t i = 0; i < b->count; i++) {
-            if (i + PREFETCH_AHEAD < b->count)
-                rows_prefetch(&copy, &b->from[i + PREFETCH_AHEAD]);
-            report(b, i, b->in_rows(b->set, &copy, &b->from[i], &b->to[i]));
-        }
-        size = ((size_t)copy.count + 1) * sizeof *bodies;
-        bodies = arena_allocate(&memory, size);
+    bool done =
+        rows_copy(&copy, &b->set->rows) && rows_reserve(&copy, b->count) == OCTREE_OK && rows_hash(&copy, b->count);
+    for (size_t i = 0; done && i < b->count; i++) {
+        if (i + PREFETCH_AHEAD < b->count)
+            rows_prefetch(&copy, &b->from[i + PREFETCH_AHEAD]);
+        const octree_status status = b->in_rows(b->set, &copy, &b->from[i], &b->to[i]);
+        report(b, i, status);
+        made += status == OCTREE_OK;
     }
-    const size_t count = bodies ? rows_list(&copy, bodies) : 0;
+    done = done && (made == 0 || rebuild_from_rows(b->set, &copy) == OCTREE_OK);
     rows_release(&copy);
-    const bool made = bodies && rebuild_set(b->set, bodies, count, NULL, NULL) == OCTREE_OK;
-    arena_free(&memory, bodies, size);
-    if (!made && b->changed)
+    if (!done && b->changed)
         *b->changed = 0;
-    return made;
+    return done;
 }
 
 /* Filling a set anew takes about as long as changing a third of its bodies one by one. */
@@ -235,7 +233,7 @@ enum { REBUILD_SHARE = 3 };
 
 static octree_status change_many(const bulk *b)
 {
-    const bool few = b->count < b->set->rows.count / REBUILD_SHARE;
+    const bool few = b->count < b->set->rows.count / REBUILD_SHARE || b->count == 0 || b->set->rows.count == 0;
     return !few && change_copy(b) ? OCTREE_OK : change_one_by_one(b);
 }
 

@@ -11,8 +11,7 @@ octree_status check_bulk(const octree_bodies *set, const octree_body *bodies, si
 /* Report the failure of a whole call in the status of each body. Returns the status. */
 octree_status refuse_all(octree_status status, octree_status *statuses, size_t count);
 
-/* Replace the contents of a set by bodies, unless memory runs out. */
-octree_status rebuild_set(octree_bodies *set, const octree_body *bodies, size_t count, octree_status *statuses,
-                          size_t *changed);
+/* Replace the contents of a set by the bodies of rows, perhaps its own, unless memory runs out. */
+octree_status rebuild_from_rows(octree_bodies *set, const rows *r);
 
 #endif

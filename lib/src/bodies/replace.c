@@ -17,8 +17,9 @@ static void swap_sets(octree_bodies *a, octree_bodies *b)
     b->rows.memory = &b->memory;
 }
 
-octree_status rebuild_set(octree_bodies *set, const octree_body *bodies, size_t count, octree_status *statuses,
-                          size_t *changed)
+/* Replace the contents of a set by bodies, unless memory runs out. */
+static octree_status rebuild_set(octree_bodies *set, const octree_body *bodies, size_t count, octree_status *statuses,
+                                 size_t *changed)
 {
     octree_bodies *other;
     octree_status status = octree_bodies_create(&set->def, &other);
@@ -46,34 +47,15 @@ octree_status octree_bodies_replace_all(octree_bodies *bodies, const octree_body
                                : refuse_all(status, statuses, count);
 }
 
-/* The bodies of a set in the order of the leaves. */
-typedef struct gathering {
-    const octree_bodies *set;
-    octree_body *bodies;
-    size_t count;
-} gathering;
-
-static octree_walk_order gather_leaf(const octree_node *node, void *context)
-{
-    gathering *g = context;
-    for (size_t i = 0; node->leaf && i < node->count; i++)
-        g->bodies[g->count++] = *row_at(&g->set->rows, row_of_point(&node->points[i]));
-    return OCTREE_WALK_ON;
-}
-
-/* Insert all bodies of a set into an empty set, in the order of the leaves. */
-static octree_status rebuild_in_order(octree_bodies *set)
+octree_status rebuild_from_rows(octree_bodies *set, const rows *r)
 {
     arena memory = {.allocator = set->memory.allocator};
-    const size_t size = ((size_t)set->rows.count + 1) * sizeof(octree_body);
-    gathering g = {set, arena_allocate(&memory, size), 0};
-    if (!g.bodies)
+    const size_t size = ((size_t)r->count + 1) * sizeof(octree_body);
+    octree_body *bodies = arena_allocate(&memory, size);
+    if (!bodies)
         return OCTREE_NO_MEMORY;
-    for (unsigned i = 0; i < OCTREE_BODY_LEVELS; i++)
-        if (set->levels[i].tree)
-            octree_walk(set->levels[i].tree, gather_leaf, &g);
-    const octree_status status = rebuild_set(set, g.bodies, g.count, NULL, NULL);
-    arena_free(&memory, g.bodies, size);
+    const octree_status status = rebuild_set(set, bodies, rows_list(r, bodies), NULL, NULL);
+    arena_free(&memory, bodies, size);
     return status;
 }
 
@@ -81,12 +63,12 @@ octree_status octree_bodies_compact(octree_bodies *bodies)
 {
     RETURN_IN_DEFAULT_MODE(octree_status, octree_bodies_compact, bodies);
     const octree_status status = check_set_change(bodies);
-    return status == OCTREE_OK ? rebuild_in_order(bodies) : status;
+    return status == OCTREE_OK ? rebuild_from_rows(bodies, &bodies->rows) : status;
 }
 
 /* If memory is short, the set stays valid; it is only slower. */
 void rebuild_if_due(octree_bodies *set)
 {
-    if (set->rows.count >= set->due && rebuild_in_order(set) != OCTREE_OK)
+    if (set->rows.count >= set->due && rebuild_from_rows(set, &set->rows) != OCTREE_OK)
         set->due = GROWTH_BEFORE_REBUILD * (size_t)set->rows.count;
 }

@@ -54,6 +54,28 @@ static void bulk_changes_keep_no_table(void **state)
     octree_bodies_destroy(set);
 }
 
+/* They would fill the set anew otherwise, because a share of nothing is nothing. */
+static void bulk_changes_of_nothing_allocate_nothing(void **state)
+{
+    (void)state;
+    counting_allocator counts = {0};
+    octree_bodies *set;
+    octree_status status;
+    octree_def def = define(cube(-8, 8), 16, 21, OCTREE_GROW);
+    const octree_body body = body_at(1, 2, 3, 0.05, 7);
+    def.allocator = counting_allocator_use(&counts);
+    assert_int_equal(octree_bodies_create(&def, &set), OCTREE_OK);
+    const size_t before = counts.calls;
+    assert_int_equal(octree_bodies_insert_many(set, NULL, 0, NULL, NULL), OCTREE_OK);
+    assert_int_equal(octree_bodies_remove_many(set, NULL, 0, NULL, NULL), OCTREE_OK);
+    assert_int_equal(octree_bodies_move_many(set, NULL, NULL, 0, NULL, NULL), OCTREE_OK);
+    assert_int_equal(octree_bodies_remove_many(set, &body, 1, &status, NULL), OCTREE_OK);
+    assert_int_equal(status, OCTREE_NOT_FOUND);
+    assert_int_equal(counts.calls, before);
+    octree_bodies_destroy(set);
+    assert_all_returned(&counts);
+}
+
 /* A table would take time and memory for all bodies. */
 static void few_changes_in_one_call_need_no_table(void **state)
 {
@@ -240,6 +262,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bulk_changes_keep_no_table),
+        cmocka_unit_test(bulk_changes_of_nothing_allocate_nothing),
         cmocka_unit_test(few_changes_in_one_call_need_no_table),
         cmocka_unit_test(few_changes_without_memory_report_it),
         cmocka_unit_test(crowds_are_found_by_a_table),
