@@ -50,11 +50,13 @@ static double find_inverse_speed(const cast *c, int axis, double way)
     return c->sign[axis] ? c->inverse[axis] : 0x1p900 / way;
 }
 
-/* Some 8 roundings of at most 2^-53 * (distance + reach) / speed are covered, and the underflow of products. */
+/* Some 8 roundings of at most 2^-53 * (distance + reach) / speed are covered, and the underflow of products. If nothing
+ * moves on the axis, a box that only touches the way must not be left at the time 0: so the way is made wider there. */
 static void prepare_axis_of_times(axis_bounds *axis, const level *l, const cast *c, int i)
 {
     const double way = find_farthest(l, i, c->origin[i]) + l->reach[i] + c->half[i];
     const double inverse = find_inverse_speed(c, i, way), latest = way * inverse;
+    const double extent = c->half[i] + (c->sign[i] ? 0 : way * 0x1p-50 + 0x1p-1070);
     const half_steps half = half_steps_of(l, i);
     *axis = (axis_bounds){.origin = c->origin[i],
                           .factor = !(latest < 0x1p1000) ? NAN
@@ -62,8 +64,8 @@ static void prepare_axis_of_times(axis_bounds *axis, const level *l, const cast 
                                                          : inverse,
                           .step = half.step * inverse,
                           .rest = (half.rest + c->half[i]) * inverse + latest * 0x1p-49 + 0x1p-1000,
-                          .min = c->half[i] > 0 ? exact_add_down(c->origin[i], -c->half[i]) : c->origin[i],
-                          .max = c->half[i] > 0 ? exact_add_up(c->origin[i], c->half[i]) : c->origin[i]};
+                          .min = extent > 0 ? exact_add_down(c->origin[i], -extent) : c->origin[i],
+                          .max = extent > 0 ? exact_add_up(c->origin[i], extent) : c->origin[i]};
 }
 
 void prepare_times(query_bounds *b, const level *l, const cast *c)
