@@ -6,12 +6,13 @@
  * stored once. The position must lie in the world; the box may reach beyond it. The world of a set stays as it is:
  * choose a large one.
  *
- * How it works. Bodies are divided by size into at most twelve levels, and each level is an octree of their positions
- * (octree.h). Each node of the tree has a box around all bodies in and below it, as in a bounding volume hierarchy, and
- * a query skips a node whose box it does not meet. Without levels, one large body would enlarge the boxes of many small
- * ones. Level 0, of the largest bodies, has no boxes; its cells are extended by its largest half extents, its `reach`.
- * The nodes of a level, and their boxes, are a function of its bodies; only the box of a leaf beyond its capacity, most
- * of whose bodies are at one place, does not shrink when bodies are removed.
+ * How it works (no caller needs to know it). Bodies are divided by size into at most twelve levels, and each level is
+ * an octree of their positions (octree.h). Each node of the tree has a box around all bodies in and below it, as in a
+ * bounding volume hierarchy, and a query skips a node whose box it does not meet. Without levels, one large body would
+ * enlarge the boxes of many small ones. In level 0, of the largest bodies, and for points shown as bodies, this box is
+ * the node's cell, extended by the largest half extents of the level, its `reach`. In other levels the box is stored.
+ * It is a function of the bodies, as the nodes are; only that of a leaf beyond its capacity, most of whose bodies are
+ * at one place, does not shrink when bodies are removed.
  *
  * Bodies that are not large beside the leaves need no levels of their own. A bulk insertion into an empty set,
  * replace_all, compact and a call that changes a third of the bodies choose the size up to which bodies share the last
@@ -26,7 +27,8 @@
  *   - A change of one body happens completely or not at all. A call that changes many bodies reports the status of
  *     each, and makes the changes whose status is OK.
  *   - The options of a search may be null. Of the rules to skip bodies, OCTREE_SKIP_ID works everywhere, and
- *     OCTREE_SKIP_COINCIDENT only in octree_bodies_nearest(): it compares positions with the target.
+ *     OCTREE_SKIP_COINCIDENT only in octree_bodies_nearest(): it compares positions with the target. Elsewhere it skips
+ *     none.
  *   - Bodies that visitors receive are valid during the call.
  *   - During a bulk change, the executor must not query the set.
  *   - n is the number of bodies, L the number of levels in use, D and M are the depth and the capacity of a level.
@@ -72,8 +74,8 @@ octree_status octree_bodies_insert(octree_bodies *bodies, const octree_body *bod
  * NOT_FOUND; the set is then unchanged. */
 octree_status octree_bodies_remove(octree_bodies *bodies, const octree_body *body);
 
-/* Replace a body by another: move it, resize it, or both. Cost: O(D + M). Errors: those of removal for `from` and of
- * insertion for `to`; the set is then unchanged. */
+/* Replace a body by another: move it, resize it, or both. Cost: O(D + M). Errors: those of removal; the set is
+ * then unchanged. The numbers of both bodies are checked first, and NOT_FOUND comes before DUPLICATE. */
 octree_status octree_bodies_move(octree_bodies *bodies, const octree_body *from, const octree_body *to);
 
 /* Insert, remove or move many bodies, with the same result as single calls in the given order. statuses[i] receives the
@@ -168,7 +170,8 @@ typedef struct octree_region {
     double half[3];   /* SWEPT: the half extents of the moving box. RAY: half the thickness of the ray on each axis */
     double origin[3]; /* RAY */
     double direction[3]; /* RAY: not zero; need not have length 1 */
-    double length;       /* RAY: the largest parameter t, a distance if the direction has length 1; HUGE_VAL: no end */
+    double length; /* RAY: the largest parameter t, a distance if the direction has length 1. HUGE_VAL: no end; 0: only
+                      the origin */
 } octree_region;
 
 /* Check a region. Returns OK, NULL_ARGUMENT, NOT_FINITE, BAD_RANGE (min > max), BAD_SIZE (a negative size, a zero
@@ -185,15 +188,16 @@ octree_status octree_bodies_search(const octree_bodies *bodies, const octree_reg
 /* A body that a search in order has found. */
 typedef struct octree_hit {
     octree_body body;
-    /* for neighbours: the distance from the target to the box, 0 inside; within 4 ulp. For rays: the parameter t of the
-     * first common point. For moving boxes: the share of the way before the first contact, 0 to 1. Both are 0 if the
-     * start is inside; within 4 ulp, infinite if beyond DBL_MAX */
+    /* For neighbours: the distance from the target to the box; 0 inside. For rays: the parameter t of the first common
+     * point. For moving boxes: the share of the way before the first contact, 0 to 1. If a ray or a moving box starts
+     * inside the body: 0. Within 4 ulp; infinite beyond DBL_MAX. */
     double at;
 } octree_hit;
 
 /* Store the k bodies nearest to a target in hits[0 .. *count - 1], ordered by the distance to their box, then by id,
  * position and half extents. Only bodies within `radius` count; HUGE_VAL: all. If `accept` is not null, only bodies for
- * which it returns true count. epsilon means the same as in octree_nearest_k.
+ * which it returns true count. With an epsilon above 0, each distance is at most (1 + epsilon) times that of the exact
+ * answer.
  *
  * *count is the smaller of k and the number of bodies that count, so 0 is no error; it is 0 after an error, too. hits[]
  * must have room for *count bodies; it may be null if k is 0.

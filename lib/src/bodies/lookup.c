@@ -6,7 +6,7 @@
  * hash table would cost two cache misses and at least 10 bytes a body.
  *
  * It is needed where leaves are crowded: a million bodies may be at one place. The first change that meets such a leaf
- * hashes the rows of the set. Changes of many bodies use such a table for a while (bulk.c).
+ * hashes the rows of the set. Changes of many bodies use such a table for a while (change_many.c).
  *
  * Cost: O(depth), and O(n) once if a leaf is crowded.
  */

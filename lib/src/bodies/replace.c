@@ -5,7 +5,7 @@
  * The new contents are made in another set, which then changes places with the old one. So a failure changes nothing.
  */
 #include "../exact/float_mode.h"
-#include "bulk.h"
+#include "change_many.h"
 
 /* Exchange the contents of two sets. Each list of rows keeps the pointer to the arena of its set. */
 static void swap_sets(octree_bodies *a, octree_bodies *b)

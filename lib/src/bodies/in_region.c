@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* search.c - the bodies that match a region: octree_bodies_search().
+/* in_region.c - the bodies that match a region: octree_bodies_search().
  *
  * Each level is searched by itself. Nodes whose boxes cannot meet the region are pruned, and nodes whose boxes are
  * certainly in it are taken whole. The bodies of the remaining leaves are filtered, and those for which that is not

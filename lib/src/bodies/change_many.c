@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* bulk.c - changes of many bodies in one call.
+/* change_many.c - changes of many bodies in one call.
  *
  * A call that fills an empty set adds the rows cell by cell (order.c), and the points of each level in one bulk call of
  * octree.h. Duplicates are in the same cell, so that this needs no hash table. Only if a cell has many bodies, a table
@@ -15,7 +15,7 @@
 #include "../exact/point.h"
 #include "../query/search.h"
 #include "boxes.h"
-#include "bulk.h"
+#include "change_many.h"
 #include "few_bodies.h"
 #include "lookup.h"
 #include "order.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* bulk.h - what all changes of many bodies share. Private. */
-#ifndef OCTREE_BODY_BULK_H
-#define OCTREE_BODY_BULK_H
+/* change_many.h - what all changes of many bodies share. Private. */
+#ifndef OCTREE_BODY_CHANGE_MANY_H
+#define OCTREE_BODY_CHANGE_MANY_H
 
 #include "set.h"
 
