@@ -184,8 +184,19 @@ async function sayPlayedLink()
 
 const WRONG = ["t=x", "t=-1", "t=1e3", "t=0&filter=boo", "t=0&view=--camera+moon", "t=0&view=rm", "t=0&view=--look",
                "t=0&view=--slice+w", "t=0&view=--zoom+nan", "t=0&view=--region+1", "t=0&view=--layers+%3Cb%3E",
-               "t=0&view=--__proto__+1", "t=0&view=--depths", "t=0&keys=w", "t=0&keys=3:xyz", "t=0&ask={", "t=0&select=node",
+               "t=0&view=--__proto__+1", "t=0&view=--depths", "t=0&view=--depths+:", "t=0&view=--depths+1:2:3",
+               "t=0&view=--depths+0x2", "t=0&view=--depths+3:2", "t=0&view=--depths+22", "t=0&view=--slice+z=",
+               "t=0&view=--look+30,", "t=0&keys=w", "t=0&keys=3:xyz", "t=0&ask={", "t=0&select=node",
                "t=0&select=node+9/9", "t=0&select=point+99999999999999999999999", "t=0&select=%00", "t=0&select=constructor+x"];
+
+const DEPTHS = ["2:5", "2:", ":5", "2", "02:"];
+
+/* Report the member of the view that each text of --depths gives. */
+function sayDepths()
+{
+    for (const text of DEPTHS)
+        say(`depths ${text}`, JSON.stringify(viewOf(`--depths ${text}`, {}).depths));
+}
 
 /* Report the addresses after which the page shows another view than the recorded one, or no sentence. */
 async function sayWrong()
@@ -221,6 +232,7 @@ run(async () => {
     sayNames();
     await sayLink();
     await sayPlayedLink();
+    sayDepths();
     await sayWrong();
     await sayCopied();
 });

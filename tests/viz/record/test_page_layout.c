@@ -8,7 +8,9 @@
 #include "browser.h"
 #include "driven_page.h"
 #include "fixture.h"
+#include "recording_file.h"
 #include "recordings.h"
+#include "view_options.h"
 
 /* A recording of the default session, and the reports of its page from drive_layout.js. */
 typedef struct driven {
@@ -116,6 +118,22 @@ static void link_holds_the_keys_and_the_query_of_the_user(void **state)
     assert_reported_value(d->said, "played link opens the same", "true");
 }
 
+static void depths_mean_the_same_on_the_page_and_the_command_line(void **state)
+{
+    static const char *const texts[] = {"2:5", "2:", ":5", "2", "02:"};
+    const driven *d = need_page(state);
+    const view_option *option = view_find_option("depths");
+    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
+        view v = view_make_default();
+        octreel_error error;
+        char name[32], expected[32];
+        assert_true(option->parse(option, texts[i], &v, &error));
+        snprintf(name, sizeof name, "depths %s", texts[i]);
+        snprintf(expected, sizeof expected, "[%u,%u]", v.filter.min_depth, v.filter.max_depth);
+        assert_reported_value(d->said, name, expected);
+    }
+}
+
 static void wrong_address_shows_the_recorded_view_and_a_sentence(void **state)
 {
     const driven *d = need_page(state);
@@ -144,6 +162,7 @@ int main(void)
         cmocka_unit_test(every_control_has_a_name_and_the_keyboard_reaches_it),
         cmocka_unit_test(link_opens_exactly_the_view),
         cmocka_unit_test(link_holds_the_keys_and_the_query_of_the_user),
+        cmocka_unit_test(depths_mean_the_same_on_the_page_and_the_command_line),
         cmocka_unit_test(wrong_address_shows_the_recorded_view_and_a_sentence),
     };
     return cmocka_run_group_tests(tests, drive_page, forget_page);

@@ -5,7 +5,20 @@
 
 const AXES = ["x", "y", "z"];
 
-const numbersOf = text => text.trim() === "" ? [] : text.split(/[\s,]+/).map(Number);
+const DEEPEST = 21; /* OCTREE_MAX_DEPTH */
+
+/* Number("") is 0. The functions below return NaN for a missing number, which the module refuses. */
+const numberOf = text => text?.trim() ? Number(text) : NaN;
+const numbersOf = text => text.trim() === "" ? [] : text.trim().split(/\s*,\s*|\s+/).map(numberOf);
+
+/* Read a range of depths: "2:5", "2:", ":5" or "3". */
+function depthsOf(text)
+{
+    const [, from, colon, to] = /^(\d*)(:?)(\d*)$/.exec(text.trim()) ?? [];
+    if (!from && !to)
+        return [NaN, NaN];
+    return [Number(from), colon ? Number(to || DEEPEST) : Number(from)];
+}
 
 /* The rows of the view. Each row has a member of the view, its label and its control. The control is a choice from the
  * module's list, a switch, a number, or a text. A text has functions that read and write it; an empty text removes the
@@ -23,17 +36,10 @@ const VIEW_ROWS = [
     ["closeup", "close-up", "switch"],
     ["labels", "labels", "switch"],
     ["leaves", "leaves only", "switch"],
-    ["depths", "depths", "text", {
-        hint: "2:5",
-        read: text => {
-            const [from, to = from] = text.split(":").map(Number);
-            return [from, to];
-        },
-        write: ([from, to]) => `${from}:${to}`,
-    }],
+    ["depths", "depths", "text", {hint: "2:5", read: depthsOf, write: ([from, to]) => `${from}:${to}`}],
     ["slice", "slice", "text", {
         hint: "z=100",
-        read: text => ({[text.trim()[0]]: Number(text.split("=")[1])}),
+        read: text => ({[text.trim()[0]]: numberOf(text.split("=")[1])}),
         write: slice => Object.entries(slice).map(([axis, at]) => `${axis}=${at}`).join(),
     }],
     ["region", "region", "text", {
