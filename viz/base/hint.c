@@ -25,17 +25,22 @@
 enum { LONGEST = 40, SHORTEST_BEGINNING = 3 };
 
 /* Names of options and commands of other programs, such as odiff, ffmpeg and make. Beside each name is Octreel's name
- * for the same option or command. */
+ * for the same option or command. Commands that overwrite files have --force; octreel record also has --replace, which
+ * comes first in its table of options and is therefore suggested. */
 static const char *const synonyms[][2] = {
-    {"force", "replace"},       {"overwrite", "replace"}, {"clobber", "replace"}, {"continue", "resume"},
-    {"movie", "film"},          {"video", "film"},        {"gif", "film"},        {"animate", "film"},
-    {"run", "record"},          {"play", "record"},       {"render", "record"},   {"check", "verify"},
-    {"replay", "verify"},       {"compare", "diff"},      {"merge", "join"},      {"concat", "join"},
-    {"view", "inspect"},        {"show", "inspect"},      {"info", "inspect"},    {"update", "accept"},
-    {"approve", "accept"},      {"hash", "digest"},       {"checksum", "digest"}, {"threshold", "max-delta"},
-    {"tolerance", "max-delta"}, {"fuzz", "max-delta"},    {"threads", "jobs"},    {"resolution", "size"},
-    {"width", "size"},          {"height", "size"},       {"step", "every"},      {"palette", "color-by"},
-    {"antialiasing", "aa"},     {"frames", "ticks"},      {"bounds", "world"},
+    {"force", "replace"},    {"overwrite", "replace"},   {"clobber", "replace"},
+    {"replace", "force"},    {"overwrite", "force"},     {"clobber", "force"},
+    {"continue", "resume"},  {"movie", "film"},          {"video", "film"},
+    {"gif", "film"},         {"animate", "film"},        {"run", "record"},
+    {"render", "record"},    {"check", "verify"},        {"replay", "verify"},
+    {"compare", "diff"},     {"merge", "join"},          {"concat", "join"},
+    {"view", "inspect"},     {"show", "inspect"},        {"info", "inspect"},
+    {"update", "accept"},    {"approve", "accept"},      {"hash", "accept"},
+    {"checksum", "accept"},  {"threshold", "max-delta"}, {"tolerance", "max-delta"},
+    {"fuzz", "max-delta"},   {"threads", "jobs"},        {"resolution", "size"},
+    {"width", "size"},       {"height", "size"},         {"step", "every"},
+    {"palette", "color-by"}, {"antialiasing", "aa"},     {"frames", "ticks"},
+    {"bounds", "world"},
 };
 
 hint hint_create(const char *word, size_t length)

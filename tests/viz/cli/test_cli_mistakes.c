@@ -60,6 +60,8 @@ static void misspelled_words_get_the_nearest_name_as_hint(void **state)
     static const mistake rows[] = {
         {"recrod -o x", "unknown command \"recrod\", did you mean record? "},
         {"compare a b", "unknown command \"compare\", did you mean diff? "},
+        {"checksum", "unknown command \"checksum\", did you mean accept? "},
+        {"hash", "unknown command \"hash\", did you mean accept? "},
         {"banana", "unknown command \"banana\"; "},
         {"help recrod", "unknown help topic \"recrod\", did you mean record? "},
         {"help sesion", "did you mean session? "},
@@ -80,6 +82,23 @@ static void misspelled_words_get_the_nearest_name_as_hint(void **state)
         {"diff rec rec --ignore-layer txt", "unknown layer \"txt\", did you mean text? "},
     };
     ASSERT_MISTAKES(state, rows);
+}
+
+/* record has --replace and --force, the other commands of the list only --force. */
+static void other_names_of_overwriting_get_the_option_of_the_command(void **state)
+{
+    static const char *const commands[] = {"record", "play", "film", "audit", "inspect", "diff", "accept"};
+    static const char *const words[] = {"overwrite", "clobber", "replace"};
+    for (size_t c = 0; c < sizeof commands / sizeof commands[0]; c++)
+        for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
+            char arguments[64], sentence[128];
+            if (c == 0 && strcmp(words[i], "replace") == 0)
+                continue;
+            snprintf(arguments, sizeof arguments, "%s --%s", commands[c], words[i]);
+            snprintf(sentence, sizeof sentence, "%s: unknown option --%s, did you mean --%s? ", commands[c], words[i],
+                     c == 0 ? "replace" : "force");
+            assert_mistakes(state, &(mistake){arguments, sentence}, 1);
+        }
 }
 
 static void missing_or_surplus_values_are_reported(void **state)
@@ -312,6 +331,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         IN_FOLDER(misspelled_words_get_the_nearest_name_as_hint),
+        IN_FOLDER(other_names_of_overwriting_get_the_option_of_the_command),
         IN_FOLDER(missing_or_surplus_values_are_reported),
         IN_FOLDER(file_of_another_kind_gets_a_hint_at_its_command),
         IN_FOLDER(invalid_numbers_and_colours_are_refused),
