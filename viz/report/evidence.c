@@ -352,7 +352,7 @@ bool evidence_write_pair(const diff_pair *pair, const diff_options *options, con
 bool evidence_write_groups(evidence *e, const char *folder, const diff_result *result, const frame_groups *groups,
                            octreel_error *error)
 {
-    *e = (evidence){.folder = folder, .pictures = calloc(result->count, sizeof *e->pictures)};
+    *e = (evidence){.folder = folder, .pictures = calloc(result->count + 1, sizeof *e->pictures)};
     bool ok = e->pictures || error_no_memory(error);
     for (size_t i = 0; ok && i < result->count; i++)
         if (diff_finding_verdict(result->pairs[i].finding) != DIFF_SAME && frame_groups_is_first(groups, i))

@@ -13,6 +13,15 @@
 #include "galleries.h"
 #include "images.h"
 
+/* calloc() of some systems returns null if no bytes are requested. */
+void *__real_calloc(size_t count, size_t size);
+void *__wrap_calloc(size_t count, size_t size);
+
+void *__wrap_calloc(size_t count, size_t size)
+{
+    return count > 0 && size > 0 ? __real_calloc(count, size) : NULL;
+}
+
 /* Compare, and leave evidence. */
 static comparison_of leave_evidence(const char *a, const char *b, const diff_options *options, const char *folder)
 {
@@ -145,6 +154,19 @@ static void equal_frames_leave_no_pictures(void **state)
     const place a = gallery_make(*state, "a", "1.png 2.png"), folder = place_in(*state, "deep/er/out");
     leave_and_forget(a.path, a.path, folder.path);
     assert_folder_has(folder.path, "evidence.txt");
+}
+
+/* Two recordings without frames have no pairs. */
+static void comparison_without_frames_leaves_no_pictures(void **state)
+{
+    const place folder = place_in(*state, "out");
+    const diff_result result = {.count = 0};
+    const frame_groups groups = {.count = 0};
+    octreel_error error = {""};
+    evidence e;
+    if (!evidence_write_groups(&e, folder.path, &result, &groups, &error))
+        fail_msg("%s", error.text);
+    evidence_release(&e);
 }
 
 static void different_frame_names_have_different_file_names(void **state)
@@ -298,6 +320,7 @@ int main(void)
         WITH_FOLDER(pictures_show_expected_actual_and_difference),
         WITH_FOLDER(with_flip_the_evidence_has_a_map),
         WITH_FOLDER(equal_frames_leave_no_pictures),
+        WITH_FOLDER(comparison_without_frames_leaves_no_pictures),
         cmocka_unit_test(different_frame_names_have_different_file_names),
         WITH_FOLDER(pictures_of_subfolders_lie_in_subfolders),
         WITH_FOLDER(links_and_other_evidence_in_the_folder_stay),
