@@ -113,10 +113,8 @@ typedef struct view_scale {
 static view_scale make_view_scale(const layer_source *in)
 {
     scene with = {.has_closeup = true};
-    double center[3]; /* any position: only the camera's distance from the position matters */
     scene_set_view(&with, in->view);
-    scene_box_middle(&in->world, center);
-    const camera c = camera_make(in->view, layout_camera_area(&with, &in->world), &in->world, center, 0);
+    const camera c = camera_make(in->view, layout_camera_area(&with, &in->world), &in->world, find_player(in), 0);
     view own = *in->view;
     own.suited_height = 0; /* a page enlarges the same things as the recorded frame, whatever the size of its picture */
     return (view_scale){view_height_at_16_9(&own), camera_world_length_of_pixel(&c)};

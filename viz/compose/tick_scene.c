@@ -94,7 +94,7 @@ static void check_tree_once(layer_source *in, tick_check *check)
 
 /* Build the scene of a tick, or of a tree without a game. With DIAGRAM_ONLY only the diagram and the text column are
  * added. */
-static bool build_scene(scene *s, layer_source *in, const double player[3], closeup_course course, tick_check *check)
+static bool build_scene(scene *s, layer_source *in, closeup_course course, tick_check *check)
 {
     const view *v = in->view;
     scene_clear(s);
@@ -105,7 +105,8 @@ static bool build_scene(scene *s, layer_source *in, const double player[3], clos
         closeup_course_update(&course, in);
     const double times = closeup_magnification(&course, in);
     s->has_closeup = times > 0;
-    s->camera = camera_make(v, layout_camera_area(s, &in->world), &in->world, player, in->tick ? in->tick->number : 0);
+    s->camera =
+        camera_make(v, layout_camera_area(s, &in->world), &in->world, find_player(in), in->tick ? in->tick->number : 0);
     if (view_shows_layer(v, LAYER_BROKEN))
         check_tree_once(in, check);
     if (s->has_closeup)
@@ -154,7 +155,7 @@ bool tick_scene_build(scene *s, const view *v, const octree_game *game, tick_his
     in.heat = h ? &h->heat : NULL;
     in.arrows = h ? &h->arrows : NULL;
     in.values = values;
-    return build_scene(s, &in, in.tick->player, h ? h->closeup : (closeup_course){0}, h ? &h->check : &check);
+    return build_scene(s, &in, h ? h->closeup : (closeup_course){0}, h ? &h->check : &check);
 }
 
 bool tree_scene_build(scene *s, const view *v, const octree *tree, const tree_subject *subject)
@@ -168,9 +169,7 @@ bool tree_scene_build(scene *s, const view *v, const octree *tree, const tree_su
                        .title = subject->title,
                        .requested = subject->node};
     tick_history *h = subject->history;
-    double center[3]; /* the position that the camera looks at; in a game it is the player's position */
-    scene_box_middle(v->fit == FIT_BOX ? &v->focus : &in.world, center);
     if (h)
         prepare_kept_results(h, &in);
-    return build_scene(s, &in, center, (closeup_course){0}, h ? &h->check : &(tick_check){0});
+    return build_scene(s, &in, (closeup_course){0}, h ? &h->check : &(tick_check){0});
 }

@@ -36,6 +36,13 @@ typedef struct layer_source {
     octree_address requested;
 } layer_source;
 
+/* Returns the position of the player, or null if there is no player. A player that is a body need not exist in every
+ * tick; see octree_tick.has_player for its position then. */
+static inline const double *find_player(const layer_source *in)
+{
+    return in->game && in->session->player.kind != OCTREE_PLAYER_NONE ? in->tick->player : NULL;
+}
+
 /* Returns the depth of the tree's deepest node. Cost: O(1) in a game, which knows
  * the depth; O(nodes) for a tree without a game. */
 static inline size_t find_depth_of_tree(const layer_source *in)

@@ -233,7 +233,7 @@ static void add_axis(axes *a, const axis_edge *e, bool draws_edge)
 static void narrow_to_picture(axes *a)
 {
     const scene *s = a->scene;
-    const double part = (s->view.camera == CAMERA_FOLLOW ? FOLLOWED_PART : 1) / s->view.zoom;
+    const double part = (s->camera.follows ? FOLLOWED_PART : 1) / s->view.zoom;
     for (int i = 0; i < 3; i++) {
         const double reach = (a->box.max[i] / 2 - a->box.min[i] / 2) * part;
         const double low = s->camera.center[i] - reach, high = s->camera.center[i] + reach;

@@ -47,9 +47,7 @@ static bool prefers_leaf_colors(const inspection *made, const view *v, const cha
 static bool points_form_surfaces(const inspection *made, const view *v)
 {
     const octree_box world = octree_definition(made->tree).world;
-    double center[3];
-    scene_box_middle(v->fit == FIT_BOX ? &v->focus : &world, center);
-    const camera c = camera_make(v, find_space_window(made, v), &world, center, 0);
+    const camera c = camera_make(v, find_space_window(made, v), &world, NULL, 0);
     const double apart = point_scale_length_in_pixels(&c, v->point_scale.of.spacing) / (c.perspective ? c.distance : 1);
     return v->point_scale.given && apart > 0 && apart <= POINT_WIDEST * view_pixels_per_unit(v);
 }

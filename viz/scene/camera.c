@@ -146,13 +146,14 @@ static void set_framed_box(camera *c, const octree_box *world)
 
 camera camera_make(const view *v, camera_window window, const octree_box *world, const double player[3], uint64_t tick)
 {
-    camera c = {.perspective = cameras[v->camera].perspective, .near = 0.02};
+    const bool follows = v->camera == CAMERA_FOLLOW && (v->center.given || player);
+    camera c = {.perspective = cameras[v->camera].perspective, .follows = follows, .near = 0.02};
     set_framed_box(&c, v->fit == FIT_BOX ? &v->focus : world);
-    const bool placed = v->center.given || v->camera == CAMERA_FOLLOW;
+    const bool placed = v->center.given || follows;
     const double orbit = v->camera == CAMERA_ORBIT ? (double)(tick % ORBIT_TICKS) / ORBIT_TICKS : 0;
     set_axes(&c, v->look.given ? v->look.azimuth / 360 : cameras[v->camera].azimuth + orbit,
              v->look.given ? v->look.elevation / 360 : cameras[v->camera].elevation);
-    c.distance = v->camera == CAMERA_FOLLOW ? 1 : 4.2;
+    c.distance = follows ? 1 : 4.2;
     double target[3] = {0, 0, 0}, lift = 0;
     for (int i = 0; i < 3; i++)
         c.center[i] = v->center.given ? v->center.place[i]
@@ -161,9 +162,7 @@ camera camera_make(const view *v, camera_window window, const octree_box *world,
     if (placed)
         camera_to_unit_coordinates(&c, c.center, target);
     const double smaller = window.width < window.height ? window.width : window.height;
-    c.zoom = v->camera == CAMERA_FOLLOW  ? FOCAL * smaller / 2
-             : v->camera == CAMERA_ORBIT ? find_orbit_zoom(&c, window, &lift)
-                                         : find_zoom(&c, window);
+    c.zoom = follows ? FOCAL * smaller / 2 : c.perspective ? find_orbit_zoom(&c, window, &lift) : find_zoom(&c, window);
     c.zoom *= v->zoom;
     place_eye(&c, target, c.distance);
     c.middle[0] = window.x + window.width / 2;

@@ -33,6 +33,7 @@ typedef struct camera {
     double right[3], up[3], forward[3];
     double eye[3]; /* the position of the eye in unit coordinates */
     bool perspective;
+    bool follows; /* true: CAMERA_FOLLOW, near the player or near view.center */
     /* pixels per unit of length in unit coordinates; under perspective, for a length at distance 1 from the eye */
     double zoom;
     double middle[2]; /* the pixel at which the view axis meets the picture */
@@ -45,7 +46,9 @@ typedef struct camera {
 } camera;
 
 /* Returns the camera of a tick. The view's `look`, `center` and `zoom`, if given, override the camera kind view.camera.
- * The result depends only on the view, the world, the player's position and the number of the tick. */
+ * The result depends only on the view, the world, the player's position and the number of the tick. `player` is null if
+ * there is no player. CAMERA_FOLLOW without a player and without `center` shows the framed box as CAMERA_ORBIT does at
+ * tick 0. */
 camera camera_make(const view *v, camera_window window, const octree_box *world, const double player[3], uint64_t tick);
 
 /* Returns the camera of a close-up. The new camera looks in the same direction as `c`, at the world position `place`.

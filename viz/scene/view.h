@@ -14,7 +14,8 @@
     X(CAMERA_TOP, "top", "along -z, x to the right, y up, orthographic")                                               \
     X(CAMERA_FRONT, "front", "along +y, x to the right, z up, orthographic")                                           \
     X(CAMERA_SIDE, "side", "along -x, y to the right, z up, orthographic")                                             \
-    X(CAMERA_FOLLOW, "follow", "from behind and above the player, in perspective")                                     \
+    X(CAMERA_FOLLOW, "follow",                                                                                         \
+      "from behind and above the player, in perspective; without a player, it shows the whole world")                  \
     X(CAMERA_ORBIT, "orbit", "circling the world by a fixed angle each tick, in perspective")
 
 /* What a node's colour shows. Columns: value, name on the command line, description in --help. */

@@ -197,6 +197,39 @@ static void an_orbit_keeps_the_world_in_the_window(void **state)
     }
 }
 
+/* Without a player, the camera that follows the player shows the world as the orbit of tick 0 does. */
+static void without_a_player_the_follower_keeps_the_world_in_the_window(void **state)
+{
+    (void)state;
+    const octree_box world = {{-10, 0, 5}, {30, 80, 9}};
+    const double player[3] = {1, 2, 6};
+    for (int kind = 0; kind < CAMERA_COUNT; kind++) {
+        const camera alone = camera_of((view_camera)kind, &world, NULL, 77);
+        const camera same = kind == CAMERA_FOLLOW ? camera_of(CAMERA_ORBIT, &world, player, 0)
+                                                  : camera_of((view_camera)kind, &world, player, 77);
+        assert_true(same_position(alone.eye, same.eye) && same_position(alone.forward, same.forward));
+        assert_true(alone.zoom == same.zoom && alone.middle[1] == same.middle[1]);
+        assert_false(alone.follows);
+    }
+}
+
+static void camera_follows_the_player_of_a_session_that_has_one(void **state)
+{
+    (void)state;
+    const view v = view_of(440, 320, CAMERA_FOLLOW, VIEW_ALL_LAYERS);
+    static const octree_player_kind kinds[] = {OCTREE_PLAYER_KEYS, OCTREE_PLAYER_BODY, OCTREE_PLAYER_NONE};
+    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
+        octree_session session = octree_session_default();
+        session.player.kind = kinds[i];
+        octree_game *game = start_game(&session);
+        scene s = {0};
+        build_tick(&s, &v, game);
+        assert_int_equal(s.camera.follows, kinds[i] != OCTREE_PLAYER_NONE);
+        octree_game_destroy(game);
+        scene_release(&s);
+    }
+}
+
 static void only_the_orbit_turns_and_only_the_follower_moves(void **state)
 {
     (void)state;
@@ -366,6 +399,8 @@ int main(void)
         cmocka_unit_test(axes_point_as_the_camera_names_state),
         cmocka_unit_test(the_camera_that_follows_looks_at_the_player),
         cmocka_unit_test(an_orbit_keeps_the_world_in_the_window),
+        cmocka_unit_test(without_a_player_the_follower_keeps_the_world_in_the_window),
+        cmocka_unit_test(camera_follows_the_player_of_a_session_that_has_one),
         cmocka_unit_test(only_the_orbit_turns_and_only_the_follower_moves),
         cmocka_unit_test(look_center_and_zoom_replace_those_of_the_camera),
         cmocka_unit_test(a_box_is_below_a_size_if_it_appears_smaller),

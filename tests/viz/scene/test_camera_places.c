@@ -52,7 +52,8 @@ static void stand_at(scene *s, const double place[3], const double way[3][3])
 
 static scene scene_from(const octree *tree, unsigned layers, const double place[3], const double way[3][3])
 {
-    const view v = view_of(SIDE, SIDE, CAMERA_FOLLOW, layers);
+    view v = view_of(SIDE, SIDE, CAMERA_FOLLOW, layers);
+    v.center.given = true;
     scene s = {0};
     build_tree(&s, &v, tree, "places");
     stand_at(&s, place, way);
