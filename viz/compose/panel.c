@@ -166,7 +166,9 @@ static void write_answers(pen *p, const layer_source *in)
     p->name = ROLE_FAINT;
 }
 
-/* Write the number of wrong foreign answers, and the query kind and the error of the worst wrong answer. */
+/* Write two rows: the number of wrong foreign answers of all kinds, and the error of the worst wrong answer with its
+ * query kind. If only one answer is wrong, the kind is the name of the second row. Otherwise the kind is the row's
+ * detail, which is cut if there is no room. */
 static void write_wrong_answers(pen *p, const layer_source *in)
 {
     char words[JUDGEMENT_TEXT];
@@ -177,8 +179,10 @@ static void write_wrong_answers(pen *p, const layer_source *in)
     for (size_t i = 0; i < in->answer_count; i++)
         judged += in->answers[i].judgement.judged;
     p->name = ROLE_WRONG;
-    write_row(p, "wrong", octree_query_name(in->answers[worst].kind), "%zu of %zu", wrong, judged);
-    write_row(p, "", "", "%s", judgement_text(&in->answers[worst].judgement, words));
+    const char *kind = octree_query_name(in->answers[worst].kind);
+    write_row(p, "wrong", "answers", "%zu of %zu", wrong, judged);
+    write_row(p, wrong == 1 ? kind : "worst", wrong == 1 ? "" : kind, "%s",
+              judgement_text(&in->answers[worst].judgement, words));
     p->name = ROLE_FAINT;
 }
 

@@ -173,6 +173,33 @@ static void worst_of_many_wrong_answers_has_the_large_ring(void **state)
     scene_release(&s);
 }
 
+/* The column counts the wrong answers of all kinds. It names a kind only beside the error of an answer. */
+static void column_counts_wrong_answers_apart_from_their_kinds(void **state)
+{
+    (void)state;
+    static const uint64_t farther[] = {3}, none[] = {0};
+    octree_query queries[] = {
+        nearest_of(farther, 1),
+        {.kind = OCTREE_QUERY_RADIUS, .target = {0, 0, 1}, .radius = 1.5, .answered = true, .answer = none}};
+    for (size_t count = 1; count <= 2; count++) {
+        scene s = scene_of(queries, count, CAMERA_ISO);
+        const scene_label *name = NULL, *kind = NULL, *error = NULL;
+        for (size_t i = 0; i < s.labels.count; i++) {
+            const scene_label *label = &s.labels.items[i];
+            if (label->style.layer != LAYER_TEXT)
+                continue;
+            name = strcmp(label->text, "wrong") == 0 ? label : name;
+            kind = !kind && strcmp(label->text, count == 1 ? "nearest" : "worst") == 0 ? label : kind;
+            error = strcmp(label->text, "5.83 times as far") == 0 ? label : error;
+        }
+        assert_true(name && kind && error);
+        assert_true(has_words(&s, LAYER_TEXT, "answers"));
+        assert_true(has_words(&s, LAYER_TEXT, count == 1 ? "1 of 1" : "2 of 2"));
+        assert_true(name->at[1] < kind->at[1] && kind->at[1] == error->at[1]);
+        scene_release(&s);
+    }
+}
+
 /* The words stay clear of the panel, of each other and of the picture's edges. */
 static void texts_without_room_are_left_out(void **state)
 {
@@ -290,6 +317,7 @@ int main(void)
         cmocka_unit_test(missing_and_extra_points_of_a_ball_are_marked),
         cmocka_unit_test(answer_with_an_unknown_id_is_ringed_at_its_target),
         cmocka_unit_test(worst_of_many_wrong_answers_has_the_large_ring),
+        cmocka_unit_test(column_counts_wrong_answers_apart_from_their_kinds),
         cmocka_unit_test(texts_without_room_are_left_out),
         cmocka_unit_test(texts_at_one_place_do_not_overlap),
         cmocka_unit_test(right_or_missing_answers_add_nothing),
