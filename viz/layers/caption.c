@@ -221,8 +221,12 @@ static void append_answers(words *w, const layer_source *in)
 
 static void append_tree(words *w, const octree_stats *stats, size_t capacity)
 {
-    append(w, "%zu point%s in %zu leaves of capacity %zu, at most %u levels deep", stats->points,
-           plural_ending(stats->points), stats->leaves, capacity, stats->depth);
+    append(w, "%zu point%s in %zu %s of capacity %zu, ", stats->points, plural_ending(stats->points), stats->leaves,
+           stats->leaves == 1 ? "leaf" : "leaves", capacity);
+    if (stats->depth == 0)
+        append(w, "the root");
+    else
+        append(w, "at most %u level%s deep", stats->depth, plural_ending(stats->depth));
 }
 
 static void append_initial_tree(words *w, const layer_source *in)

@@ -57,6 +57,28 @@ static void captions_of_the_default_session_are_exact(void **state)
     octree_game_destroy(game);
 }
 
+/* The caption of a tree with `count` of three points and leaves of `capacity` points. */
+static void assert_caption_of_tree(size_t count, size_t capacity, const char *expected)
+{
+    static const double positions[3][3] = {{1, 1, 1}, {-1, -1, -1}, {-1, 1, 1}};
+    octree *tree = make_tree(cube(-2, 2), capacity, 4, OCTREE_GROW);
+    const view v = view_make_default();
+    char text[CAPTION_TEXT];
+    for (size_t i = 0; i < count; i++)
+        assert_int_equal(octree_insert(tree, positions[i], i), OCTREE_OK);
+    caption_write(&(layer_source){.view = &v, .tree = tree, .world = cube(-2, 2)}, text);
+    assert_string_equal(text, expected);
+    octree_destroy(tree);
+}
+
+static void caption_of_a_tree_has_plurals_where_they_belong(void **state)
+{
+    (void)state;
+    assert_caption_of_tree(3, 64, "3 points in 1 leaf of capacity 64, the root");
+    assert_caption_of_tree(1, 64, "1 point in 1 leaf of capacity 64, the root");
+    assert_caption_of_tree(3, 1, "3 points in 3 leaves of capacity 1, at most 1 level deep");
+}
+
 /* Several queries, moving points, edits and wrong answers are counted. */
 static void captions_count_what_is_many(void **state)
 {
@@ -124,6 +146,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(captions_of_the_default_session_are_exact),
+        cmocka_unit_test(caption_of_a_tree_has_plurals_where_they_belong),
         cmocka_unit_test(captions_count_what_is_many),
         cmocka_unit_test(caption_tells_how_foreign_pairs_are_wrong),
         cmocka_unit_test(caption_names_the_reason_of_a_gap),
