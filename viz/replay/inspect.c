@@ -19,7 +19,8 @@ typedef struct histogram_row {
     size_t from, to, leaves;
 } histogram_row;
 
-/* Row 0 counts empty leaves, row r the leaves with 2^(r-1) to 2^r - 1 points. */
+/* Row 0 counts empty leaves, row r the leaves with 2^(r-1) to 2^r - 1 points. The last row ends with the number of
+ * points in the fullest leaf. */
 #define OCCUPANCY_ROWS 34
 
 static octree_walk_order count_leaf(const octree_node *node, void *context)
@@ -33,7 +34,7 @@ static octree_walk_order count_leaf(const octree_node *node, void *context)
 }
 
 /* Fill `rows` with the rows that count at least one leaf. Returns the number of rows. */
-static size_t count_leaves_by_points(const octree *tree, histogram_row rows[OCCUPANCY_ROWS])
+static size_t count_leaves_by_points(const octree *tree, size_t fullest, histogram_row rows[OCCUPANCY_ROWS])
 {
     size_t used = 0;
     for (unsigned i = 0; i < OCCUPANCY_ROWS; i++)
@@ -42,6 +43,7 @@ static size_t count_leaves_by_points(const octree *tree, histogram_row rows[OCCU
     for (unsigned i = 0; i < OCCUPANCY_ROWS; i++)
         if (rows[i].leaves)
             rows[used++] = rows[i];
+    rows[used - 1].to = fullest;
     return used;
 }
 
@@ -69,7 +71,7 @@ static void print_histograms(FILE *out, const octree *tree, const octree_stats *
     for (unsigned depth = 0; depth <= stats->depth; depth++)
         depths[depth] = (histogram_row){depth, depth, stats->leaves_at_depth[depth]};
     print_histogram(out, "leaves by depth", depths, stats->depth + 1);
-    print_histogram(out, "leaves by points", occupancy, count_leaves_by_points(tree, occupancy));
+    print_histogram(out, "leaves by points", occupancy, count_leaves_by_points(tree, stats->largest_leaf, occupancy));
 }
 
 void inspect_print_name(const char *name, FILE *out)
@@ -160,10 +162,10 @@ static void print_statistics(const inspection *i, const octree_stats *stats, con
     print_histograms(out, i->tree, stats);
 }
 
-static void write_occupancy(json_writer *w, const octree *tree)
+static void write_occupancy(json_writer *w, const octree *tree, size_t fullest)
 {
     histogram_row rows[OCCUPANCY_ROWS];
-    const size_t count = count_leaves_by_points(tree, rows);
+    const size_t count = count_leaves_by_points(tree, fullest, rows);
     json_begin_array_member(w, "leaves_by_points");
     for (size_t i = 0; i < count; i++) {
         json_write_begin_object(w);
@@ -209,7 +211,7 @@ static void write_statistics(const inspection *i, const octree_stats *stats, con
     json_write_integer_member(w, "memory", stats->memory);
     write_depths(w, "nodes_by_depth", stats->nodes_at_depth, stats->depth);
     write_depths(w, "leaves_by_depth", stats->leaves_at_depth, stats->depth);
-    write_occupancy(w, i->tree);
+    write_occupancy(w, i->tree, stats->largest_leaf);
     json_write_end_object(w);
     json_write_end_line(w);
 }

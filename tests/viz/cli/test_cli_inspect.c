@@ -88,6 +88,7 @@ static void assert_occupancy(const json_t *object)
         most += whole(row, "leaves") * whole(row, "to");
     }
     assert_int_equal(leaves, whole(object, "leaves"));
+    assert_int_equal(behind, whole(object, "largest_leaf"));
     assert_true(least <= whole(object, "stored") && whole(object, "stored") <= most);
 }
 
