@@ -62,7 +62,7 @@ static bool check_baseline(const diff_side *side, bool is_reference, const diff_
     if (!diff_is_exact(options) && !(is_reference && options->store))
         return error_set(error,
                          "%s: a baseline holds digests, which allow no tolerance; %s, or remove --max-pixels, "
-                         "--max-delta, --flip, --antialias, --ignore and --ignore-layer",
+                         "--max-delta, --max-channel, --flip, --antialias, --ignore and --ignore-layer",
                          side->path,
                          is_reference
                              ? "add --store DIR, the folder in which octreel accept --store DIR saved the pictures"

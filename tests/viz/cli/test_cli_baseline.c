@@ -314,7 +314,10 @@ static void tolerance_needs_stored_pictures(void **state)
     accept_into(&s, &s.before, BY("the first", "2026-11-22"));
     command_result result = run_octreel(NULL, "diff %s %s --max-delta 0.1", s.file.path, s.after.path);
     assert_trouble(&result, "baseline.txt: a baseline holds digests, which allow no tolerance; add --store DIR, the "
-                            "folder in which octreel accept --store DIR saved the pictures, or remove --max-pixels");
+                            "folder in which octreel accept --store DIR saved the pictures, or remove --max-pixels, "
+                            "--max-delta, --max-channel, --flip, --antialias, --ignore and --ignore-layer");
+    result = run_octreel(NULL, "diff %s %s --max-channel 3", s.file.path, s.after.path);
+    assert_trouble(&result, "which allow no tolerance; ");
     snprintf(more, sizeof more, "--store %s --max-delta 0.1", s.store.path);
     assert_diff(&s, &s.after, more, 1, "colours within 0.1 YIQ; not applied to 1 frame without a stored picture\n");
     result = run_octreel(NULL, "diff %s %s %s", s.file.path, s.file.path, more);
