@@ -283,7 +283,10 @@ static bool keep_line(diff_side *side, const char *line, octreel_error *error)
     return true;
 }
 
-static bool read_line(diff_side *side, char *line, size_t number, octreel_error *error)
+/* Read a line. `whole` is false if the line does not end with a newline. Octreel ends its lines with a newline, so a
+ * line without one may be the beginning of a longer line. Rules and comments are accepted without a newline, because
+ * people write them. */
+static bool read_line(diff_side *side, char *line, size_t number, bool whole, octreel_error *error)
 {
     static const char accepted[] = "accepted ", rule[] = "rule ";
     if (is_conflict_marker(line))
@@ -292,6 +295,11 @@ static bool read_line(diff_side *side, char *line, size_t number, octreel_error 
                          side->path, number);
     if (number == 1)
         return read_version(side, line, error);
+    if (!whole && line[0] != '#' && strncmp(line, rule, sizeof rule - 1) != 0)
+        return error_set(error,
+                         "%s:%zu: the line does not end with a newline, so the file may be cut off; restore it, or end "
+                         "the line",
+                         side->path, number);
     if (number == 2)
         return read_background(side, line, error);
     if (strncmp(line, accepted, sizeof accepted - 1) == 0)
@@ -305,12 +313,13 @@ static bool read_line(diff_side *side, char *line, size_t number, octreel_error 
 
 bool baseline_parse(diff_side *side, char *text, size_t size, octreel_error *error)
 {
+    const bool ends_line = size > 0 && text[size - 1] == '\n';
     size_t number = 0;
     side->kind = DIFF_BASELINE;
     if (memchr(text, 0, size))
         return error_set(error, "%s: contains a zero byte, so it is not a text file", side->path);
     for (char *line; (line = text_next_line(&text));)
-        if (!read_line(side, line, ++number, error))
+        if (!read_line(side, line, ++number, ends_line || *text, error))
             return false;
     if (number < 2)
         return error_set(error, "%s: the file ends before its second line", side->path);

@@ -148,6 +148,12 @@ static void malformed_line_is_refused_with_its_number(void **state)
         {HEAD FIRST "7f 0123456789abcdef a\x7f\n", "file:4: expected"},
         {HEAD "<<<<<<<HEAD\n", "file:3: expected"},
         {HEAD "<<<<==== a\n", "file:3: expected"},
+        {HEAD FIRST "7f 0123456789abcdef a\n7f 0123456789abcdef menu/st",
+         "file:5: the line does not end with a newline, so the file may be cut off; restore it, or end the line"},
+        {HEAD FIRST "7f 0123456789abcdef a\n7f 01234567", "file:5: the line does not end with a newline"},
+        {HEAD "accepted 7f 2026-11-22 24x16 runs wh", "file:3: the line does not end with a newline"},
+        {HEAD FIRST "7f 0123456789abcdef a\n>>>>>>> theirs", "file:5: unresolved merge conflict"},
+        {"octreel-digests 2\nbackground ffffff", "file:2: the line does not end with a newline"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         diff_side side;
