@@ -103,11 +103,34 @@ static bool refuse_if_ambiguous(const command *c, const struct option *all, cons
     return true;
 }
 
+/* Returns the argument with the short option that getopt_long() read last. If getopt_long() has more letters to read in
+ * the argument, it has not moved on to the next argument. */
+static const char *find_last_word(int argc, char **argv, int letter)
+{
+    const char *before = argv[optind - 1];
+    const bool moved_on = before[0] == '-' && before[1] && before[strlen(before) - 1] == letter;
+    return moved_on || optind >= argc ? before : argv[optind];
+}
+
+/* Reports a long option that is typed with one dash, such as "-size". Returns false if the word is no such option. */
+static bool refuse_single_dash(const command *c, const struct option *all, const char *word)
+{
+    const size_t length = word[0] == '-' ? strcspn(word + 1, "=") : 0;
+    for (; length > 1 && all->name; all++)
+        if (strlen(all->name) == length && strncmp(all->name, word + 1, length) == 0) {
+            print_error("%s: unknown option -%s, did you mean --%s? %s %s --help lists all options", c->name, all->name,
+                        all->name, hint_program_name(), c->name);
+            return true;
+        }
+    return false;
+}
+
 /* Reports one of three mistakes: an unknown option, an option without its value, or a value for an option that takes
  * none. */
-static int refuse_option(const command *c, const struct option *all, bool missing, const char *typed)
+static int refuse_option(const command *c, const struct option *all, bool missing, int argc, char **argv)
 {
     char meant[HINT_TEXT];
+    const char *typed = argv[optind - 1];
     const bool letter = optopt > 0 && optopt < 128;
     command_option known = {.name = NULL};
     if (!letter && optopt)
@@ -115,6 +138,8 @@ static int refuse_option(const command *c, const struct option *all, bool missin
     if (missing)
         return print_error("%s%s needs a value; see %s %s --help", letter ? "-" : "--",
                            letter ? (char[]){(char)optopt, 0} : known.name, hint_program_name(), c->name);
+    if (letter && refuse_single_dash(c, all, find_last_word(argc, argv, optopt)))
+        return EXIT_TROUBLE;
     if (letter)
         return print_error("%s: unknown option -%c; %s %s --help lists all options", c->name, optopt,
                            hint_program_name(), c->name);
@@ -169,9 +194,12 @@ static int read_options(const command *c, int argc, char **argv, void *arguments
     for (int number; status == COMMAND_GO_ON && (number = getopt_long(argc, argv, letters, all, NULL)) != -1;) {
         command_option option;
         if (number == '?' || number == ':')
-            return refuse_option(c, all, number == ':', argv[optind - 1]);
+            return refuse_option(c, all, number == ':', argc, argv);
         if (!find_option(c, number, &option))
             return print_error("%s", c->negative_error);
+        /* "-output x" reads as the option -o with the value "utput" */
+        if (optarg && number < OPTION && optarg == argv[optind - 1] + 2 && refuse_single_dash(c, all, argv[optind - 1]))
+            return EXIT_TROUBLE;
         *has_output = *has_output || option_letter(option.name) == 'o';
         status = read_option(c, &option, argv, arguments);
     }

@@ -101,6 +101,21 @@ static void other_names_of_overwriting_get_the_option_of_the_command(void **stat
         }
 }
 
+static void long_option_with_one_dash_is_suggested_with_two(void **state)
+{
+    static const mistake rows[] = {
+        {"inspect cloud.txt -size 3x3", "inspect: unknown option -size, did you mean --size? "},
+        {"inspect cloud.txt -size=3x3", "inspect: unknown option -size, did you mean --size? "},
+        {"inspect -json cloud.txt", "inspect: unknown option -json, did you mean --json? "},
+        {"record -q -keys w", "record: unknown option -keys, did you mean --keys? "},
+        {"record -quiet my.json", "record: unknown option -quiet, did you mean --quiet? "},
+        {"record my.json -output x", "record: unknown option -output, did you mean --output? "},
+        {"verify rec -size 3x3", "verify: unknown option -s; "},
+        {"record -qz", "record: unknown option -z; "},
+    };
+    ASSERT_MISTAKES(state, rows);
+}
+
 static void missing_or_surplus_values_are_reported(void **state)
 {
     static const mistake rows[] = {
@@ -332,6 +347,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         IN_FOLDER(misspelled_words_get_the_nearest_name_as_hint),
         IN_FOLDER(other_names_of_overwriting_get_the_option_of_the_command),
+        IN_FOLDER(long_option_with_one_dash_is_suggested_with_two),
         IN_FOLDER(missing_or_surplus_values_are_reported),
         IN_FOLDER(file_of_another_kind_gets_a_hint_at_its_command),
         IN_FOLDER(invalid_numbers_and_colours_are_refused),
