@@ -166,9 +166,8 @@ static void write_answers(pen *p, const layer_source *in)
     p->name = ROLE_FAINT;
 }
 
-/* Write two rows: the number of wrong foreign answers of all kinds, and the error of the worst wrong answer with its
- * query kind. If only one answer is wrong, the kind is the name of the second row. Otherwise the kind is the row's
- * detail, which is cut if there is no room. */
+/* Write two rows: the number of wrong foreign answers of all kinds, and the error of the worst one with its query kind,
+ * which is cut if there is no room. */
 static void write_wrong_answers(pen *p, const layer_source *in)
 {
     char words[JUDGEMENT_TEXT];
@@ -181,8 +180,7 @@ static void write_wrong_answers(pen *p, const layer_source *in)
     p->name = ROLE_WRONG;
     const char *kind = octree_query_name(in->answers[worst].kind);
     write_row(p, "wrong", "answers", "%zu of %zu", wrong, judged);
-    write_row(p, wrong == 1 ? kind : "worst", wrong == 1 ? "" : kind, "%s",
-              judgement_text(&in->answers[worst].judgement, words));
+    write_row(p, "worst", kind, "%s", judgement_text(&in->answers[worst].judgement, words));
     p->name = ROLE_FAINT;
 }
 

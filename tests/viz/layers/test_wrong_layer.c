@@ -189,7 +189,7 @@ static void column_counts_wrong_answers_apart_from_their_kinds(void **state)
             if (label->style.layer != LAYER_TEXT)
                 continue;
             name = strcmp(label->text, "wrong") == 0 ? label : name;
-            kind = !kind && strcmp(label->text, count == 1 ? "nearest" : "worst") == 0 ? label : kind;
+            kind = !kind && strcmp(label->text, "worst") == 0 ? label : kind;
             error = strcmp(label->text, "5.83 times as far") == 0 ? label : error;
         }
         assert_true(name && kind && error);
