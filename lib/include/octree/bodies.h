@@ -83,7 +83,7 @@ octree_status octree_bodies_move(octree_bodies *bodies, const octree_body *from,
  * status is OK are changed, and all others are as before.
  * Errors: NULL_ARGUMENT, BUSY, NO_MEMORY, TOO_MANY. Cost: O(n log n) for a call that inserts into an empty set, or
  * changes a third of the bodies or more: it fills the set anew, while the old bodies and two copies are in memory. That
- * of single calls for others, and where memory is too short for this. */
+ * of single calls for others, and for a change for whose copies memory is too short. */
 octree_status octree_bodies_insert_many(octree_bodies *bodies, const octree_body *added, size_t count,
                                         octree_status *statuses, size_t *changed);
 octree_status octree_bodies_remove_many(octree_bodies *bodies, const octree_body *removed, size_t count,

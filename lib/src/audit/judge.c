@@ -208,7 +208,8 @@ static void collect_candidates(judge_state *s, double reach, double slack)
 }
 
 /* Store the first k neighbours, by rounded positions, in the list `exact`. Search larger and larger regions, until the
- * k-th neighbour in the region comes before every point outside the region. */
+ * k-th neighbour in the region comes before every point outside the region. The factor grows, because rounding may move
+ * points off a ray: then no region has k of them, and the last one must come soon. */
 static void collect_nearest(judge_state *s, double slack)
 {
     const octree_answer *answer = s->about->answer;
@@ -216,7 +217,7 @@ static void collect_nearest(judge_state *s, double slack)
     const size_t count = answer->count, k = answer->k;
     /* if there are fewer than k neighbours, all points are candidates */
     double reach = count < k ? DBL_MAX : k ? s->about->exact_neighbors[k - 1].distance + slack : 0;
-    for (double factor = 2; !s->failed; reach *= factor, factor *= factor) { /* soon DBL_MAX: a ray may lose hits */
+    for (double factor = 2; !s->failed; reach *= factor, factor *= factor) {
         exact->count = 0;
         reach = reach < DBL_MAX ? reach : DBL_MAX;
         collect_candidates(s, reach, slack);

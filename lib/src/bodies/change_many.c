@@ -3,7 +3,7 @@
  *
  * A call that fills an empty set adds the rows cell by cell (order.c), and the points of each level in one bulk call of
  * octree.h. Duplicates are in the same cell, so that this needs no hash table. Only if a cell has many bodies, a table
- * is made, and dropped afterwards.
+ * is made. It is dropped afterwards, unless a leaf is crowded (lookup.c).
  *
  * A call that changes a large share of the bodies changes a copy of the rows, whose hash table finds them, and fills
  * the set anew with the result. A call that changes fewer bodies changes them one by one; so does one that finds too
@@ -108,9 +108,7 @@ static void write_points(filling *f)
     for (uint32_t row = 0; row < set->rows.count; row++) {
         const octree_body *body = row_at(&set->rows, row);
         const unsigned level = f->levels[row];
-        octree_point *point = &f->points[f->ends[level]++];
-        point->id = make_point_id(&set->levels[level], row, body->half);
-        memcpy(point->position, body->position, sizeof body->position);
+        f->points[f->ends[level]++] = make_point(&set->levels[level], row, body);
     }
 }
 
@@ -143,7 +141,7 @@ static octree_status fill_levels(filling *f)
     for (unsigned level = 0; level < OCTREE_BODY_LEVELS && status == OCTREE_OK; level++)
         status = fill_level(f, level);
     end_callbacks(begun);
-    if (!has_crowded_leaf(f->set))
+    if (rows_are_hashed(&f->set->rows) && !has_crowded_leaf(f->set))
         rows_drop_hash(&f->set->rows);
     return status;
 }
@@ -269,15 +267,24 @@ octree_status octree_bodies_insert_many(octree_bodies *bodies, const octree_body
     return status;
 }
 
+/* Find the row of a body after a check of its numbers, which returned `checked`. Returns `checked` if it is an error,
+ * or NOT_FOUND. */
+static octree_status find_row(const rows *r, octree_status checked, const octree_body *body, uint32_t *row)
+{
+    if (checked != OCTREE_OK)
+        return checked;
+    *row = rows_find(r, body);
+    return *row == ROW_NONE ? OCTREE_NOT_FOUND : OCTREE_OK;
+}
+
 static octree_status remove_row(const octree_bodies *set, rows *r, const octree_body *from, const octree_body *to)
 {
+    uint32_t row;
     (void)to;
-    const octree_status status = check_body(set, from);
-    const uint32_t row = status == OCTREE_OK ? rows_find(r, from) : ROW_NONE;
-    if (row == ROW_NONE)
-        return status == OCTREE_OK ? OCTREE_NOT_FOUND : status;
-    rows_remove(r, row);
-    return OCTREE_OK;
+    const octree_status status = find_row(r, check_body(set, from), from, &row);
+    if (status == OCTREE_OK)
+        rows_remove(r, row);
+    return status;
 }
 
 static octree_status remove_alone(octree_bodies *set, const octree_body *from, const octree_body *to)
@@ -298,10 +305,10 @@ octree_status octree_bodies_remove_many(octree_bodies *bodies, const octree_body
 
 static octree_status move_row(const octree_bodies *set, rows *r, const octree_body *from, const octree_body *to)
 {
-    const octree_status status = check_move(set, from, to);
-    const uint32_t row = status == OCTREE_OK ? rows_find(r, from) : ROW_NONE;
-    if (row == ROW_NONE)
-        return status == OCTREE_OK ? OCTREE_NOT_FOUND : status;
+    uint32_t row;
+    const octree_status status = find_row(r, check_move(set, from, to), from, &row);
+    if (status != OCTREE_OK)
+        return status;
     const uint32_t other = rows_find(r, to);
     if (other != ROW_NONE && other != row)
         return OCTREE_DUPLICATE;

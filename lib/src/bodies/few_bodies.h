@@ -23,6 +23,12 @@ static inline uint64_t make_point_id(const level *l, uint32_t row, const double 
     return id;
 }
 
+/* Returns the point of a body in a level. */
+static inline octree_point make_point(const level *l, uint32_t row, const octree_body *body)
+{
+    return (octree_point){{body->position[0], body->position[1], body->position[2]}, make_point_id(l, row, body->half)};
+}
+
 typedef struct few_bodies {
     lanes position[3];
     /* The bits of the ids that have the half extents, masked but not shifted: those of axis i are units times

@@ -28,9 +28,9 @@ static bool is_match(const body_search *s, const octree_body *body)
 
 /* ---- Bodies ------------------------------------------------------------------------------------------------- */
 
-static uint64_t scan_bodies(const void *shape, const octree_point *points, unsigned count)
+/* Returns a bit mask of the bodies that match, of at most SCAN_POINTS points. */
+static uint64_t scan_bodies(const body_search *s, const octree_point *points, unsigned count)
 {
-    const body_search *s = shape;
     const body_masks masks = s->shape.kind->filter(&s->shape, points, count);
     uint64_t found = s->contained ? 0 : masks.sure;
     prefetch_bodies(s->set, points, masks.near);
@@ -48,10 +48,10 @@ static bool visit_bodies(body_search *s, const octree_point *points, uint64_t fo
     for (; found; found &= found - 1) {
         octree_body scratch;
         const octree_body *body = load_body(s->set, &points[bits_lowest(found)], &scratch);
-        if (!is_skipped(s->how, body, NULL) && !s->visit(body, s->context))
+        if (!is_skipped(s->how, body, NULL) && !s->visit(body, s->context)) {
             s->stopped = true;
-        if (s->stopped)
             return false;
+        }
     }
     return true;
 }

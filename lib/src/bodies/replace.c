@@ -30,10 +30,6 @@ static octree_status rebuild_set(octree_bodies *set, const octree_body *bodies, 
     end_callbacks(begun);
     if (status == OCTREE_OK)
         swap_sets(set, other);
-    for (size_t i = 0; status != OCTREE_OK && statuses && i < count; i++)
-        statuses[i] = statuses[i] == OCTREE_OK ? status : statuses[i];
-    if (status != OCTREE_OK && changed)
-        *changed = 0;
     octree_bodies_destroy(other);
     return status;
 }

@@ -170,12 +170,6 @@ static octree_status check_change_of_body(const octree_bodies *set, const octree
     return status == OCTREE_OK ? check_body(set, body) : status;
 }
 
-/* Returns the point of a body in a level. */
-static octree_point make_point(const level *l, uint32_t row, const octree_body *body)
-{
-    return (octree_point){{body->position[0], body->position[1], body->position[2]}, make_point_id(l, row, body->half)};
-}
-
 /* Make room for a body that is not stored. If its level has no tree yet, create the tree, and find the place again. */
 static octree_status prepare_insertion(octree_bodies *set, const octree_body *body, found_body *place)
 {
