@@ -270,11 +270,12 @@ static void follow_queries_or_changes(closeup_course *course, const layer_source
 
 void closeup_course_update(closeup_course *course, const layer_source *in)
 {
-    const octree_player *player = in->session ? &in->session->player : NULL;
-    if (player && player->kind != OCTREE_PLAYER_NONE) {
+    const double *place = find_player(in);
+    if (place) {
+        const octree_player *player = &in->session->player;
         /* The half extent is at least half a step of the player, so that one step does not leave the close-up. */
         course->reach = fmax(player->box_size, player->step / 2);
-        memcpy(course->place, in->tick->player, sizeof course->place);
+        memcpy(course->place, place, sizeof course->place);
     } else if (layout_closeup_area(in->view).width > 0) {
         follow_queries_or_changes(course, in);
     }

@@ -9,7 +9,7 @@
 
 static bool session_has_player(const layer_source *in)
 {
-    return in->game && in->session->player.kind != OCTREE_PLAYER_NONE;
+    return find_player(in);
 }
 
 /* Draw the player, and a vertical line from the player down to the world's floor. The line lets readers see where in

@@ -49,7 +49,7 @@ static void assert_same_cost(const octree_bodies *one, const octree_bodies *othe
 
 /* ---- Changes ------------------------------------------------------------------------------------------------ */
 
-/* Few bodies beside those of the set, which are changed one by one, and so many that the set is filled anew. */
+/* Few bodies beside those of the set, which are changed one by one, and half of them, for which it is filled anew. */
 static void boxes_follow_bulk_changes_of_all_sizes(void **state)
 {
     (void)state;

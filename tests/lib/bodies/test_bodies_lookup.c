@@ -19,6 +19,16 @@ static octree_bodies *make_full_set(octree_body *bodies)
     return set;
 }
 
+/* Make an empty set whose memory is counted. */
+static octree_bodies *make_counted_set(counting_allocator *counts)
+{
+    octree_bodies *set;
+    octree_def def = define(cube(-8, 8), 16, 21, OCTREE_GROW);
+    def.allocator = counting_allocator_use(counts);
+    assert_int_equal(octree_bodies_create(&def, &set), OCTREE_OK);
+    return set;
+}
+
 static void assert_finds_all(const octree_bodies *set, const octree_body *bodies, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
@@ -59,12 +69,9 @@ static void bulk_changes_of_nothing_allocate_nothing(void **state)
 {
     (void)state;
     counting_allocator counts = {0};
-    octree_bodies *set;
+    octree_bodies *set = make_counted_set(&counts);
     octree_status status;
-    octree_def def = define(cube(-8, 8), 16, 21, OCTREE_GROW);
     const octree_body body = body_at(1, 2, 3, 0.05, 7);
-    def.allocator = counting_allocator_use(&counts);
-    assert_int_equal(octree_bodies_create(&def, &set), OCTREE_OK);
     const size_t before = counts.calls;
     assert_int_equal(octree_bodies_insert_many(set, NULL, 0, NULL, NULL), OCTREE_OK);
     assert_int_equal(octree_bodies_remove_many(set, NULL, 0, NULL, NULL), OCTREE_OK);
@@ -115,12 +122,9 @@ static void few_changes_without_memory_report_it(void **state)
     octree_body added[FEW];
     octree_status statuses[FEW];
     counting_allocator counts = {0};
-    octree_bodies *set;
+    octree_bodies *set = make_counted_set(&counts);
     uint64_t seed = 2;
     size_t changed, kept = 0;
-    octree_def def = define(cube(-8, 8), 16, 21, OCTREE_GROW);
-    def.allocator = counting_allocator_use(&counts);
-    assert_int_equal(octree_bodies_create(&def, &set), OCTREE_OK);
     for (uint64_t i = 0; i < BODIES; i++)
         bodies[i] = small_body(0.1, &seed, i);
     for (uint64_t i = 0; i < FEW; i++)
@@ -174,10 +178,7 @@ static void crowds_are_found_without_memory_for_a_table(void **state)
     (void)state;
     enum { MOST = 65 };
     counting_allocator counts = {0};
-    octree_bodies *set;
-    octree_def def = define(cube(-8, 8), 16, 21, OCTREE_GROW);
-    def.allocator = counting_allocator_use(&counts);
-    assert_int_equal(octree_bodies_create(&def, &set), OCTREE_OK);
+    octree_bodies *set = make_counted_set(&counts);
     octree_body crowd[MOST];
     for (uint64_t i = 0; i < MOST; i++) {
         crowd[i] = body_at(1, 2, 3, 0.05, i);
